@@ -94,6 +94,10 @@ class OrderReader {
     stock.size = word.size;
     stock.count = word.count;
     if (!stock.size) {
+      std::error_code unseen;
+      if (word.said != "-" && !fs::exists(word.said, unseen))
+        return fault(fmt::format("--sheet: {} is neither a size, as 3000x1500, nor a file that is there",
+                                 shown(word.said)));
       std::optional<jobs::File> read = file("--sheet", word.said);
       if (!read) return;
       stock.file = *std::move(read);

@@ -105,6 +105,10 @@ TEST(CliOrder, EverythingThatIsMissingIsToldAtOnce) {
   for (const char* name : {"nix/*.dxf", "gone.svg", "gone.csv", "gone-too.dxf"})
     EXPECT_NE(files.err.find(name), std::string::npos) << files.err;
   EXPECT_FALSE(fs::exists(shop / "out.json"));
+  const Ran half = shop({"nest", "--part", "side.svg", "--sheet", "10x"});
+  EXPECT_EQ(half.status, 3);
+  EXPECT_NE(half.err.find("--sheet: 10x is neither a size, as 3000x1500, nor a file"), std::string::npos)
+      << half.err;
   const Ran words = shop({"nest", "--part", "side.svg=0", "--sheet", "0x5", "--gap", "2q", "--grain", "up"});
   EXPECT_EQ(words.status, 2);
   for (const char* option : {"--part", "--sheet", "--gap", "--grain"})

@@ -124,24 +124,15 @@ def leather(path, hides):
     return job
 
 
-def boxes(folder):
-    """All drawings that lekalo reads, as one layout."""
-    parts = []
-    for name in sorted(os.listdir(folder)):
-        made = subprocess.run([LEKALO, "export", os.path.join(folder, name)], capture_output=True)
-        if made.returncode != 0:
-            continue
-        for one in json.loads(made.stdout)["parts"]:
-            one["id"] = f"{name} {one['id']}"
-            one["demand"] = 1
-            one["rotations"] = [0, 90, 180, 270]
-            parts.append(one)
-    return layout([stock("sheet", 3000, 1500)], parts)
+def order(folder, sheet, gap):
+    """Gives the words of an order of all drawings of a folder, which the command reads itself."""
+    drawings = [os.path.join(folder, name) for name in sorted(os.listdir(folder))]
+    return [word for path in drawings for word in ("--part", path)] + ["--sheet", sheet, "--gap", gap]
 
 
 MAKERS = {"wavy": of_shapes(wavy), "jagged": of_shapes(jagged), "gears": of_shapes(gear), "pieces": pieces,
           "kinds": kinds, "anyangle": any_angle, "ragged": ragged, "defects": defects, "leather": leather,
-          "boxes": boxes, "file": lambda path: json.load(open(path))}
+          "file": lambda path: json.load(open(path))}
 
 
 def jobs(source, shared):
@@ -156,19 +147,22 @@ def jobs(source, shared):
         yield name, kind, [os.path.join(source, w) if w.startswith("examples/") else w for w in words]
 
 
-def nested(folder, name, seconds):
+def nested(folder, what, seconds):
     """Runs the job; gives its status, the seconds to the first layout and to the end, and what it says."""
     stream = os.path.join(folder, "stream.json")
-    words = [LEKALO, "nest", name, "--time", str(seconds), "-o", "out.json", "--stream", "stream.json", "--json"]
+    words = [LEKALO, "nest", *what, "--time", str(seconds), "-o", "out.json", "--json"]
     begin = time.monotonic()
-    process = subprocess.Popen(words, cwd=folder, stdout=open(os.path.join(folder, "report.json"), "w"),
-                               stderr=subprocess.PIPE)
+    # A pipe that nobody reads would hold up a job that has much to say.
+    with open(os.path.join(folder, "report.json"), "w") as report, open(os.path.join(folder, "said.txt"), "w") as said:
+        process = subprocess.Popen(words, cwd=folder, stdout=report, stderr=said)
     first = None
     while process.poll() is None:
         if first is None and os.path.exists(stream):
             first = time.monotonic() - begin
         time.sleep(0.01)
-    return process.returncode, first, time.monotonic() - begin, process.stderr.read().decode(errors="replace")
+    end = time.monotonic() - begin
+    with open(os.path.join(folder, "said.txt"), errors="replace") as said:
+        return process.returncode, first, end, said.read()
 
 
 def corners_of(document):
@@ -200,9 +194,13 @@ def main():
         if not re.search(o.only, name):
             continue
         with tempfile.TemporaryDirectory() as folder:
-            with open(os.path.join(folder, "job.json"), "w") as out:
-                json.dump(MAKERS[kind](*arguments), out)
-            status, first, end, said = nested(folder, "job.json", o.time)
+            if kind == "order":
+                what = order(*arguments)
+            else:
+                with open(os.path.join(folder, "job.json"), "w") as out:
+                    json.dump(MAKERS[kind](*arguments), out)
+                what = ["job.json", "--stream", "stream.json"]
+            status, first, end, said = nested(folder, what, o.time)
             trouble = "" if status in (0, 1) else f"exit status {status}: {said.strip()[-200:]}"
             document, lie, wanted = {"parts": []}, 0, 0
             if not trouble:

@@ -97,8 +97,10 @@ TEST(OffsetLaws, OpeningLiesInsideAndClosingAround) {
     const auto edges = cases::edges_of(regions);
     const double slack = 8 * (less.edge_error + more.edge_error + opened.edge_error + closed.edge_error);
     for (int k = 0; k < 100; ++k) {
-      const Point p = cases::point_on(edges[random.below(edges.size())], random.uniform(0, 1)) +
-                      random.uniform(0, 2 * d) * cases::direction_of(random.uniform(0, 6.28));
+      const auto& edge = edges[random.below(edges.size())];
+      const Point on = cases::point_on(edge, random.uniform(0, 1));
+      const double off = random.uniform(0, 2 * d);
+      const Point p = on + off * cases::direction_of(random.uniform(0, 6.28));
       if (index.nearest(p).distance < slack) continue;
       if (in_opened.contains(p)) {
         ASSERT_TRUE(index.contains(p)) << p.x << ' ' << p.y;

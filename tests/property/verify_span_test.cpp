@@ -72,9 +72,10 @@ double draw(Random& random) {
   switch (random.below(4)) {
     case 0:
       return sign * kSpecial[random.below(kSpecial.size())];
-    case 1:
-      return sign *
-             std::ldexp(static_cast<double>(random.bits() >> 11), static_cast<int>(random.below(60)) - 80);
+    case 1: {
+      const double digits = static_cast<double>(random.bits() >> 11);
+      return sign * std::ldexp(digits, static_cast<int>(random.below(60)) - 80);
+    }
     case 2:
       return sign * std::round(random.uniform(0, 1e6)) / 1000;
     default:
@@ -92,7 +93,8 @@ struct Drawn {
 };
 Drawn draw_span(Random& random) {
   const double a = draw(random), b = random.below(3) == 0 ? a : draw(random);
-  const mpq_class low(std::min(a, b)), high(std::max(a, b)), part(static_cast<long>(random.below(5)), 4);
+  const mpq_class low(std::min(a, b)), high(std::max(a, b)),
+      part(0.25 * static_cast<double>(random.below(5)));
   return {{std::min(a, b), std::max(a, b)}, mpq_class(low + (high - low) * part)};
 }
 

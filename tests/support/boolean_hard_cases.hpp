@@ -88,9 +88,10 @@ inline HardPair hard_pair(Random& random, HardKind kind) {
       const Point corner{random.uniform(-1, 1), random.uniform(-1, 1)};
       for (int i = 0, n = 2 + whole(30); i < n; ++i) {
         const double t = whole(4) == 0 ? 0.3 + small() : random.uniform(0, 6.28);
-        add(whole(2) == 0 ? pair.a : pair.b,
-            boolean_polygon({corner, corner + random.uniform(1, 9) * direction_of(t),
-                             corner + random.uniform(1, 9) * direction_of(t + random.uniform(0.01, 1))}));
+        const double first = random.uniform(1, 9), turn = random.uniform(0.01, 1),
+                     second = random.uniform(1, 9);
+        add(whole(2) == 0 ? pair.a : pair.b, boolean_polygon({corner, corner + first * direction_of(t),
+                                                              corner + second * direction_of(t + turn)}));
       }
       break;
     }
@@ -131,7 +132,8 @@ inline HardPair hard_pair(Random& random, HardKind kind) {
                              {EdgeKind::line, at(to), at(from), {}}};
       };
       add(pair.a, boolean_circle({0, 0}, 5));
-      add(pair.b, pie(random.uniform(0, 6.28), random.uniform(0, 6.28)));
+      const double sweep = random.uniform(0, 6.28), start = random.uniform(0, 6.28);
+      add(pair.b, pie(start, sweep));
       if (whole(2) == 0) add(pair.b, pie(0, 10 * small()));
       break;
     }
@@ -178,8 +180,8 @@ inline std::string boolean_fault(const HardPair& pair, geom::BooleanOperation op
     const bool near_made = !made.empty() && random.below(2) == 0;
     const geom::Edge& e = near_made ? made[random.below(made.size())] : drawn[random.below(drawn.size())];
     const double off = error * std::pow(10.0, random.uniform(0, 1) * random.uniform(0, 1) * 11);
-    const geom::Point p = point_on(e, random.below(2) == 0 ? 0.0 : random.uniform(0, 1)) +
-                          off * direction_of(random.uniform(0, 6.283185307179586));
+    const geom::Point on = point_on(e, random.below(2) == 0 ? 0.0 : random.uniform(0, 1));
+    const geom::Point p = on + off * direction_of(random.uniform(0, 6.283185307179586));
     const double d = std::min(a.distance(p), b.distance(p));
     if (!(d > error)) continue;
     const bool x = a.contains(p), y = b.contains(p);

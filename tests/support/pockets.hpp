@@ -55,7 +55,9 @@ inline std::vector<std::string> random_islands(Random& random, double reach) {
   std::vector<std::string> islands;
   const auto count = 1 + random.below(3);
   for (int trial = 0; trial < 60 && discs.size() < count; ++trial) {
-    const Disc disc{around(random.uniform(), 0.8 * reach * random.uniform()), 1 + 4 * random.uniform()};
+    // The distance is drawn before the angle, in an order that no compiler may change.
+    const double away = 0.8 * reach * random.uniform(), share = random.uniform();
+    const Disc disc{around(share, away), 1 + 4 * random.uniform()};
     bool fits = norm(disc.at) + disc.radius < reach;
     for (const Disc& other : discs)
       fits = fits && norm(disc.at - other.at) > disc.radius + other.radius + 0.05;
