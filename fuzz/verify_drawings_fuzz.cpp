@@ -94,9 +94,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 7:
       check_twice(
           [&] {
-            return read_profile({"p.ngc", bytes});
+            return read_profile({"p.ngc", bytes}, words::Control::linuxcnc);
           },
-          [](const std::vector<CutChain>& chains) { return chains.size(); });
+          [](const ProfileProgram& read) { return read.chains.size(); });
       break;
     default:
       try_tree(bytes);

@@ -241,6 +241,25 @@ void take_digest_of_now(const TemporaryFolder& folder, const std::string& result
   write_bytes(folder / result, changed.dump());
 }
 
+TEST(VerifyRegions, PartAndBlankOfOneFileAreReadInOneWay) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "one.svg", R"(<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm"
+    viewBox="0 0 60 40"><path d="M0 0H60V40H0Z"/><circle cx="30" cy="20" r="7.3"/></svg>)");
+  ASSERT_EQ(run(folder.path(), {"locate", "--part", "one.svg", "--blank", "one.svg", "--gap", "0.1", "-o", "r.json"})
+                .status,
+            0);
+  const Ran as_it_is = run(folder.path(), {"verify", "r.json"});
+  EXPECT_EQ(as_it_is.status, 0) << as_it_is.err;
+  EXPECT_EQ(as_it_is.err.find("not rechecked"), std::string::npos) << as_it_is.err;
+  Json changed = Json::parse(read_bytes(folder / "r.json"));
+  ASSERT_EQ(changed["certificate"], "same file");
+  changed["drawings"]["blank"]["join"] = 0.02;
+  write_bytes(folder / "r.json", changed.dump());
+  const Ran otherwise = run(folder.path(), {"verify", "r.json"});
+  EXPECT_EQ(otherwise.status, 1) << otherwise.err;
+  EXPECT_NE(otherwise.err.find("in the same way was not rechecked"), std::string::npos) << otherwise.err;
+}
+
 TEST(VerifyRegions, TheCheckerReadsEveryKindOfPartItself) {
   for (const PartFile& part : kParts) {
     SCOPED_TRACE(part.name);

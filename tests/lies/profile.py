@@ -4,7 +4,7 @@ import json
 import math
 
 STEP = 0.05  # mm along a cut
-NEEDED = {"G17", "G40", "G49", "G54", "G90", "G94"}
+NEEDED = {"G17", "G40", "G49", "G54", "G61", "G90", "G91.1", "G94"}
 
 
 class Refused(Exception):

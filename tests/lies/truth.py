@@ -693,18 +693,37 @@ def words_of_program(text):
     return made
 
 
+# What the program before may have left in force on the control, of all motions, of those with feed, and of arcs. A
+# motion word of the program's own ends a cycle, so that G80 is not among them.
+SAID_OF_ALL = {"G20", "G21", "G40", "G43", "G49", "G54", "G61", "G61.1", "G64", "G90", "G91"}
+SAID_OF_FEEDS, SAID_OF_ARCS = {"G93", "G94", "G95"}, {"G17", "G18", "G19", "G90.1", "G91.1"}
+MODES = SAID_OF_ALL | SAID_OF_FEEDS | SAID_OF_ARCS
+
+
+def said_until(text):
+    """For each line of a program the modes that it has said, up to the end of this line."""
+    said, made = set(), []
+    for line in nc_reader.Reader(text, "linuxcnc").codes:
+        said = said | {f"G{float(word):g}" for word in re.findall(r"G\s*(\d+\.?\d*)", line)} & MODES
+        made.append(said)
+    return made
+
+
 def motions_of(text):
-    """Where a program goes and how fast, and its words beside, by the second reader of the tests; None where it cannot
-    read it."""
+    """Where a program goes and how fast, its words beside and the modes that it has said before, by the second reader of
+    the tests; None where it cannot read it."""
     try:
         events = nc_reader.read(text, "linuxcnc")
     except nc_reader.Unreadable:
         return None
-    made, feed = [], None
+    made, feed, said = [], None, said_until(text)
     for event in events:
         feed = ([word for word in event.words if word.startswith("F")] or [feed])[-1]
-        # Nothing is on at the beginning that these turn off.
-        words = [word for word in event.words if word[0] != "F" and word not in ("G40", "G49", "G94")]
+        words = [word for word in event.words if word[0] != "F" and word not in MODES]
+        if event.kind in ("rapid", "feed", "arc", "holes"):
+            depends = SAID_OF_ALL | (set() if event.kind == "rapid" else SAID_OF_FEEDS) | \
+                (SAID_OF_ARCS if event.kind == "arc" else set())
+            words += [event.work, sorted(said[event.line - 1] & depends)]
         if event.kind in ("rapid", "feed", "arc"):
             way = [event.kind, event.start, event.z0, event.end, event.z1]
             if event.kind == "arc":
@@ -723,9 +742,7 @@ def goes_as(text):
     way = motions_of(text)
 
     def holds(change):
-        # The unit that holds where none is said is the machine's, which nobody knows here.
-        same_unit = all(change.text().count(unit) == text.count(unit) for unit in ("G20", "G21"))
-        return change.how in ("word deleted", "exchanged") and same_unit and motions_of(change.text()) == way or None
+        return change.how in ("word deleted", "exchanged", "deleted") and motions_of(change.text()) == way or None
     return holds
 
 

@@ -14,9 +14,11 @@
 #include "lekalo/mill/program.hpp"
 #include "lekalo/nc/profile.hpp"
 #include "lekalo/nc/rewrite.hpp"
+#include "lekalo/verify/claims.hpp"
 #include "support/places.hpp"
 #include "support/profile_parts.hpp"
 #include "verify/pocket/nc_moves.hpp"
+#include "verify/profile/profile_moves.hpp"
 
 // A post is a value. Both writers of programs take one that nobody registered, and whatever lists the posts
 // lists those of the library.
@@ -175,6 +177,21 @@ TEST(NcDialect, ALaserThatNeedsPowerIsRefusedWithoutByTheNameOfItsControl) {
       << made.error().message;
 }
 
+/// What a pocket and a cut do not say of their motions, as the checker sees it.
+std::vector<std::string> left_to_control(const std::string& pocket, const std::string& profile,
+                                         words::Control language) {
+  verify::SimulateOptions machining;
+  machining.tool_diameter = 1, machining.control = language;
+  const std::string plate = R"({"outer": [{"line": {"from": [-40, -40], "to": [40, -40]}},
+      {"line": {"from": [40, -40], "to": [0, 40]}}, {"line": {"from": [0, 40], "to": [-40, -40]}}]})";
+  const auto judged = verify::verify_pocket_program({"p.nc", pocket}, {"plate.json", plate}, machining, {});
+  const auto read = verify::read_profile({"c.nc", profile}, language);
+  if (!judged || !read) return {judged ? read.error().message : judged.error().message};
+  std::vector<std::string> left = judged->unchecked;
+  left.insert(left.end(), read->unsaid.sentences().begin(), read->unsaid.sentences().end());
+  return left;
+}
+
 TEST(NcDialect, EveryPostHasANameOfItsOwnAndFillsEveryPlace) {
   std::set<std::string_view> names;
   for (const Dialect& post : posts()) {
@@ -194,6 +211,7 @@ TEST(NcDialect, EveryPostHasANameOfItsOwnAndFillsEveryPlace) {
     EXPECT_NE(pocket.find("G56"), std::string::npos);
     EXPECT_TRUE(verify::read_moves({"p.nc", pocket}, 0));
     EXPECT_TRUE(rewrite_program(profile->text, "p.nc", 0, 0, 0, {}));
+    EXPECT_EQ(left_to_control(pocket, profile->text, post.language), std::vector<std::string>());
   }
   EXPECT_EQ(post_named("heidenhain"), nullptr);
 }

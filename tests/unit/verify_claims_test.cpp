@@ -333,6 +333,11 @@ TEST(VerifyClaims, AReportOfShowHasTheSumsOfItsLayout) {
   for (const char* const other : {"0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n", R"({"outer": []})"})
     EXPECT_NE(judged(shown, {other}).find("unchecked: violations, density, cost: "), std::string::npos)
         << other;
+  // The polygons of its curves are not made yet.
+  Json curved = Json::parse(kLayout);
+  curved.at("/parts/0/outline") = {{"curves", circle(3, 2)}, {"chord_tolerance", 0.5}};
+  EXPECT_NE(judged(shown, {curved.dump()}).find("has no polygon; let lekalo write the file"), std::string::npos)
+      << judged(shown, {curved.dump()});
   for (const Lie& lie : test::lies_of_json(shown)) {
     if (lie.how != std::string("deleted") &&
         begins(lie, {"/seed", "/work", "/version", "/inputs/0/path", "/inputs/0/sha256"}))

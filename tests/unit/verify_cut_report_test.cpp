@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "lekalo/base/nc_words.hpp"
 #include "lekalo/verify/claims.hpp"
 #include "support/lies.hpp"
 
@@ -28,7 +29,9 @@ const std::string kSide = R"({"line": {"from": [7.5, 6.5], "to": [0, 6.5]})", kO
 /// 7.5 x 6.5, in which a tool of 6 leaves a strip of 0.5 beside one slot. One like it has room for two slots.
 const std::string kWalls = pocket_with(kSide + "}"),
                   kRoom = pocket_with(R"({"line": {"from": [24, 16], "to": [0, 16]}})", 24, 16);
-const std::string kProgram = "G21 G90 G17 G54\nG0 X3 Y3 Z5\nG1 Z-1 F300\nG1 X4.5 F1500\nG0 Z5\n";
+/// Everything that a program has to say before it moves.
+const std::string kModes = "G21 G90 G17 G54 G40 G49 G94 G91.1 G61\n";
+const std::string kProgram = kModes + "G0 X3 Y3 Z5\nG1 Z-1 F300\nG1 X4.5 F1500\nG0 Z5\n";
 /// A program before it, which cuts a little of the strip.
 const std::string kEarlier = "G21 G90\nG0 X3 Y6.25 Z5\nG1 Z-1 F300\nG1 X4 F1500\nG0 Z5\n";
 
@@ -223,7 +226,7 @@ TEST(VerifyCutReport, OptionsOutOfTheirRangeAreTheReports) {
 
 /// The hot cuts that the checker finds, as it says how many there are to be.
 std::string hot_cuts_of(const std::string& program, const std::string& said, double step_over = 0.4) {
-  const Files files{.program = "G21 G90 G17 G54\n" + program, .pocket = kRoom};
+  const Files files{.program = kModes + program, .pocket = kRoom};
   Json report = pocketed(files);
   report["hot_cuts"] = Json::parse(said), report["step_over"] = step_over;
   std::string found;
@@ -314,7 +317,7 @@ TEST(VerifyCutReport, TheProgramGoesDownToTheDepthLessWhatStaysOnTheFloor) {
   EXPECT_EQ(with(0.75, -0.25), no);
   // From another upper face.
   const Files raised{.program =
-                         "G21 G90 G17 G54\nG0 X3 Y3 Z5\nG1 Z1 F300\nG1 X4.5 F1500\nG1 Z0.5\nG1 X3\nG0 Z5\n"};
+                         kModes + "G0 X3 Y3 Z5\nG1 Z1 F300\nG1 X4.5 F1500\nG1 Z0.5\nG1 X3\nG0 Z5\n"};
   Json report = pocketed();
   report["top_mm"] = 2, report["depth_mm"] = 1.5;
   EXPECT_EQ(judged(report, raised).find("below top_mm"), std::string::npos);
@@ -322,36 +325,66 @@ TEST(VerifyCutReport, TheProgramGoesDownToTheDepthLessWhatStaysOnTheFloor) {
   EXPECT_NE(judged(report, raised).find("the program goes down to Z 0.5, "), std::string::npos);
 }
 
+/// The kModes without one of them.
+std::string without(const std::string& word) {
+  std::string modes = kModes;
+  modes.erase(modes.find(word + (word == "G61" ? "" : " ")), word.size());
+  return modes;
+}
+
 /// A control that begins in inches, or goes on as the program before it, makes other motions of it.
 TEST(VerifyCutReport, ModesThatTheProgramDoesNotSayAreUnchecked) {
   const std::string moves = "G0 X3 Y3 Z5\nG1 Z-1 F300\nG1 X4.5 F1500\nG0 Z5\n";
-  const auto unsaid = [&](const std::string& modes) {
-    return judged(pocketed(), {.program = modes + "\n" + moves});
+  const auto unsaid = [&](const std::string& modes, const std::string& control = "linuxcnc") {
+    Json report = pocketed();
+    report["control"] = control;
+    return judged(report, {.program = modes + moves});
   };
-  const auto line = [](const std::string& what) {
-    return "unchecked: program: line 2 moves before the program says " + what + "; the control decides it\n";
+  const auto line = [](int number, const std::string& what, bool of_one = false) {
+    return fmt::format("unchecked: program: line {} moves where the program does not say {}; the control decides "
+                       "it{}\n",
+                       number, what, of_one ? " (--control says whose words these are, if not LinuxCNC's)" : "");
   };
-  EXPECT_EQ(unsaid("G21 G90 G54"), "") << "lines alone need no plane";
-  EXPECT_EQ(unsaid("G90 G54"), line("its unit (G20 or G21)"));
-  EXPECT_EQ(unsaid("G21 G54"), line("from where it counts (G90 or G91)"));
-  EXPECT_EQ(unsaid("G21 G90"), line("its work offset (G54)"));
-  EXPECT_EQ(unsaid("G94").size(), (line("its unit (G20 or G21)") + line("from where it counts (G90 or G91)") +
-                                   line("its work offset (G54)"))
-                                      .size());
-  // An arc about the place itself, up and down along the slot.
-  SimulateOptions options;
-  options.tool_diameter = 6;
-  const std::string round = "G0 X3 Y3 Z5\nG1 Z-1 F300\nG3 X3 Y3 I0.25 J0 F1500\nG0 Z5\n";
-  for (const bool said : {false, true}) {
-    const std::string program = "G21 G90 G54" + std::string(said ? " G17" : "") + "\n" + round;
+  const std::string exact = line(2, "that its path is exact (G61)", true);
+  EXPECT_EQ(unsaid(kModes), "");
+  EXPECT_EQ(unsaid(without("G17")), "") << "lines alone need no plane";
+  EXPECT_EQ(unsaid(without("G91.1")), "") << "lines alone have no centre";
+  EXPECT_EQ(unsaid(without("G21")), line(2, "its unit (G20 or G21)"));
+  EXPECT_EQ(unsaid(without("G90")), line(2, "from where it counts (G90 or G91)"));
+  EXPECT_EQ(unsaid(without("G54")), line(2, "its work offset (G54)"));
+  EXPECT_EQ(unsaid(without("G94")), line(3, "that F is a speed (G94)")) << "a rapid has no F";
+  EXPECT_EQ(unsaid(without("G40")), line(2, "that no radius is taken off (G40)"));
+  EXPECT_EQ(unsaid(without("G49")), line(2, "the length of its tool (G43 or G49)"));
+  EXPECT_EQ(unsaid(without("G61")), exact);
+  EXPECT_EQ(unsaid(kModes + "G64 P0.05\n"), line(3, "that its path is exact (G61)", true)) << "it blends";
+  EXPECT_EQ(unsaid(kModes + "G64\nG61.1\n"), "");
+  EXPECT_EQ(unsaid("").size(), unsaid(without("G21")).size() + unsaid(without("G90")).size() +
+                                   unsaid(without("G54")).size() + unsaid(without("G94")).size() +
+                                   unsaid(without("G40")).size() + unsaid(without("G49")).size() +
+                                   unsaid(without("G61")).size());
+}
+
+/// Controls that have one value of a mode alone need no word for it.
+TEST(VerifyCutReport, WhatAControlCannotDoOtherwiseNeedsNoWord) {
+  const std::string moves = "G0 X3. Y3. Z5.\nG1 Z-1. F300.\nG3 X3. Y3. I0.25 J0. F1500.\nG0 Z5.\n";
+  const auto unsaid = [&](words::Control control, const std::string& modes) {
+    SimulateOptions options;
+    options.tool_diameter = 6, options.control = control;
+    const std::string program = modes + moves;
     const auto report = verify_pocket_program({"p.ngc", program}, {"pocket.json", kWalls}, options, {});
-    ASSERT_TRUE(report) << report.error().message;
-    ASSERT_EQ(report->unchecked.size(), said ? 0U : 1U);
-    if (!said) {
-      EXPECT_NE(report->unchecked[0].find("line 4 moves before the program says the plane"),
-                std::string::npos);
-    }
-  }
+    EXPECT_TRUE(report) << report.error().message;
+    return report ? report->unchecked.size() : 99;
+  };
+  const std::string common = "G21 G90 G17 G54 G40 G49 G94\n";
+  for (const auto control : {words::Control::haas, words::Control::fanuc, words::Control::grbl})
+    EXPECT_EQ(unsaid(control, common), 0U) << words::word_of(control);
+  EXPECT_EQ(unsaid(words::Control::linuxcnc, common), 2U);
+  EXPECT_EQ(unsaid(words::Control::linuxcnc, kModes), 0U);
+  EXPECT_EQ(unsaid(words::Control::linuxcnc, without("G17")), 1U);
+  EXPECT_EQ(unsaid(words::Control::linuxcnc, without("G91.1")), 1U);
+  const std::string no_g40 = "G21 G90 G17 G54 G49 G94\n";
+  EXPECT_EQ(unsaid(words::Control::grbl, no_g40), 0U);
+  EXPECT_EQ(unsaid(words::Control::haas, no_g40), 1U);
 }
 
 TEST(VerifyCutReport, TheProgramOfALargerToolThatIsSupposedIsUnchecked) {
@@ -508,6 +541,28 @@ TEST(VerifyCutReport, AnEdgeAlongTwoLayersOfWhichOneIsOpenIsUnchecked) {
   EXPECT_EQ(layers(twice, false, {"OPEN"}), unchecked);
   EXPECT_EQ(layers(twice, true, {"OPEN", "MORE"}), "");
   EXPECT_EQ(layers(twice, false, Json::array()), "");
+}
+
+/// A word that nobody knows may have been meant to say something of the pocket.
+TEST(VerifyCutReport, PocketsWithWordsThatNobodyKnowsAreRefused) {
+  const std::string tree = R"("units": "mm", "shape": {"rectangle": {"size": [7.5, 6.5], "corner": [0, 0]}})";
+  Json report = pocketed();
+  report["tolerance_mm"] = 1e-6;
+  EXPECT_EQ(judged(report, {.pocket = "{" + tree + R"(, "name": "a", "source": "b"})"}), "");
+  const std::string refuted = "regions are not what pocket.json means: field ";
+  EXPECT_EQ(judged(report, {.pocket = "{" + tree + R"(, "islands": []})"}),
+            refuted + "islands is not one of a tree of primitives\n");
+  EXPECT_EQ(judged(report, {.pocket = "{" + tree + R"(, "units": "mm"})"}),
+            refuted + "units is given twice\n");
+  const auto with = [](const std::string& member) {
+    const std::string pocket = kWalls.substr(0, kWalls.size() - 1) + member + "}";
+    SimulateOptions options;
+    options.tool_diameter = 6;
+    const auto alone = verify_pocket_program({"p.ngc", kProgram}, {"pocket.json", pocket}, options, {});
+    return alone ? std::string() : alone.error().message;
+  };
+  EXPECT_EQ(with(R"(, "name": "a", "date": 5)"), "");
+  EXPECT_EQ(with(R"(, "hols": [])"), "pocket.json: field hols is not one of a region file");
 }
 
 // ---- a program alone --------------------------------------------------------------------------------------

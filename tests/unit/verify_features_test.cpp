@@ -71,6 +71,7 @@ TEST(VerifyFeatures, WhatIsNoFileOfFeaturesGetsASentence) {
            std::pair<std::string, std::string>{"[]", "not an object"},
            {R"({"features": {}})", "features"},
            {R"({"ignore": 1})", "ignore"},
+           {R"({"ignore": [{"outer": [], "hole": []}]})", "hole"},
            {R"({"units": "cm"})", "units"},
            {R"({"minimum": -1})", "minimum"},
            {R"({"minimum": "1"})", "minimum"},

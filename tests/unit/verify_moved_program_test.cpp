@@ -137,7 +137,7 @@ TEST(VerifyMovedProgram, ChordsShareTheTimeOfTheirArc) {
 }
 
 /// A program that says nothing of its unit moves in that of the control, which nobody knows here.
-TEST(VerifyMovedProgram, UnitPlaneAndG90AreSaidAsInTheOriginal) {
+TEST(VerifyMovedProgram, UnitPlaneCentreAndG90AreSaidAsInTheOriginal) {
   const Moved made = moved(kPlain, RewriteMode::coordinates, 0.58);
   const auto verdict = [&](const std::string& original, const std::string& without) {
     std::string written = made.text;
@@ -150,6 +150,8 @@ TEST(VerifyMovedProgram, UnitPlaneAndG90AreSaidAsInTheOriginal) {
   EXPECT_NE(verdict(kPlain, "G21").find("moves before a unit"), std::string::npos);
   EXPECT_NE(verdict(kPlain, "G90").find("moves before a G90 or G91"), std::string::npos);
   EXPECT_NE(verdict(kPlain, "G17").find("moves before a plane"), std::string::npos);
+  const std::string centred = "G91.1\n" + kPlain;
+  EXPECT_NE(verdict(centred, "").find("moves before a G90.1 or G91.1"), std::string::npos);
   // An original that says nothing of them leaves them to the control as well.
   const std::string silent = kPlain.substr(kPlain.find("T1"));
   EXPECT_EQ(verdict(silent, "G21 G90 G17"), "confirmed");

@@ -17,10 +17,10 @@ std::string point(Place p) { return number(p.x) + "," + number(p.y); }
 
 /// Chains, each on a line: the line of its first cut, "r" where a rapid motion cuts, and its edges.
 std::string told(const std::string& program) {
-  const Result<std::vector<CutChain>> chains = read_profile({"p.nc", program});
-  if (!chains) return chains.error().message;
+  const Result<ProfileProgram> read = read_profile({"p.nc", program}, words::Control::fanuc);
+  if (!read) return read.error().message;
   std::string text;
-  for (const CutChain& chain : *chains) {
+  for (const CutChain& chain : read->chains) {
     text += std::to_string(chain.line) + (chain.rapid ? "r" : "") + ":";
     for (const Stroke& edge : chain.edges)
       text += (edge.arc ? " A " + point(edge.centre) + " " + number(edge.radius) + (edge.ccw ? " +" : " -")
@@ -118,11 +118,6 @@ TEST(VerifyProfileMoves, WhatIsNotWrittenThereIsRefusedWithItsLine) {
 TEST(VerifyProfileMoves, AProgramSaysItsModesAndEnds) {
   const std::string tail = "G0 X1 Y1\nM2\n";
   EXPECT_EQ(told(kModes + tail), "");
-  for (const std::string mode : {"G17", "G40", "G49", "G54", "G90", "G94"}) {
-    std::string less = kModes;
-    less.erase(less.find(mode), 3);
-    EXPECT_EQ(told(less + tail), "p.nc:2: a motion before " + mode);
-  }
   EXPECT_EQ(told("G17 G40 G49 G54 G90 G94\n" + tail), "p.nc:2: a motion before G20 or G21");
   EXPECT_EQ(told(kModes + "G0 X1 Y1\n"), "p.nc:2: the program does not end with M2 or M30");
   EXPECT_EQ(told(kModes + "M3\nM2\n"), "p.nc:3: the beam or spindle is on at the end");
@@ -131,6 +126,37 @@ TEST(VerifyProfileMoves, AProgramSaysItsModesAndEnds) {
   EXPECT_EQ(told("%\n" + kModes + "%\nM2\n"), "p.nc:3: % neither begins the program nor ends it");
   EXPECT_EQ(told("%\n" + kModes + "M2\n%\n"), "");
   EXPECT_EQ(told("%\n" + kModes + "M2\n(that is all)\n"), "");
+}
+
+/// How many modes a program leaves to its control, and the first sentence about one.
+std::pair<std::size_t, std::string> unsaid(const std::string& program, words::Control control) {
+  const Result<ProfileProgram> read = read_profile({"p.nc", program}, control);
+  EXPECT_TRUE(read) << read.error().message;
+  if (!read) return {};
+  const auto& sentences = read->unsaid.sentences();
+  return {sentences.size(), sentences.empty() ? "" : sentences[0]};
+}
+
+TEST(VerifyProfileMoves, ModesThatAreNotSaidAreTheControls) {
+  using words::Control;
+  const std::string tail = "G0 X1 Y1\nM2\n", all = "G61 G91.1 " + kModes;
+  EXPECT_EQ(unsaid(all + tail, Control::linuxcnc).first, 0U);
+  for (const std::string mode : {"G17", "G40", "G49", "G54", "G90", "G94", "G61", "G91.1"}) {
+    std::string less = all;
+    less.erase(less.find(mode), mode.size());
+    const auto [count, sentence] = unsaid(less + tail, Control::linuxcnc);
+    EXPECT_EQ(count, 1U) << mode;
+    EXPECT_NE(sentence.find("program: line 2 moves where the program does not say "), std::string::npos);
+    EXPECT_NE(sentence.find(mode), std::string::npos) << sentence;
+  }
+  EXPECT_EQ(unsaid("G21\n" + tail + "", Control::linuxcnc).first, 8U);
+  // Said after the first motion, it came too late.
+  EXPECT_EQ(unsaid("G61 " + kModes + "G0 X1 Y1\nG91.1\nM2\n", Control::linuxcnc).first, 1U);
+  for (const Control control : {Control::haas, Control::fanuc, Control::grbl})
+    EXPECT_EQ(unsaid(kModes + tail, control).first, 0U) << words::word_of(control);
+  EXPECT_EQ(unsaid("G21 G17 G49 G54 G90 G94\n" + tail, Control::grbl).first, 0U) << "GRBL has no G41";
+  EXPECT_EQ(unsaid("%\nO1\n" + kModes + tail + "%\n", Control::linuxcnc).first, 0U) << "LinuxCNC reads no O1";
+  EXPECT_EQ(unsaid("%\nO1\nG21 G17 G49 G54 G90 G94\n" + tail, Control::linuxcnc).first, 1U);
 }
 
 // ---- against a layout -------------------------------------------------------------------------------------
@@ -179,6 +205,12 @@ std::string judged(const std::string& cut, double kerf = 1, double tolerance = 0
 TEST(VerifyProfile, EveryContourIsCutOnItsWasteSide) {
   EXPECT_EQ(judged(kHole + kRing + kPlate), "");
   EXPECT_EQ(judged(kPlate + kHole + kRing), "");
+  ProfileWords words;
+  words.kerf_mm = 1;
+  const std::string layout = layout_text(), program = kModes + kHole + kRing + kPlate + "M2\n";
+  EXPECT_EQ(verify_profile({"p.nc", program}, {"l.json", layout}, words)->unchecked.size(), 2U);
+  words.control = words::Control::haas;
+  EXPECT_TRUE(verify_profile({"p.nc", program}, {"l.json", layout}, words)->unchecked.empty());
   EXPECT_EQ(judged(kHole + kRing), "the outline of placement 2 is not cut\n");
   EXPECT_EQ(judged(kRing + kPlate), "hole 1 of placement 1 is not cut\n");
   EXPECT_EQ(judged(kHole + kPlate), "the outline of placement 1 is not cut\n");

@@ -234,6 +234,15 @@ TEST(VerifyReaders, OneHeaderLineIsPassedOver) {
   }
 }
 
+TEST(VerifyReaders, AMistypedPointIsNoHeader) {
+  const std::string no = "c.csv:1: \"O.5\" is not " + decimal_rule();
+  EXPECT_EQ(contour("c.csv", "O.5 3\n1 2\n3 4\n5 7"), no);
+  EXPECT_EQ(contour("c.csv", "O.5,3,0\n1 2\n3 4\n5 7"), no);
+  EXPECT_EQ(contour("c.csv", "O.5 3 0 1\n1 2\n3 4\n5 7"), kThree) << "no point has four numbers";
+  for (const char* head : {"x y z", "Part 12, contour", "X 1; Y 2", "\"X [mm]\";\"Y [mm]\""})
+    EXPECT_EQ(contour("c.csv", head + std::string("\n1 2\n3 4\n5 7")), kThree) << head;
+}
+
 /// After the first line a comment is no header: a word there is refused, and a comment passed over.
 TEST(VerifyReaders, CommentsBeginInFourWays) {
   for (const char* mark : {"#", ";", "%", "//"})
@@ -249,6 +258,24 @@ TEST(VerifyReaders, AContourHasThreePointsAndAPointTwoOrThreeFields) {
   EXPECT_EQ(contour("a.TXT", "1 2\n3 4\n5 7"), kThree);
   EXPECT_EQ(contour("a.b.Csv", "1 2\n3 4\n5 7"), kThree);
   EXPECT_EQ(contour("c.jsonx", "[]"), "c.jsonx: the name does not end in .csv, .txt, .xyz, .json or .dxf");
+}
+
+/// A list may be a contour that is misspelt; single values are for people.
+TEST(VerifyReaders, JsonContoursHoldNoListsThatNobodyKnows) {
+  const auto with = [](const std::string& member) {
+    return contour("c.json", R"({"points": [[1, 2], [3, 4], [5, 7]], )" + member + "}");
+  };
+  EXPECT_EQ(with(R"("name": "a", "date": 5, "checked": true)"), kThree);
+  EXPECT_EQ(with(R"("hols": [])"), "c.json: field hols is not one of a contour");
+  EXPECT_EQ(with(R"("made": {})"), "c.json: field made is not one of a contour");
+  const auto first = [](const std::string& edge) {
+    return contour("c.json", R"({"outer": [)" + edge + R"(, {"line": {"from": [3, 4], "to": [5, 7]}},
+                               {"line": {"from": [5, 7], "to": [1, 2]}}]})");
+  };
+  EXPECT_EQ(first(R"({"line": {"from": [1, 2], "to": [3, 4]}})"), kThree);
+  EXPECT_EQ(first(R"({"line": {"from": [1, 2], "to": [3, 4], "bulge": 1}})"),
+            "c.json: edge 0 has more than two ends");
+  EXPECT_NE(first(R"({"line": {"from": [1, 2], "to": [3, 4]}, "arc": 1})").find("edge 0"), std::string::npos);
 }
 
 TEST(VerifyReaders, JsonContoursArePointsOrLines) {

@@ -73,7 +73,7 @@ Typed add_verify_form(Form& form) {
   add("--stock-to-leave", w.stock_to_leave, "MM", "What a program leaves on every wall [0]");
   add("--top", w.top, "MM", "Z of the stock's upper face, of a program [0]");
   add_after(add, w.after);
-  add("--control", w.control, control_list(), "Whose words a pocket's program has [linuxcnc]");
+  add("--control", w.control, control_list(), "Whose words a program has [linuxcnc]");
   add("--kerf", w.kerf, "MM", "Width of the cut of a profile program");
   add("--tolerance", w.tolerance, "MM",
       "As for export: of chords in a plot [0.02], or how far the kerf may enter a part [0.01]");

@@ -28,23 +28,18 @@ constexpr double kWordRounding = 5.1e-4;
 /// The control, and the program that ran before, decide what a program does not say of its motions.
 Result<void> leave_unsaid_open(const Document& program, const SimulateOptions& options, ClaimReport& claims) {
   LEKALO_TRY(const NcProgram read, read_program(program, {.control = options.control, .top = options.top}));
-  std::set<std::string_view> told;
-  const auto open = [&](const NcEvent& event, std::string_view what) {
-    if (told.insert(what).second)
-      claims.unchecked.push_back(fmt::format(
-          "program: line {} moves before the program says {}; the control decides it", event.line, what));
-  };
+  UnsaidModes unsaid(options.control);
   for (const NcEvent& event : read.events) {
     if (event.first_move == event.end_move && !event.upright && !event.places) continue;
-    if (!event.says_unit) open(event, "its unit (G20 or G21)");
-    if (!event.says_distance) open(event, "from where it counts (G90 or G91)");
-    const auto arc = [](const Move& move) { return move.arc; };
     const auto first = read.moves.begin() + static_cast<std::ptrdiff_t>(event.first_move),
                end = read.moves.begin() + static_cast<std::ptrdiff_t>(event.end_move);
-    if (!event.says_plane && (event.upright || std::any_of(first, end, arc)))
-      open(event, "the plane of its arcs (G17)");
-    if (event.offset == 0) open(event, "its work offset (G54)");
+    const bool upright = event.upright.has_value();
+    const bool feeds = upright || std::any_of(first, end, [](const Move& move) { return !move.rapid; });
+    const bool turns = upright || std::any_of(first, end, [](const Move& move) { return move.arc; });
+    unsaid.look(event.line, event.said, {.with_feed = feeds, .arcs = turns});
   }
+  const auto& sentences = unsaid.sentences();
+  claims.unchecked.insert(claims.unchecked.end(), sentences.begin(), sentences.end());
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -137,16 +138,14 @@ class LayoutReport {
     common("lekalo-show");
     if (status_ != "shown") fields_.complain("field status is not \"shown\"");
     LEKALO_TRY(const Document layout, file("layout"));
-    if (kind_of(layout) == Kind::layout) {
+    LEKALO_TRY(const std::optional<LayoutVerdict> verdict, verdict_of(layout, "violations, density, cost"));
+    if (verdict) {
       LEKALO_TRY(written_, read_layout(layout));
-      LEKALO_TRY(const LayoutVerdict verdict, verify_layout(layout));
-      compare(fields_, "violations", static_cast<double>(verdict.violations.size()), claims_);
+      compare(fields_, "violations", static_cast<double>(verdict->violations.size()), claims_);
       sheets_ = sheets_of(written_);
       compare_totals();
     } else {
       for (const char* figure : {"violations", "density", "cost"}) (void)fields_.number(figure);
-      claims_.unchecked.push_back(fmt::format(
-          "violations, density, cost: {} is in a form that the checker does not read", layout.name));
     }
     for (const char* list : {"sheets", "kits", "parts"}) {
       fields_.each(list, [](Json, const std::string&) {});
@@ -386,18 +385,24 @@ class LayoutReport {
     return finding;
   }
 
-  Result<void> compare_violations(const Document& layout, const std::set<Finding>& told) {
+  /// Judges a layout of a report; nothing where the checker reads no such form, or its polygons are not made
+  /// yet. The figures made from it are unchecked then.
+  Result<std::optional<LayoutVerdict>> verdict_of(const Document& layout, std::string_view figures) {
     if (kind_of(layout) != Kind::layout) {
       claims_.unchecked.push_back(
-          fmt::format("violations: {} is in a form that the checker does not read", layout.name));
-      return {};
+          fmt::format("{}: {} is in a form that the checker does not read", figures, layout.name));
+      return std::optional<LayoutVerdict>();
     }
-    const Result<LayoutVerdict> verdict = verify_layout(layout);
-    if (!verdict) {
-      LEKALO_TRY(const WrittenLayout unmade, read_layout(layout, true));
-      claims_.unchecked.push_back(fmt::format("violations: {}", verdict.error().message));
-      return {};
-    }
+    Result<LayoutVerdict> verdict = verify_layout(layout);
+    if (verdict) return std::optional(*std::move(verdict));
+    LEKALO_TRY(const WrittenLayout unmade, read_layout(layout, true));
+    claims_.unchecked.push_back(fmt::format("{}: {}", figures, verdict.error().message));
+    return std::optional<LayoutVerdict>();
+  }
+
+  Result<void> compare_violations(const Document& layout, const std::set<Finding>& told) {
+    LEKALO_TRY(const std::optional<LayoutVerdict> verdict, verdict_of(layout, "violations"));
+    if (!verdict) return {};
     std::set<Finding> found;
     for (const LayoutViolation& v : verdict->violations)
       found.emplace(std::string(name_of(v.kind)), v.a, v.b, v.stock, v.copy, v.feature);

@@ -29,7 +29,10 @@ class FeatureReader {
       file.each("features",
                 [&](Json item, const std::string& path) { stated.features.push_back(feature(item, path)); });
     if (has(file, "ignore"))
-      file.each("ignore", [&](Json item, const std::string&) { stated.ignored.push_back(item); });
+      file.each("ignore", [&](Json item, const std::string& path) {
+        refuse_other_words(item, path, {"outer", "holes", "islands"});
+        stated.ignored.push_back(item);
+      });
     return stated;
   }
 

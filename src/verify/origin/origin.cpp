@@ -56,6 +56,7 @@ void take_off(const RegionClaim& claim, LengthUnit unit, Tree& tree, std::string
   for (const Json region : claim.ignored) {
     const bool inch = claim.unit_of_ignored.value_or(unit) == LengthUnit::inch;
     tree.primitives.push_back({read_shape(region, "ignore", complaint, inch), false, ""});
+    if (complaint.empty()) refuse_unknown_words(region, complaint);
     tree.nodes.push_back({Tree::Kind::primitive, tree.primitives.size() - 1, {}});
     rest.children.push_back(tree.nodes.size() - 1);
   }
@@ -128,9 +129,12 @@ Origin check_points(const RegionClaim& claim) {
 }
 
 Origin check_tree_file(const RegionClaim& claim, Json root) {
+  std::string unknown;
+  refuse_unknown_words_of_tree(root, unknown);
+  if (!unknown.empty()) return fault(unknown);
   std::array<Json, 2> found;
   constexpr std::array<std::string_view, 2> kKeys{"shape", "units"};
-  if (!find_members(root, kKeys, found)) return fault("a field is given twice");
+  (void)find_members(root, kKeys, found);
   const std::string said = found[1].is_string() ? json_text(found[1]) : "";
   if (!found[1].text.empty() && said != "mm" && said != "inch") return fault("its units are not mm or inch");
   const auto check = [&](LengthUnit unit) {

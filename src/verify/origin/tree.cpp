@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "verify/number/interval.hpp"
+#include "verify/read/known_fields.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -113,6 +114,7 @@ class TreeReader {
     Fields fields(value, path, complaint_);
     if (!complaint_.empty()) return 0;
     const std::string name = has(fields, "name") ? fields.text("name") : name_around;
+    if (has(fields, "name") && name.empty()) return complain(fields.name("name") + " is empty"), 0;
     std::string word;
     Json what;
     JsonItems members(value);
@@ -267,6 +269,7 @@ class TreeReader {
       read_regular(fields, outline);
     } else if (word == "region") {
       only(value, path, {"outer", "holes", "islands"});
+      refuse_unknown_words(value, complaint_);
       to.shape = read_shape(value, path, complaint_, unit_ == LengthUnit::inch);
       return;
     } else if (word == "half_plane") {

@@ -205,12 +205,18 @@ class ProgramCheck {
     if (other.first_move == other.end_move && !other.upright) return;
     // Lines that stand for an arc of another plane need none.
     const bool turns = other.first_move < other.end_move && written.moves[other.first_move].arc;
-    const char* const missing = event.says_unit && !other.says_unit              ? "unit"
-                                : event.says_distance && !other.says_distance    ? "G90 or G91"
-                                : turns && event.says_plane && !other.says_plane ? "plane"
-                                                                                 : nullptr;
-    if (missing != nullptr)
-      fault(fmt::format("its line {} moves before a {}, which the original says", other.line, missing));
+    // Other modes stand in the words of events, which are the same.
+    struct Shown {
+      words::Group group;
+      bool matters;
+      const char* name;
+    };
+    for (const auto& [group, matters, name] : {Shown{words::Group::unit, true, "a unit"},
+                                               {words::Group::distance, true, "a G90 or G91"},
+                                               {words::Group::plane, turns, "a plane"},
+                                               {words::Group::centre, turns, "a G90.1 or G91.1"}})
+      if (matters && event.said.has(group) && !other.said.has(group))
+        fault(fmt::format("its line {} moves before {}, which the original says", other.line, name));
   }
 
   void compare_event(const NcProgram& original, const NcEvent& a, const NcProgram& written, const NcEvent& b,

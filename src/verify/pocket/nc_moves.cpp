@@ -151,14 +151,12 @@ class ProgramReader {
     const std::string rest = rest_of(block, moves_.size() > before);
     if (!rest.empty() || moves_.size() > before)
       events_.push_back({block.line, rest, before, moves_.size(), upright_,
-                         work_offset_ == nullptr ? 0 : work_offset_->tenths, by_time_, says_unit_,
-                         says_distance_, says_plane_, block.has_axis()});
+                         work_offset_ == nullptr ? 0 : work_offset_->tenths, by_time_, said_,
+                         block.has_axis()});
   }
 
   void run(const NcBlock& block) {
-    says_unit_ = says_unit_ || block.code(Group::unit) != nullptr;
-    says_distance_ = says_distance_ || block.code(Group::distance) != nullptr;
-    says_plane_ = says_plane_ || block.code(Group::plane) != nullptr;
+    for (const words::Word* code : block.codes) said_.take(*code);
     if (const words::Word* code = block.code(Group::feed_mode))
       feed_ = 0, by_time_ = code->tenths == 930;  // G94 takes back the F before it
     const words::Word* unit = block.code(Group::unit);
@@ -460,7 +458,7 @@ class ProgramReader {
   bool incremental_ = false, absolute_centre_ = false, to_r_plane_ = false, says_retract_ = false,
        has_cut_ = false;
   bool has_cycle_ = false, cycle_incremental_ = false, ended_ = false, by_time_ = false;
-  bool says_unit_ = false, says_distance_ = false, says_plane_ = false;
+  SaidGroups said_;
   int spindle_ = 50;  ///< M3, M4 or M5, in tenths
   std::size_t line_ = 0;
 };

@@ -10,6 +10,7 @@
 #include "lekalo/verify/verify.hpp"
 #include "nc_arc.hpp"
 #include "nc_moves.hpp"
+#include "unsaid_modes.hpp"
 
 namespace lekalo::verify {
 
@@ -36,9 +37,8 @@ struct NcEvent {
   /// The work offset that was selected last, in tenths of its G word; 0 before any.
   int offset = 0;
   bool by_time = false;  ///< under G93
-  /// The program has said so far in which unit, from where, or in which plane it moves. Where it has not, the
-  /// control decides.
-  bool says_unit = false, says_distance = false, says_plane = false;
+  /// The program has said these so far, with the words of this block.
+  SaidGroups said = {};
   /// It has words for X, Y or Z, though the place is not known yet and no move is seen.
   bool places = false;
 };

@@ -6,6 +6,7 @@
 
 #include "lekalo/base/stop.hpp"
 #include "verify/read/json.hpp"
+#include "verify/read/known_fields.hpp"
 #include "verify/shape/shape.hpp"
 #include "verify/shape/shape_inside.hpp"
 
@@ -101,6 +102,7 @@ Result<PocketReach> PocketReach::make(const Document& pocket, double clearance, 
   LEKALO_TRY(const Json json, parse_json(pocket.bytes, pocket.name));
   std::string complaint;
   const Shape shape = read_shape(json, "pocket", complaint);
+  if (complaint.empty()) refuse_unknown_words(json, complaint);
   if (!complaint.empty()) return failure(ErrorCode::bad_input, fmt::format("{}: {}", pocket.name, complaint));
   if (const auto fault = fault_of(shape))
     return failure(ErrorCode::bad_input, fmt::format("{}: {}", pocket.name, *fault));

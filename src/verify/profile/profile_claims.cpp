@@ -260,8 +260,10 @@ Result<ClaimReport> verify_profile(const Document& program, const Document& layo
         ErrorCode::usage,
         fmt::format("{}: a program cuts one sheet and {} are in use; say which, for example --sheet {}",
                     program.name, sheets.size(), sheets[0].name));
-  LEKALO_TRY(const std::vector<CutChain> chains, read_profile(program));
-  return ProfileCheck(sheets[0], words).checked(chains);
+  LEKALO_TRY(const ProfileProgram read, read_profile(program, words.control));
+  ClaimReport report = ProfileCheck(sheets[0], words).checked(read.chains);
+  report.unchecked = read.unsaid.sentences();
+  return report;
 }
 
 }  // namespace lekalo::verify

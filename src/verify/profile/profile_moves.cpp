@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "lekalo/base/double_of_text.hpp"
 #include "verify/number/exact.hpp"
@@ -18,8 +17,6 @@ namespace {
 /// The G and M words of profile programs in every dialect, in tenths. Those that stand for a mode which a
 /// program keeps from its first line to its last are only read over.
 constexpr std::array kModes{170, 400, 490, 540, 610, 800, 900, 911, 940};
-/// Those of them without which a control may move otherwise than the program means.
-constexpr std::array kNeeded{170, 400, 490, 540, 900, 940};
 
 /// The ends of an arc lie on one circle but for the rounding of its words.
 constexpr double kArcRounding = 5e-3;
@@ -33,9 +30,10 @@ struct Block {
 
 class ProfileReader {
  public:
-  explicit ProfileReader(const Document& document) : name_(document.name), rest_(document.bytes) {}
+  ProfileReader(const Document& document, words::Control control)
+      : name_(document.name), rest_(document.bytes), control_(control), unsaid_(control) {}
 
-  Result<std::vector<CutChain>> read() {
+  Result<ProfileProgram> read() {
     while (!rest_.empty() && complaint_.empty()) {
       ++line_;
       const std::size_t end = std::min(rest_.find('\n'), rest_.size());
@@ -54,7 +52,7 @@ class ProfileReader {
     if (complaint_.empty() && !ended_) complain("the program does not end with M2 or M30");
     if (complaint_.empty() && on_) complain("the beam or spindle is on at the end");
     if (!complaint_.empty()) return failure(ErrorCode::bad_input, fmt::format("{}:{}", name_, complaint_));
-    return std::move(chains_);
+    return ProfileProgram{std::move(chains_), std::move(unsaid_)};
   }
 
  private:
@@ -116,10 +114,11 @@ class ProfileReader {
       } else if (code == 200 || code == 210) {
         if (known_x_ || known_y_) complain("the unit changes on the way");
         scale_ = code == 200 ? 25.4 : 1;
+        said_.take(*words::word_at('G', code, words::Control::linuxcnc));
       } else if (code == 40) {
         dwell = true;
       } else if (std::find(kModes.begin(), kModes.end(), code) != kModes.end()) {
-        modes_.insert(code);
+        said_.take(*words::word_at('G', code, words::Control::linuxcnc));
       } else {
         complain(fmt::format("lekalo writes no G{:g} into a profile program", 0.1 * code));
       }
@@ -128,6 +127,8 @@ class ProfileReader {
     if (block.has('P') != dwell) complain("a wait without its time, or a time without a wait");
     if (block.has('O') && (block.words.size() > 1 || !block.g.empty() || line_ > 2))
       complain("a number of a program where none is");
+    // LinuxCNC reads no such number: the program is another control's, with that one's modes.
+    if (block.has('O') && control_ == words::Control::linuxcnc) unsaid_ = UnsaidModes(words::Control::fanuc);
     if (dwell && motion) complain("a wait beside a motion");
     if (motion && !dwell && complaint_.empty()) move(block);
   }
@@ -149,13 +150,12 @@ class ProfileReader {
 
   void move(const Block& block) {
     if (scale_ == 0) return complain("a motion before G20 or G21");
-    for (const int code : kNeeded)
-      if (!modes_.contains(code)) return complain(fmt::format("a motion before G{:g}", 0.1 * code));
     if (motion_ < 0) return complain("a motion without G0, G1, G2 or G3");
     const auto word = [&](char letter, double otherwise) {
       const auto found = block.words.find(letter);
       return found == block.words.end() ? otherwise : scale_ * found->second;
     };
+    unsaid_.look(block.line, said_, {.with_feed = true, .arcs = true});
     const bool arc = motion_ >= 20;
     if (arc != (block.has('I') && block.has('J')) || (!arc && (block.has('I') || block.has('J'))))
       return complain("an arc without I and J, or these without an arc");
@@ -195,7 +195,9 @@ class ProfileReader {
   std::string_view rest_;
   std::string complaint_;
   std::size_t line_ = 0;
-  std::set<int> modes_;
+  SaidGroups said_;
+  words::Control control_;
+  UnsaidModes unsaid_;
   double scale_ = 0, z_ = 0;
   int motion_ = -1, on_by_ = 0;
   bool marked_ = false, on_ = false, ended_ = false, known_x_ = false, known_y_ = false, has_z_ = false,
@@ -206,6 +208,8 @@ class ProfileReader {
 
 }  // namespace
 
-Result<std::vector<CutChain>> read_profile(const Document& program) { return ProfileReader(program).read(); }
+Result<ProfileProgram> read_profile(const Document& program, words::Control control) {
+  return ProfileReader(program, control).read();
+}
 
 }  // namespace lekalo::verify

@@ -3,8 +3,10 @@
 #include <vector>
 
 #include "lekalo/base/error.hpp"
+#include "lekalo/base/nc_words.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "verify/pocket/stroke.hpp"
+#include "verify/pocket/unsaid_modes.hpp"
 
 namespace lekalo::verify {
 
@@ -15,11 +17,17 @@ struct CutChain {
   bool rapid = false;         ///< true where G0 cuts
 };
 
+struct ProfileProgram {
+  std::vector<CutChain> chains;
+  /// A profile program that lekalo writes for this control says all modes before its first motion.
+  UnsaidModes unsaid;
+};
+
 /// Reads the cuts of a profile program as lekalo writes it: the beam or spindle is on, and the tool is below
 /// Z 0 where the program has a Z. A block that only moves in Z begins another chain.
 ///
 /// bad_input with the line for every word that lekalo does not write into such a program, and for cuts that
 /// begin at a place that is not known. Cost: O(bytes).
-[[nodiscard]] Result<std::vector<CutChain>> read_profile(const Document& program);
+[[nodiscard]] Result<ProfileProgram> read_profile(const Document& program, words::Control control);
 
 }  // namespace lekalo::verify

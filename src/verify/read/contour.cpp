@@ -69,11 +69,13 @@ Result<Contour> json_region(const Document& document, Json outer) {
     const std::size_t index = contour.size();
     Json line;
     constexpr std::array<std::string_view, 1> kLine{"line"};
-    if (!edge->is_object() || !find_members(*edge, kLine, {&line, 1}) || !line.is_object()) {
+    if (!edge->is_object() || count_items(*edge) != 1 || !find_members(*edge, kLine, {&line, 1}) ||
+        !line.is_object()) {
       return bad(document, fmt::format("edge {} of \"outer\" is not a line; arcs are not read here", index));
     }
     std::array<Json, 2> tips;
     constexpr std::array<std::string_view, 2> kTips{"from", "to"};
+    if (count_items(line) > 2) return bad(document, fmt::format("edge {} has more than two ends", index));
     if (!find_members(line, kTips, tips))
       return bad(document, fmt::format("edge {} gives an end twice", index));
     LEKALO_TRY(auto from, json_point(document, tips[0], index));
@@ -107,6 +109,12 @@ Result<Contour> read_json(const Document& document) {
   std::array<Json, 5> found;
   if (!find_members(root, kKeys, found)) return bad(document, "a field is given twice");
   const auto& [points, outer, units, holes, islands] = found;
+  // Single values beside the outline are for people; a misspelt list would be a part of it.
+  JsonItems members(root);
+  while (const auto member = members.next())
+    if ((member->is_object() || member->is_array()) &&
+        std::find(kKeys.begin(), kKeys.end(), members.key()) == kKeys.end())
+      return bad(document, fmt::format("field {} is not one of a contour", excerpt(members.key())));
   for (const Json& inner : {holes, islands}) {
     if (!inner.text.empty() && (!inner.is_array() || count_items(inner) > 0)) {
       return bad(document, "the contour has holes or islands, which are not read here");

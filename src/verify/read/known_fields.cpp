@@ -46,6 +46,8 @@ constexpr Known kRegion[] = {{"units"}, {"outer", kEdge}, {"holes", kEdge}, {"pi
 constexpr Known kPieceOfFile[] = {{"outer", kEdge}, {"holes", kEdge}, {"islands", kEdge}};
 constexpr Known kRegionFile[] = {
     {"outer", kEdge}, {"holes", kEdge}, {"islands", kEdge}, {"pieces", kPieceOfFile}};
+/// The tree's reader looks at its shapes itself.
+constexpr Known kTreeFile[] = {{"name"}, {"source"}, {"units"}, {"shape"}};
 constexpr Known kRegions[] = {{"part", kRegion}, {"blank", kRegion}};
 constexpr Known kSlice[] = {{"height"}, {"thickness"}};
 constexpr Known kScan[] = {{"points"},         {"proved"},   {"ordered"}, {"guard"},      {"step"},
@@ -143,6 +145,10 @@ void refuse_unknown_fields(Json placement, std::string& complaint) {
 void refuse_unknown_fields(Json value, const std::string& key, std::string& complaint) {
   for (const Known& one : kOfReports)
     if (one.name == key) look(value, one.members, key, complaint);
+}
+
+void refuse_unknown_words_of_tree(Json root, std::string& complaint) {
+  look(root, kTreeFile, "", complaint, "a tree of primitives");
 }
 
 void refuse_unknown_words(Json region, std::string& complaint) {

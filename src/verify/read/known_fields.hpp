@@ -18,4 +18,7 @@ void refuse_unknown_fields(Json value, const std::string& key, std::string& comp
 /// outline.
 void refuse_unknown_words(Json region, std::string& complaint);
 
+/// The same for the outermost object of a file of a tree of primitives.
+void refuse_unknown_words_of_tree(Json root, std::string& complaint);
+
 }  // namespace lekalo::verify

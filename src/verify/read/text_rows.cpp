@@ -39,6 +39,23 @@ std::vector<std::string_view> fields_of(std::string_view line) {
   }
 }
 
+/// A word before a number is a mistyped point, and no head of a table. A head may have blanks in its fields.
+bool may_be_header(std::string_view line) {
+  std::vector<std::string_view> fields;
+  const std::size_t separator = line.find(line.find(';') == std::string_view::npos ? ',' : ';');
+  if (separator == std::string_view::npos) {
+    fields = fields_of(line);
+  } else {
+    const char mark = line[separator];
+    for (std::size_t at = 0; at <= line.size();) {
+      const std::size_t end = std::min(line.find(mark, at), line.size());
+      fields.push_back(trimmed(line.substr(at, end - at)));
+      at = end + 1;
+    }
+  }
+  return fields.size() < 2 || fields.size() > 3 || !parse_decimal(fields[1]);
+}
+
 }  // namespace
 
 std::string_view trimmed(std::string_view text) {
@@ -71,7 +88,7 @@ Result<void> read_text_rows(const Document& document, const std::function<Result
     gap = gap || whole->empty();
     if (whole->empty() || is_comment(*whole)) continue;
     const std::string_view line = trimmed(whole->substr(0, whole->find('#')));
-    if (std::exchange(header_allowed, false) && !begins_with_number(line)) continue;
+    if (std::exchange(header_allowed, false) && !begins_with_number(line) && may_be_header(line)) continue;
     const std::vector<std::string_view> fields = fields_of(line);
     if (fields.size() != 2 && fields.size() != 3)
       return bad_line(document, lines.number(),

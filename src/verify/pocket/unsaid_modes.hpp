@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lekalo/base/nc_words.hpp"
+
+namespace lekalo::verify {
+
+/// Groups of words, of which a program has said one word each.
+class SaidGroups {
+ public:
+  /// Takes what a word says. Blending, G64, takes back the exact path.
+  void take(const words::Word& word) noexcept {
+    constexpr int kBlending = 640;
+    if (word.group == words::Group::path_control && word.tenths == kBlending)
+      bits_ &= ~bit(word.group);
+    else
+      bits_ |= bit(word.group);
+  }
+  [[nodiscard]] bool has(words::Group group) const noexcept { return (bits_ & bit(group)) != 0; }
+
+ private:
+  static constexpr std::uint32_t bit(words::Group group) noexcept { return 1U << static_cast<unsigned>(group); }
+  static_assert(words::kGroups <= 32);
+
+  std::uint32_t bits_ = 0;
+};
+
+/// How a block moves, as far as modes depend on it.
+struct Motions {
+  bool with_feed = false, arcs = false;
+};
+
+/// Modes that a program does not say before the motions that depend on them. The control decides these, as it
+/// is set up or as the program before it left them, so that such a program is neither right nor wrong.
+class UnsaidModes {
+ public:
+  explicit UnsaidModes(words::Control control) : control_(control) {}
+
+  /// Looks at a block that moves, after its own words were said.
+  void look(std::size_t line, const SaidGroups& said, const Motions& motions);
+
+  /// A sentence for each mode that some block lacks, with the first such line.
+  [[nodiscard]] const std::vector<std::string>& sentences() const noexcept { return sentences_; }
+
+ private:
+  words::Control control_;
+  std::set<std::string_view> told_;
+  std::vector<std::string> sentences_;
+};
+
+}  // namespace lekalo::verify
