@@ -75,13 +75,14 @@ TEST(VerifyClaimsKind, OtherFilesAreToldByTheirFirstBytes) {
 
 // ---- layouts ----------------------------------------------------------------------------------------------
 
+Json circle(double x, double r) {
+  return Json::parse(R"({"outer": [{"arc": {"from": [)" + std::to_string(x + r) + ", 5], \"to\": [" +
+                     std::to_string(x + r) + ", 5], \"centre\": [" + std::to_string(x) +
+                     R"(, 5], "ccw": true}}]})");
+}
+
 /// A layout with everything that one may have.
 Json rich_layout() {
-  const auto circle = [](double x, double r) {
-    return Json::parse(R"({"outer": [{"arc": {"from": [)" + std::to_string(x + r) + ", 5], \"to\": [" +
-                       std::to_string(x + r) + ", 5], \"centre\": [" + std::to_string(x) +
-                       R"(, 5], "ccw": true}}]})");
-  };
   Json layout = Json::parse(R"({"format": "lekalo-layout/1", "units": "mm", "name": "rich",
    "rules": {"gap": 1, "border_gap": 2, "defect_gap": 3},
    "stocks": [
