@@ -160,7 +160,7 @@ std::optional<SmallDecimal> small(const Decimal& value) {
 
 double approximate(const Decimal& value) {
   // The quotient of two doubles is rounded to the nearest.
-  if (const auto few = small(value); few && std::abs(few->digits) <= 1L << 53)
+  if (const auto few = small(value); few && few->is_double())
     return static_cast<double>(few->digits) / few->power;
   const std::string text = value.digits.fits_slong_p()
                                ? fmt::format("{}e{}", to_long(value.digits), value.exponent)

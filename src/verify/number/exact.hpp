@@ -83,6 +83,8 @@ struct Decimal {
 struct SmallDecimal {
   long digits = 0;   ///< less than 10^18
   double power = 1;  ///< 10^0 to 10^22, which doubles hold exactly
+  /// Says whether a double holds the digits, too.
+  [[nodiscard]] bool is_double() const { return std::abs(digits) <= 1L << 53; }
 };
 /// Returns nothing for a decimal that needs more digits or places than that.
 [[nodiscard]] std::optional<SmallDecimal> small(const Decimal& value);

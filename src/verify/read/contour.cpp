@@ -75,9 +75,9 @@ Result<Contour> json_region(const Document& document, Json outer) {
     }
     std::array<Json, 2> tips;
     constexpr std::array<std::string_view, 2> kTips{"from", "to"};
-    if (count_items(line) > 2) return bad(document, fmt::format("edge {} has more than two ends", index));
     if (!find_members(line, kTips, tips))
       return bad(document, fmt::format("edge {} gives an end twice", index));
+    if (count_items(line) > 2) return bad(document, fmt::format("edge {} has more than two ends", index));
     LEKALO_TRY(auto from, json_point(document, tips[0], index));
     LEKALO_TRY(auto to, json_point(document, tips[1], index));
     contour.x.push_back(std::move(from[0]));

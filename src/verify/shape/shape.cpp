@@ -218,14 +218,11 @@ class ShapeReader {
 }  // namespace
 
 Span enclosed(const Decimal& value) {
-  if (const auto few = small(value)) {
+  if (const auto few = small(value); few && few->is_double()) {
+    // The remainder of a rounded quotient is a double, and says on which side of it the decimal lies.
     const double digits = static_cast<double>(few->digits), quotient = digits / few->power;
-    // The remainder of a rounded quotient is a double, and so is what the digits lost: the sign of their
-    // difference is exact. Both roundings together are less than two steps.
-    const long lost = few->digits - static_cast<long>(digits);
-    const double above = std::fma(quotient, few->power, -digits) - static_cast<double>(lost);
-    return {above > 0 ? step_down(step_down(quotient)) : quotient,
-            above < 0 ? step_up(step_up(quotient)) : quotient};
+    const double above = std::fma(quotient, few->power, -digits);
+    return {above > 0 ? step_down(quotient) : quotient, above < 0 ? step_up(quotient) : quotient};
   }
   const Interval interval(value, 64);
   return {interval.low_double(), interval.high_double()};
