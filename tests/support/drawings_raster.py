@@ -394,8 +394,8 @@ class Piece:
 
 def place_parts(layout, regions, frame, drawn, step, radius):
     """Where the parts lie: of the outlines with the same box those on which most of a part's points are drawn, of
-    equally good ones those that are as long. Long parts choose first, so that a plate without holes is not sought
-    where one with holes lies."""
+    equally good ones those that are as long. Parts with most lines, marks among them, choose first, so that a plate
+    without holes is not sought where one with holes lies."""
     boxes = []
     for region in regions:
         points = points_of(region, step)
@@ -408,7 +408,7 @@ def place_parts(layout, regions, frame, drawn, step, radius):
         polygon = part['outline']['polygon']
         length = sum(length_of(ring(loop)) for loop in [polygon['outer'], *polygon.get('holes', [])])
         parts.append((part, np.vstack((outline, marks)), outline.min(axis=0), outline.max(axis=0), length))
-    for part, points, low, high, length in sorted(parts, key=lambda one: -one[4]):
+    for part, points, low, high, length in sorted(parts, key=lambda one: -len(one[1])):
         found = []
         for number in sorted(free):
             box = boxes[number]
