@@ -18,7 +18,7 @@ export const textField = (field: string, value: string, label: string): HTMLInpu
 /** A heading that is too long for a phone has a sign there. */
 const heading = (key: Key): HTMLElement =>
   key === 'order.mirror'
-    ? h('th', { title: t(key) }, h('span', { class: 'long' }, t(key)), h('span', { class: 'short' }, '⇋'))
+    ? h('th', { title: t(key) }, h('span', { class: 'in-full' }, t(key)), h('span', { class: 'short' }, '⇋'))
     : h('th', {}, t(key));
 export const tableHead = (...keys: Key[]): HTMLElement => h('thead', {}, h('tr', {}, ...keys.map(heading), h('th')));
 
