@@ -245,7 +245,8 @@ TEST(VerifyRegions, PartAndBlankOfOneFileAreReadInOneWay) {
   const TemporaryFolder folder;
   write_bytes(folder / "one.svg", R"(<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm"
     viewBox="0 0 60 40"><path d="M0 0H60V40H0Z"/><circle cx="30" cy="20" r="7.3"/></svg>)");
-  ASSERT_EQ(run(folder.path(), {"locate", "--part", "one.svg", "--blank", "one.svg", "--gap", "0.1", "-o", "r.json"})
+  ASSERT_EQ(run(folder.path(),
+                {"locate", "--part", "one.svg", "--blank", "one.svg", "--gap", "0.1", "-o", "r.json"})
                 .status,
             0);
   const Ran as_it_is = run(folder.path(), {"verify", "r.json"});

@@ -22,17 +22,23 @@ UNITS = {1: 25.4, 2: 304.8, 3: 1609344, 4: 1, 5: 10, 6: 1000, 7: 1e6, 8: 25.4e-6
          14: 100}
 
 
-def dxf_curves(path):
-    """Kinds, flattened curves in mm, and what is in the file that is no curve."""
+def open_dxf(path):
+    """The drawing, and how many mm its unit is."""
     import ezdxf
-    from ezdxf import path as paths, recover
+    from ezdxf import recover
     try:
         doc = ezdxf.readfile(path)
     except Exception:  # the library has several kinds of complaint, and a second reader for all of them
         doc, _ = recover.readfile(path)
     # The library says metres where the file says nothing.
     says = b'$INSUNITS' in open(path, 'rb').read()
-    scale = UNITS.get(doc.header.get('$INSUNITS', 0), 1) if says else 1
+    return doc, UNITS.get(doc.header.get('$INSUNITS', 0), 1) if says else 1
+
+
+def dxf_curves(path):
+    """Kinds, flattened curves in mm, and what is in the file that is no curve."""
+    from ezdxf import path as paths
+    doc, scale = open_dxf(path)
     hidden = {layer.dxf.name.lower() for layer in doc.layers if layer.is_off() or layer.is_frozen()}
     kinds, others, lines = collections.Counter(), collections.Counter(), []
 

@@ -32,10 +32,11 @@ import xml.etree.ElementTree as tree
 import numpy as np
 from PIL import Image
 
+from drawings_oracle import open_dxf
+
 PIXEL, MOST, WIDTH, SLACK = 0.2, 16e6, 1.2, 1.6
 CHORD = 0.01  # mm, of the polygons in a layout: they are asked for so
 SPOILED = 0.5  # mm
-UNITS = {1: 25.4, 2: 304.8, 4: 1, 5: 10, 6: 1000, 7: 1e6, 8: 25.4e-6, 9: 0.0254, 10: 914.4, 13: 0.001, 14: 100}
 CURVES = {'LINE', 'ARC', 'CIRCLE', 'ELLIPSE', 'LWPOLYLINE', 'POLYLINE', 'SPLINE', 'MLINE'}
 STYLE = '''* { stroke: #000 !important; stroke-opacity: 1 !important; stroke-dasharray: none !important;
   stroke-linecap: round !important; stroke-linejoin: round !important; fill: none !important;
@@ -254,17 +255,11 @@ class Svg:
 
 class Dxf:
     def __init__(self, path):
-        import ezdxf
-        from ezdxf import path as paths, recover
+        from ezdxf import path as paths
         from ezdxf.addons.drawing import Frontend, RenderContext
         from ezdxf.addons.drawing.backend import Backend
         from ezdxf.addons.drawing.config import Configuration, HatchPolicy, LinePolicy, ProxyGraphicPolicy
-        try:
-            doc = ezdxf.readfile(path)
-        except Exception:  # the library has several kinds of complaint, and a second reader for all of them
-            doc, _ = recover.readfile(path)
-        says = b'$INSUNITS' in open(path, 'rb').read()
-        scale = UNITS.get(doc.header.get('$INSUNITS', 0), 1) if says else 1
+        doc, scale = open_dxf(path)
         left_out, drawn = collections.Counter(), []
 
         class Lines(Backend):

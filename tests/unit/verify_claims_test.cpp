@@ -337,7 +337,8 @@ TEST(VerifyClaims, AReportOfShowHasTheSumsOfItsLayout) {
   // The polygons of its curves are not made yet.
   Json curved = Json::parse(kLayout);
   curved.at("/parts/0/outline") = {{"curves", circle(3, 2)}, {"chord_tolerance", 0.5}};
-  EXPECT_NE(judged(shown, {curved.dump()}).find("has no polygon; let lekalo write the file"), std::string::npos)
+  EXPECT_NE(judged(shown, {curved.dump()}).find("has no polygon; let lekalo write the file"),
+            std::string::npos)
       << judged(shown, {curved.dump()});
   for (const Lie& lie : test::lies_of_json(shown)) {
     if (lie.how != std::string("deleted") &&

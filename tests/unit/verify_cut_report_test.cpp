@@ -316,8 +316,7 @@ TEST(VerifyCutReport, TheProgramGoesDownToTheDepthLessWhatStaysOnTheFloor) {
   EXPECT_EQ(with(1, 0.25), no);
   EXPECT_EQ(with(0.75, -0.25), no);
   // From another upper face.
-  const Files raised{.program =
-                         kModes + "G0 X3 Y3 Z5\nG1 Z1 F300\nG1 X4.5 F1500\nG1 Z0.5\nG1 X3\nG0 Z5\n"};
+  const Files raised{.program = kModes + "G0 X3 Y3 Z5\nG1 Z1 F300\nG1 X4.5 F1500\nG1 Z0.5\nG1 X3\nG0 Z5\n"};
   Json report = pocketed();
   report["top_mm"] = 2, report["depth_mm"] = 1.5;
   EXPECT_EQ(judged(report, raised).find("below top_mm"), std::string::npos);
@@ -341,9 +340,10 @@ TEST(VerifyCutReport, ModesThatTheProgramDoesNotSayAreUnchecked) {
     return judged(report, {.program = modes + moves});
   };
   const auto line = [](int number, const std::string& what, bool of_one = false) {
-    return fmt::format("unchecked: program: line {} moves where the program does not say {}; the control decides "
-                       "it{}\n",
-                       number, what, of_one ? " (--control says whose words these are, if not LinuxCNC's)" : "");
+    return fmt::format(
+        "unchecked: program: line {} moves where the program does not say {}; the control decides "
+        "it{}\n",
+        number, what, of_one ? " (--control says whose words these are, if not LinuxCNC's)" : "");
   };
   const std::string exact = line(2, "that its path is exact (G61)", true);
   EXPECT_EQ(unsaid(kModes), "");

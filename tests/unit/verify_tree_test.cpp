@@ -128,9 +128,11 @@ TEST(VerifyTree, WhatItDoesNotKnowIsRefusedWithItsPlace) {
   EXPECT_EQ(refused(R"("circle": {"radius": 5}, "slot": {})"), "shape has two words for its shape");
   EXPECT_EQ(refused(R"("circle": {"radius": 5, "colour": 1})"), "shape.circle: \"colour\" is no word here");
   EXPECT_EQ(refused(R"("circle": {"radius": 5}, "name": "")"), "shape.name is empty");
-  const std::string edges = R"({"line": {"from": [4, 0], "to": [0, 3]}}, {"line": {"from": [0, 3], "to": [0, 0]}}]})";
-  EXPECT_EQ(refused(R"("region": {"outer": [{"line": {"from": [0, 0], "to": [4, 0]}, "colour": 1}, )" + edges),
-            "field outer[0].colour is not one of a region file");
+  const std::string edges =
+      R"({"line": {"from": [4, 0], "to": [0, 3]}}, {"line": {"from": [0, 3], "to": [0, 0]}}]})";
+  EXPECT_EQ(
+      refused(R"("region": {"outer": [{"line": {"from": [0, 0], "to": [4, 0]}, "colour": 1}, )" + edges),
+      "field outer[0].colour is not one of a region file");
   EXPECT_EQ(refused(R"("region": {"hols": [], "outer": [{"line": {"from": [0, 0], "to": [4, 0]}}, )" + edges),
             "shape.region: \"hols\" is no word here");
   EXPECT_EQ(refused(R"("circle": 5)"), "shape.circle is not an object");

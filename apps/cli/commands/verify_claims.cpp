@@ -94,7 +94,8 @@ Result<int> verify_other(const VerifyOptions& o, const std::string& bytes, Kind 
   beside.machining = o.machining;
   LEKALO_TRY(beside.after, read_earlier(o.after));
   beside.export_words = o.export_words;
-  if (o.kerf) beside.profile = {o.export_words.sheet, *o.kerf, o.tolerance.value_or(0.01), o.machining.control};
+  if (o.kerf)
+    beside.profile = {o.export_words.sheet, *o.kerf, o.tolerance.value_or(0.01), o.machining.control};
   beside.export_words.chord_tolerance = o.tolerance.value_or(0.02);
   LEKALO_TRY(const jobs::VerifiedClaims verified, jobs::verify_claims({o.result, bytes}, beside, find));
   if (o.json) LEKALO_CHECK(print(verified.json));

@@ -12,8 +12,8 @@
 
 namespace lekalo::verify {
 
-/// The files that lekalo writes besides placements (verify/verify.hpp) are told apart by their bytes, and held
-/// against what they were made from. docs/formats.md says of each field whether it is a claim.
+/// The files that lekalo writes besides placements (verify/verify.hpp) are told apart by their bytes, and
+/// held against what they were made from. docs/formats.md says of each field whether it is a claim.
 
 enum class Kind : std::uint8_t {
   placement,

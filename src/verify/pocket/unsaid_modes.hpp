@@ -25,7 +25,9 @@ class SaidGroups {
   [[nodiscard]] bool has(words::Group group) const noexcept { return (bits_ & bit(group)) != 0; }
 
  private:
-  static constexpr std::uint32_t bit(words::Group group) noexcept { return 1U << static_cast<unsigned>(group); }
+  static constexpr std::uint32_t bit(words::Group group) noexcept {
+    return 1U << static_cast<unsigned>(group);
+  }
   static_assert(words::kGroups <= 32);
 
   std::uint32_t bits_ = 0;
