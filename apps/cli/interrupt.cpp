@@ -5,6 +5,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -57,6 +58,14 @@ StopRequests::~StopRequests() {
 }
 
 const std::atomic<bool>* StopRequests::flag() noexcept { return &stop_flag; }
+
+void StopRequests::end_sooner(double seconds) noexcept {
+  itimerval timer{};
+  getitimer(ITIMER_REAL, &timer);
+  const double left =
+      static_cast<double>(timer.it_value.tv_sec) + 1e-6 * static_cast<double>(timer.it_value.tv_usec);
+  if (left > 0) start_timer(std::max(left - seconds, 0.0));
+}
 
 ToTheEnd::ToTheEnd() {
   if (stop_flag.load(std::memory_order_relaxed)) listening_.emplace(nobody_);

@@ -22,6 +22,8 @@ class StopRequests {
   StopRequests(const StopRequests&) = delete;
   StopRequests& operator=(const StopRequests&) = delete;
   [[nodiscard]] static const std::atomic<bool>* flag() noexcept;
+  /// Lets the time limit, where there is one, end this much sooner, s.
+  static void end_sooner(double seconds) noexcept;
 };
 
 /// While this lives, nothing is stopped that was not to be stopped before: what a search has found until a

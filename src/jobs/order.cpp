@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "lekalo/base/parallel.hpp"
@@ -58,8 +60,7 @@ class OrderMaker {
 
   void notices(std::vector<std::string>& said) {
     for (std::string& notice : said)
-      if (std::find(made_.notices.begin(), made_.notices.end(), notice) == made_.notices.end())
-        made_.notices.push_back(std::move(notice));
+      if (said_.insert(notice).second) made_.notices.push_back(std::move(notice));
   }
 
   /// Reads every file for itself, which is most of the time that an order takes.
@@ -132,6 +133,7 @@ class OrderMaker {
   const Order& order_;
   std::vector<PartsRead> read_;
   Layout made_;
+  std::set<std::string> said_;  ///< all notices, each of which is said once
   layout::FreeIds part_ids_, stock_ids_;
   std::string faults_;
 };

@@ -521,7 +521,9 @@ TEST(Serve, FortyClientsAgreeInTheEnd) {
       if (shared) {
         // When nobody edits any more, whoever has an answer has heard of everything before it.
         for (--editing; editing > 0;) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        EXPECT_EQ(client.command("move 1 by 0 0")["nothing"], true);
+        // A defect may lie on the piece by now; then it stays where it is by being refused.
+        const Json answer = client.command("move 1 by 0 0");
+        EXPECT_TRUE(answer.contains("nothing") || answer["type"] == "refused") << answer;
       }
       const std::lock_guard guard(lock);
       auto& all = shared ? shared_ms : alone_ms;

@@ -157,7 +157,7 @@ TEST(DrawingRegions, AnOpenChainIsNamedWithItsGap) {
   EXPECT_EQ(found.regions.size(), 1u);
   ASSERT_EQ(found.set_aside.size(), 1u);
   EXPECT_EQ(found.set_aside[0].edges.back().to, (Point{0, 0.5}));
-  EXPECT_EQ(found.notices.size(), 1u);
+  EXPECT_TRUE(found.notices.empty());
 }
 
 TEST(DrawingRegions, CopiesAreDroppedEitherWayRound) {

@@ -76,6 +76,10 @@ TEST(DrawingRepair, ALoopAtACrossingHangsOnANeckAndASpeckIsCutOff) {
   EXPECT_GE(speck.tolerance, 0.006 * 1.41421);
   EXPECT_LE(speck.tolerance, 0.006 * 1.41422 + 0.0003);
   EXPECT_EQ(speck.cut_off, (std::vector<std::uint32_t>{1, 2}));
+  // What reaches too far for that is marks, and no part of a third of a millimetre.
+  const auto ear = made(overshot(0.25));
+  EXPECT_EQ(ear.regions.size(), 1u);
+  EXPECT_FALSE(ear.marks.empty());
   // More than is mended is a shape of its own.
   const auto large = made(overshot(0.5));
   EXPECT_EQ(large.regions.size(), 2u);
@@ -106,6 +110,20 @@ TEST(DrawingRepair, PartsThatShareAnEdgeAreTwo) {
   Sketch whole;
   whole.polyline(kSquare).polyline({{10, 10}, {20, 10}, {20, 0}, {10, 0.001}});
   EXPECT_EQ(made(whole).regions.size(), 2u);
+}
+
+TEST(DrawingRepair, WhatTouchingLinesEncloseOfTheSizeOfAMendIsLinesAndACircleOfThatSizeAHole) {
+  const auto roof = [](double width) {
+    Sketch sketch;
+    sketch.line({0, 0}, {30, 0}).polyline({{10, 0}, {10 + width / 2, width}, {10 + width, 0}}, false);
+    sketch.polyline({{0, 20}, {10, 20}, {10, 30}, {0, 30}}).circle({5, 25}, 0.1);
+    return made(sketch);
+  };
+  const auto small = roof(0.2);
+  ASSERT_EQ(small.regions.size(), 1u);
+  EXPECT_EQ(small.regions[0].holes.size(), 1u);
+  EXPECT_FALSE(small.marks.empty());
+  EXPECT_EQ(roof(0.5).regions.size(), 2u);
 }
 
 TEST(DrawingRepair, PartsThatTouchInACornerAreTwo) {

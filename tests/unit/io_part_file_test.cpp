@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 namespace lekalo::io {
 namespace {
@@ -101,6 +102,23 @@ TEST(PartFile, RowsOfLettersAreEngraving) {
   EXPECT_EQ(told(read(plate + o + square(17, 10, 5))),
             "side_panel=1 \"cut\" 2 holes 0 marks, side_panel-2=1 \"cut\" 0 holes 0 marks, ");
   EXPECT_EQ(told(read(plate + square(10, 10, 5) + two)), "side_panel=1 \"cut\" 3 holes 0 marks, ");
+}
+
+TEST(PartFile, EachThatIsSetAsideIsToldOnceAndOfMoreThanAThousandTheNumber) {
+  const auto told_aside = [](int lines) {
+    std::string content = square(0, 0, 10);
+    for (int k = 0; k < lines; ++k) content += fmt::format(R"(<path d="M{} 50l0.05 2"/>)", 0.1 * k);
+    const PartsFile file = read(content);
+    EXPECT_EQ(file.set_aside.size(), static_cast<std::size_t>(lines));
+    std::vector<std::string> aside;
+    for (const std::string& notice : file.notices)
+      if (notice.find("set aside: ") == 0) aside.push_back(notice);
+    return aside;
+  };
+  EXPECT_EQ(told_aside(30).size(), 30u);
+  const auto many = told_aside(1200);
+  ASSERT_EQ(many.size(), 1001u);
+  EXPECT_EQ(many.back(), "set aside: 200 more");
 }
 
 TEST(PartFile, DamagedElementsAreOnTheListAndRefusedWhereItIsStrict) {

@@ -222,6 +222,14 @@ TEST(VerifyDxfDrawing, LayersAreOffOrFrozen) {
   EXPECT_EQ(with_layers("0 LAYER 2 @ 70 1", "0 LINE 8 ` 10 1 20 2 11 3 21 5"), "`: L 1,2 3,5\n");
 }
 
+TEST(VerifyDxfDrawing, CountsAndBitsAreWholeNumbersOfAUsualSize) {
+  const std::string no = "d.dxf: 1e+20 is no whole number of up to 1e9";
+  EXPECT_EQ(with_layers("0 LAYER 2 A 70 1e20", kLine), no);
+  EXPECT_EQ(with_header("9 $INSUNITS 70 1e20"), no);
+  EXPECT_EQ(with_blocks("0 BLOCK 2 b " + kLine + " 0 ENDBLK", "0 INSERT 2 b 10 0 20 0 70 1e20"), no);
+  EXPECT_EQ(with_layers("0 LAYER 2 A 70 0.5", kLine), "d.dxf: 0.5 is no whole number of up to 1e9");
+}
+
 TEST(VerifyDxfDrawing, WhatIsOnPaperOrInvisibleOrLeansIsNotDrawn) {
   EXPECT_EQ(entities(kLine + " 67 1"), "");
   EXPECT_EQ(entities(kLine + " 67 0"), ": L 1,2 3,5\n");

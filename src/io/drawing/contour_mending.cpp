@@ -106,7 +106,8 @@ class Mender {
           to.push_back({loop.contour[k], curves_[loop.origins[k]]});
       }
     }
-    if (made_.contours.empty() || !retreat_holes() || !find_narrow()) return std::nullopt;
+    if (made_.contours.empty()) return marks_alone();
+    if (!retreat_holes() || !find_narrow()) return std::nullopt;
     for (const LooseContour& one : made_.contours) {
       ask(one.edges.size());
       const bool hole = !(geom::signed_area(one.edges) > 0);
@@ -114,6 +115,13 @@ class Mender {
       if (!region || geom::fault_of({*region})) return std::nullopt;
     }
     return settle() ? std::optional(std::move(made_)) : std::nullopt;
+  }
+
+  /// Cracks between lines that nearly run along each other enclose nothing that anybody would cut.
+  [[nodiscard]] std::optional<Mended> marks_alone() {
+    for (const std::vector<LooseEdge>& list : {left_, cut_off_})
+      made_.marks.insert(made_.marks.end(), list.begin(), list.end());
+    return std::move(made_);
   }
 
   enum class Kind { stays, joined, dropped };
@@ -132,7 +140,8 @@ class Mender {
       small[i] = size <= 2 * repair_;
       if (size > most) most = size, largest = i;
     }
-    small[largest] = 0;
+    // Something stays of what is small as a whole, unless it is a crack.
+    if (!is_sliver(loops[largest].contour)) small[largest] = 0;
     std::map<Point, std::size_t, PointOrder> place;
     for (std::size_t i = 0; i < loops.size(); ++i)
       if (small[i] == 0)
@@ -142,14 +151,12 @@ class Mender {
       const Contour& loop = loops[i].contour;
       std::size_t hangs = 0;  // the edge that begins in the corner by which it hangs
       while (hangs < loop.size() && place.count(loop[hangs].from) == 0) ++hangs;
-      // A sliver, and a loop that hangs on other small ones alone, is cut off with its loss.
+      // A sliver, a loop that hangs on other small ones alone, and one that reaches too far from its corner
+      // to be joined, is cut off: with its loss, or its lines are marks.
       kind_[i] = Kind::dropped;
       if (hangs == loop.size() || is_sliver(loop)) continue;
       const Point corner = loop[hangs].from;
-      if (!lies_within(loop, corner, repair_)) {
-        kind_[i] = Kind::stays;
-        continue;
-      }
+      if (!lies_within(loop, corner, repair_)) continue;
       // A loop outside is joined through the material, one inside through what it leaves out.
       const bool inside = !(area_[i] > 0), joinable = area_[place.at(corner)] > 0;
       if (cut_off_loop_[i] == 0 && joinable && loop.size() > 1 &&
@@ -272,8 +279,9 @@ class Mender {
   /// Measures how far what was left is from what stays: that is loss, or the stretch is a mark.
   [[nodiscard]] bool settle() {
     std::vector<Edge> kept;
-    for (const LooseContour& one : made_.contours)
-      kept.insert(kept.end(), one.edges.begin(), one.edges.end());
+    if (!left_.empty() || !cut_off_.empty())
+      for (const LooseContour& one : made_.contours)
+        kept.insert(kept.end(), one.edges.begin(), one.edges.end());
     const NearEdges outline(kept);
     const auto measure = [&](const LooseEdge& one, double limit) {
       ask();

@@ -31,11 +31,11 @@ struct MendLimits {
 
 /// Makes contours that meet nowhere but in corners out of contours that cross or touch themselves or each
 /// other, by the rule. Loops that lie within `repair` of the corner by which they hang on the rest are joined
-/// to it through a neck, or cut off if they are specks or no neck will do; larger ones are contours of their
-/// own. Spikes and slivers are cut off up to the size of a speck, and marks beyond it. Where a hole touches,
-/// its corner is moved into the hole.
+/// to it through a neck, or cut off if they are specks or no neck will do; larger ones of no more than twice
+/// `repair` are marks, and still larger ones contours of their own. Spikes and slivers are cut off up to the
+/// size of a speck, and marks beyond it. Where a hole touches, its corner is moved into the hole.
 ///
-/// A loop that encloses nothing is marks alone. Nothing where that leaves a contour with a fault.
+/// Loops that enclose nothing, or no more than slivers, are marks alone. Nothing where that leaves a contour with a fault.
 [[nodiscard]] std::optional<Mended> mended(const std::vector<LooseContour>& contours, geom::FillRule rule,
                                            const MendLimits& limits);
 

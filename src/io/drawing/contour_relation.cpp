@@ -12,7 +12,6 @@ namespace {
 
 using geom::Contour;
 using geom::Edge;
-using geom::EdgeKind;
 using geom::Point;
 
 /// Parts of a contour are halved until they are this share of the reach long.
@@ -20,56 +19,10 @@ constexpr double kFinest = 1.0 / 64;
 /// The reach is no less than this, mm, or halving would not end.
 constexpr double kLeastReach = 1e-6;
 
-/// Returns the points of a part between its ends where its distance from the line or circle that carries a
-/// curve may have an extreme.
-std::vector<Point> extremes(const Edge& part, const geom::Curve& curve) {
-  const geom::Curve whole = geom::make_curve(part);
-  if (part.kind == EdgeKind::line) {
-    if (curve.edge.kind == EdgeKind::line) return {};
-    const double foot = dot(curve.edge.centre - part.from, whole.unit);
-    if (!(foot > 0 && foot < whole.length)) return {};
-    return {part.from + foot * whole.unit};
-  }
-  const Point axis =
-      curve.edge.kind == EdgeKind::line ? perpendicular(curve.unit) : part.centre - curve.edge.centre;
-  std::vector<Point> found;
-  const double length = norm(axis);
-  if (!(length > 0)) return found;
-  for (const double along : {whole.radius / length, -whole.radius / length})
-    if (geom::faces(whole, along * axis)) found.push_back(part.centre + along * axis);
-  return found;
-}
-
-/// Returns the distance from the line or circle that carries a curve, with a sign for its two sides.
-double off_carrier(const geom::Curve& curve, Point p) {
-  if (curve.edge.kind == EdgeKind::line) return cross(curve.unit, p - curve.edge.from);
-  return norm(p - curve.edge.centre) - curve.radius;
-}
-
 /// Says whether all of a part is farther than reach from what carries a curve, on one side of it.
 bool is_beyond(const Edge& part, const geom::Curve& curve, double reach) {
-  const double from = off_carrier(curve, part.from), to = off_carrier(curve, part.to);
-  double low = std::min(from, to), high = std::max(from, to);
-  for (const Point p : extremes(part, curve)) {
-    low = std::min(low, off_carrier(curve, p)), high = std::max(high, off_carrier(curve, p));
-  }
+  const auto [low, high] = range_off_carrier(part, curve);
   return low > reach || high < -reach;
-}
-
-/// Says of a part with this middle that all of it is within reach of a curve, as can be told from a few of
-/// its points. So a long arc beside another is not cut into parts as short as the reach.
-bool runs_along(const Edge& part, Point middle, const geom::Curve& curve, double reach) {
-  const auto is_near = [&](Point p) { return norm(nearest_on(curve, p) - p) <= reach; };
-  if (!is_near(part.from) || !is_near(part.to)) return false;
-  const bool line = part.kind == EdgeKind::line, other_line = curve.edge.kind == EdgeKind::line;
-  if (line && other_line) return true;
-  // A place near an arc's circle is near the arc, unless it lies in the arc's gap.
-  if (!line && !(geom::arc_sweep(part) < 1)) return false;
-  if (!other_line && !curve.full && !(geom::arc_sweep(curve.edge) < 5)) return false;
-  if (!is_near(middle)) return false;
-  const std::vector<Point> inner = extremes(part, curve);
-  return std::all_of(inner.begin(), inner.end(),
-                     [&](Point p) { return std::abs(off_carrier(curve, p)) <= reach; });
 }
 
 Contour anticlockwise(const Contour& contour) {
@@ -99,7 +52,8 @@ PlacedContour::Sides PlacedContour::sides_of(const PlacedContour& other, double 
     if (near.distance > reach) (other.contains(halves.middle) ? sides.inside : sides.outside) = true;
     // Nothing of the part is on the other side, or nothing of it is beyond reach.
     if (near.distance - halves.half_length > reach || near.distance + halves.half_length <= reach) continue;
-    if (runs_along(part, halves.middle, other.index_.curves()[near.edge], reach)) continue;
+    const auto along = farthest_along(part, other.index_.curves()[near.edge]);
+    if (along && *along <= reach) continue;
     // Two edges may part so slowly that neither middle nor length tells that all is beyond reach.
     if (near.distance > reach) {
       bool beyond = true;

@@ -387,8 +387,7 @@ class Settling {
           in_common_.count(pair) > 0)
         continue;
       const double one = placed(a).area(), other = placed(b).area();
-      if (std::min(one, other) > kMostOfLines * std::max(one, other) ||
-          shared(a, b) <= kMostShared)
+      if (std::min(one, other) > kMostOfLines * std::max(one, other) || shared(a, b) <= kMostShared)
         meeting.relation = Relation::neighbours;
     }
   }

@@ -94,6 +94,7 @@ class Assembly {
     }
     if (contours_.empty()) return refuse(empty_sentence());
     LEKALO_CHECK(nest());
+    if (!options_.strict) mark_small_faces();
     set_aside_contents();
     if (result_.regions.empty()) return refuse(empty_sentence());
     place_marks();
@@ -973,6 +974,45 @@ class Assembly {
     return {};
   }
 
+  /// Contours that lines enclose only together, and that are no larger than what is mended, are by-products
+  /// of lines that run past each other: their lines are marks. A circle of that size is a hole as it is
+  /// drawn.
+  void mark_small_faces() {
+    std::vector<char> of_faces(worked_.size(), 0);
+    for (const BranchChain& branch : branches_)
+      for (const std::uint32_t curve : branch.curves) of_faces[curve] = 1;
+    for (const std::uint32_t curve : touching_) of_faces[curve] = 1;
+    std::vector<LooseEdge> marks;
+    std::vector<std::uint32_t> curve_of_edge;
+    std::vector<geom::Region> regions;
+    std::size_t edge = 0;
+    const auto stays = [&](const geom::Contour& contour, bool on_what_stays) {
+      const std::size_t first = edge;
+      edge += contour.size();
+      const geom::Box box = geom::bounds(contour);
+      bool kept = on_what_stays && norm(box.high - box.low) > 2 * options_.repair;
+      for (std::size_t k = first; k < edge && on_what_stays; ++k)
+        kept = kept || of_faces[result_.curve_of_edge[k]] == 0;
+      for (std::size_t k = first; k < edge; ++k) {
+        if (kept)
+          curve_of_edge.push_back(result_.curve_of_edge[k]);
+        else
+          marks.push_back({contour[k - first], result_.curve_of_edge[k]});
+      }
+      return kept;
+    };
+    for (geom::Region& region : result_.regions) {
+      const bool outer_stays = stays(region.outer, true);
+      std::vector<geom::Contour> holes;
+      for (geom::Contour& hole : region.holes)
+        if (stays(hole, outer_stays)) holes.push_back(std::move(hole));
+      if (outer_stays) regions.push_back({std::move(region.outer), std::move(holes)});
+    }
+    result_.regions = std::move(regions);
+    result_.curve_of_edge = std::move(curve_of_edge);
+    add_marks(marks);
+  }
+
   void set_aside(AsideContour&& one) {
     SetAside aside{one.reason, one.contour.curves, std::move(one.contour.edges), 0, one.at, {}};
     std::sort(aside.curves.begin(), aside.curves.end());
@@ -1132,10 +1172,6 @@ class Assembly {
           "{}, and each is a part as it is drawn, the first that of {} and that of {} at {}",
           counted(neighbours_.size(), "pair of contours overlaps", "pairs of contours overlap"),
           name(neighbours_.front().first), name(neighbours_.front().second), text(neighbours_.front().at)));
-    for (std::size_t i = 0; i < result_.set_aside.size() && i < kMostKinds; ++i)
-      notices.push_back("set aside: " + result_.set_aside[i].sentence);
-    if (result_.set_aside.size() > kMostKinds)
-      notices.push_back("set aside: " + counted(result_.set_aside.size() - kMostKinds, "shape") + " more");
     if (!result_.marks.empty())
       notices.push_back(fmt::format("{}, the first from {} to {}",
                                     counted(result_.marks.size(), "line that encloses nothing is a mark",
@@ -1185,6 +1221,14 @@ const char* word_of(AsideReason reason) noexcept {
       break;
   }
   return "no curve";
+}
+
+void tell_set_aside(const std::vector<std::string>& sentences, std::vector<std::string>& notices) {
+  constexpr std::size_t kMostTold = 1000;
+  for (std::size_t i = 0; i < sentences.size() && i < kMostTold; ++i)
+    notices.push_back("set aside: " + sentences[i]);
+  if (sentences.size() > kMostTold)
+    notices.push_back(fmt::format("set aside: {} more", sentences.size() - kMostTold));
 }
 
 Result<DrawnRegions> make_regions(const Drawing& drawing, const DrawingOptions& options) {

@@ -28,7 +28,78 @@ std::vector<Curve> curves_of(const std::vector<Edge>& edges) {
   return curves;
 }
 
+/// Returns the points of a part between its ends where its distance from the line or circle that carries a
+/// curve may have an extreme.
+std::vector<Point> extremes(const Edge& part, const Curve& curve) {
+  const Curve whole = geom::make_curve(part);
+  if (part.kind == EdgeKind::line) {
+    if (curve.edge.kind == EdgeKind::line) return {};
+    const double foot = dot(curve.edge.centre - part.from, whole.unit);
+    if (!(foot > 0 && foot < whole.length)) return {};
+    return {part.from + foot * whole.unit};
+  }
+  const Point axis =
+      curve.edge.kind == EdgeKind::line ? perpendicular(curve.unit) : part.centre - curve.edge.centre;
+  std::vector<Point> found;
+  const double length = norm(axis);
+  if (!(length > 0)) return found;
+  for (const double along : {whole.radius / length, -whole.radius / length})
+    if (geom::faces(whole, along * axis)) found.push_back(part.centre + along * axis);
+  return found;
+}
+
+/// Says whether every point of a part has its foot, on the line or circle that carries a curve, within the
+/// curve. No may be said of a part of which that is true.
+bool stands_on(const Edge& part, const Curve& curve) {
+  if (curve.edge.kind == EdgeKind::line) {
+    const auto within = [&](Point p) {
+      const double along = dot(p - curve.edge.from, curve.unit);
+      return along >= 0 && along <= curve.length;
+    };
+    if (!within(part.from) || !within(part.to)) return false;
+    if (part.kind == EdgeKind::line) return true;
+    const Curve whole = geom::make_curve(part);
+    for (const double along : {whole.radius, -whole.radius})
+      if (geom::faces(whole, along * curve.unit) && !within(part.centre + along * curve.unit)) return false;
+    return true;
+  }
+  // Seen from well within its circle, an arc of less than a radian goes one way, and less than two radians.
+  const Point centre = curve.edge.centre;
+  if (part.kind != EdgeKind::line &&
+      !(geom::arc_sweep(part) < 1 && 2 * norm(centre - part.centre) <= norm(part.from - part.centre)))
+    return false;
+  if (curve.full) return true;
+  // So the part goes the short way from its one end to the other, and the gap is longer than that.
+  return geom::arc_sweep(curve.edge) < 4.7 && dot(part.from - centre, part.to - centre) > 0 &&
+         geom::faces(curve, part.from - centre) && geom::faces(curve, part.to - centre);
+}
+
 }  // namespace
+
+double off_carrier(const Curve& curve, Point p) {
+  if (curve.edge.kind == EdgeKind::line) return cross(curve.unit, p - curve.edge.from);
+  return norm(p - curve.edge.centre) - curve.radius;
+}
+
+std::pair<double, double> range_off_carrier(const Edge& part, const Curve& curve) {
+  const double from = off_carrier(curve, part.from), to = off_carrier(curve, part.to);
+  std::pair<double, double> range = std::minmax({from, to});
+  for (const Point p : extremes(part, curve)) {
+    const double off = off_carrier(curve, p);
+    range = {std::min(range.first, off), std::max(range.second, off)};
+  }
+  return range;
+}
+
+std::optional<double> farthest_along(const Edge& part, const Curve& curve) {
+  // A line is nowhere farther from another than at its ends.
+  if (part.kind == EdgeKind::line && curve.edge.kind == EdgeKind::line)
+    return std::max(norm(nearest_on(curve, part.from) - part.from),
+                    norm(nearest_on(curve, part.to) - part.to));
+  if (!stands_on(part, curve)) return std::nullopt;
+  const auto [low, high] = range_off_carrier(part, curve);
+  return std::max(-low, high);
+}
 
 Bisected bisected(const Edge& edge) {
   Bisected halves{edge, edge, {}, 0};
@@ -69,14 +140,9 @@ std::optional<double> NearEdges::farthest(const Edge& edge, double limit, std::s
     const auto middle = distance(halves.middle, limit);
     if (!middle) return std::nullopt;
     double bound = *middle + halves.half_length;
-    if (part.kind == EdgeKind::line) {
-      // A line is nowhere farther from another than at its ends.
-      tree_.visit_meeting(geom::grown({halves.middle, halves.middle}, limit), [&](std::uint32_t i) {
-        if (curves_[i].edge.kind != EdgeKind::line) return;
-        bound = std::min(bound, std::max(norm(nearest_on(curves_[i], part.from) - part.from),
-                                         norm(nearest_on(curves_[i], part.to) - part.to)));
-      });
-    }
+    tree_.visit_meeting(geom::grown({halves.middle, halves.middle}, limit), [&](std::uint32_t i) {
+      if (const auto along = farthest_along(part, curves_[i])) bound = std::min(bound, *along);
+    });
     if (bound <= largest) continue;
     const bool fine = halves.half_length <= limit * kFinest || !(halves.half_length > 0);
     if (bound <= *middle + limit * kFinest || fine) {

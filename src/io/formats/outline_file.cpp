@@ -234,6 +234,9 @@ Result<ReadOutline> OutlineFile::read_drawing() const {
   for (const std::uint32_t curve : drawn.curve_of_edge)
     read.outline.labels.push_back(drawing.layers[drawing.curves[curve].layer].name);
   read.notices = std::move(drawn.notices);
+  std::vector<std::string> aside;
+  for (const SetAside& one : drawn.set_aside) aside.push_back(one.sentence);
+  tell_set_aside(aside, read.notices);
   return read;
 }
 

@@ -239,13 +239,6 @@ void give_ids(std::vector<layout::Part>& parts) {
   }
 }
 
-/// The first sentences of a list that may be long.
-void tell_set_aside(const std::vector<std::string>& list, std::vector<std::string>& notices) {
-  constexpr std::size_t kMostTold = 20;
-  for (std::size_t i = 0; i < list.size() && i < kMostTold; ++i) notices.push_back("set aside: " + list[i]);
-  if (list.size() > kMostTold) notices.push_back(fmt::format("set aside: {} more", list.size() - kMostTold));
-}
-
 /// A notice where outlines are not exactly what is drawn.
 void tell_tolerance(double tolerance, const std::string& name, std::vector<std::string>& notices) {
   if (tolerance > geom::kGridStep)
@@ -270,6 +263,7 @@ Result<StocksFile> read_stocks(std::string_view bytes, const std::string& name, 
                           options.chord_tolerance));
     file.stocks.push_back(std::move(sheet));
   }
+  tell_set_aside(drawn.set_aside, file.notices);
   tell_tolerance(drawn.tolerance, name, file.notices);
   return file;
 }

@@ -6,6 +6,7 @@
 
 #include "lekalo/base/stop.hpp"
 #include "lekalo/layout/check.hpp"
+#include "nest/exact/columns.hpp"
 #include "nest/table/simplify.hpp"
 #include "outer_outlines.hpp"
 #include "run.hpp"
@@ -60,6 +61,27 @@ Nested as_given(const layout::Document& document, bool from_given) {
   return nested;
 }
 
+/// The layout that a search finds until a stop.
+Nested found_until_stop(const layout::Document& document, const Options& options, const RunControl& control) {
+  SearchOptions search;
+  search.angles_of_any = std::clamp<std::size_t>(options.angles, 1, 360);
+  search.given_angles = options.from_given;
+  search.remnant = options.remnant;
+  // A run has a work limit of its own, and nothing but its flag ends it sooner.
+  RunControl until_stop;
+  until_stop.stop = control.stop;
+  const Listening listening(until_stop);
+  try {
+    const layout::Document searched = with_outer_outlines(document, options.from_given);
+    const Problem problem(document, searched, search);
+    Wanted wanted = wanted_items(problem, options.from_given);
+    add_partners(problem, options.pair_distance, wanted.items);
+    return run(problem, wanted, options, control);
+  } catch (const Stopped&) {
+    return as_given(document, options.from_given);
+  }
+}
+
 }  // namespace
 
 std::string_view name_of(Reason reason) noexcept {
@@ -80,23 +102,11 @@ std::string_view name_of(Reason reason) noexcept {
 
 Result<Nested> nest(const layout::Document& document, const Options& options, const RunControl& control) {
   LEKALO_CHECK(check_document(document, options.from_given));
-  SearchOptions search;
-  search.angles_of_any = std::clamp<std::size_t>(options.angles, 1, 360);
-  search.given_angles = options.from_given;
-  search.remnant = options.remnant;
-  // A run has a work limit of its own, and nothing but its flag ends it sooner.
-  RunControl until_stop;
-  until_stop.stop = control.stop;
-  const Listening listening(until_stop);
-  try {
-    const layout::Document searched = with_outer_outlines(document, options.from_given);
-    const Problem problem(document, searched, search);
-    Wanted wanted = wanted_items(problem, options.from_given);
-    add_partners(problem, options.pair_distance, wanted.items);
-    return run(problem, wanted, options, control);
-  } catch (const Stopped&) {
-    return as_given(document, options.from_given);
-  }
+  Nested nested = found_until_stop(document, options, control);
+  const RunControl to_the_end;
+  const Listening listening(to_the_end);
+  place_in_columns(nested.document, nested.unplaced);
+  return nested;
 }
 
 }  // namespace lekalo::nest

@@ -161,7 +161,8 @@ class DxfReader {
       if (!is(9, "$INSUNITS")) continue;
       ++at_;
       const auto number = at_end() ? std::nullopt : parse_decimal(pairs_[at_].value);
-      const long code = number ? static_cast<long>(approximate(*number)) : -1;
+      const long code = number ? whole(*number) : -1;
+      if (!complaint_.empty()) return;
       if (code == 0) continue;
       const auto unit = unit_of(code);
       if (!unit) return complain("its unit is not known here");
@@ -210,9 +211,14 @@ class DxfReader {
     if (!value) complain(fmt::format("\"{}\" is no number", excerpt(pair.value)));
     return value;
   }
-  static bool bit(const Decimal& flags, long which) {
-    return (static_cast<long>(approximate(flags)) & which) != 0;
+  /// A count or a list of bits. 0, and the drawing is not read, where it is no whole number of a usual size.
+  long whole(const Decimal& value) {
+    const double number = approximate(value);
+    if (std::abs(number) <= 1e9 && number == std::floor(number)) return static_cast<long>(number);
+    complain(fmt::format("{:g} is no whole number of up to 1e9", number));
+    return 0;
   }
+  bool bit(const Decimal& flags, long which) { return (whole(flags) & which) != 0; }
   [[nodiscard]] Span in_mm(Decimal length) const {
     length.digits *= unit_.digits, length.exponent += unit_.exponent;
     return enclosed(length);
@@ -385,7 +391,7 @@ class DxfReader {
         continue;
       const auto value = number_of(pair);
       if (!value) return;
-      if (pair.code == 71) degree = static_cast<long>(approximate(*value));
+      if (pair.code == 71) degree = whole(*value);
       if (pair.code == 40) knots.push_back(to_fraction(*value));
       if (pair.code == 41) weighed = weighed || compare(*value, Decimal{1, 0}) != 0;
       if (pair.code == 10) x = *value;
@@ -450,8 +456,7 @@ class DxfReader {
     const Span sx = enclosed(or_else(41, 1)), sy = enclosed(or_else(42, 1));
     const Vec turn = direction(to_fraction(or_else(50, 0)));
     const Vec along{turn.x, turn.y}, across{-turn.y, turn.x};
-    const long columns = std::max(1L, static_cast<long>(approximate(or_else(70, 1)))),
-               rows = std::max(1L, static_cast<long>(approximate(or_else(71, 1))));
+    const long columns = std::max(1L, whole(or_else(70, 1))), rows = std::max(1L, whole(or_else(71, 1)));
     if (static_cast<double>(columns) * static_cast<double>(rows) > static_cast<double>(kMostCurves))
       return complain("an INSERT makes too many copies");
     const Span dx = in_mm(or_else(44, 0)), dy = in_mm(or_else(45, 0));

@@ -83,6 +83,7 @@ class ShapeReader {
   }
 
   WrittenPoint point(Fields& fields, std::string_view key) {
+    if (auto usual = two_numbers(fields.get(key))) return *std::move(usual);
     std::vector<Decimal> numbers;
     fields.each(key, [&](Json item, const std::string& path) {
       if (numbers.size() < 3) numbers.push_back(fields.number_of(item, path));
@@ -100,6 +101,22 @@ class ShapeReader {
     return {numbers[0], numbers[1]};
   }
 
+  /// Returns a point that is written as points are, of which nobody has to be told anything.
+  [[nodiscard]] std::optional<WrittenPoint> two_numbers(Json value) const {
+    if (inch_ || !value.is_array()) return std::nullopt;
+    JsonItems items(value);
+    const auto read = [&]() -> std::optional<Decimal> {
+      const auto item = items.next();
+      auto number = item && item->is_number() ? parse_decimal(item->text) : std::nullopt;
+      if (!number || !(std::abs(approximate(*number)) <= limits::kLargestCoordinate)) return std::nullopt;
+      return number;
+    };
+    auto x = read();
+    auto y = x ? read() : std::nullopt;
+    if (!y || items.next()) return std::nullopt;
+    return WrittenPoint{*std::move(x), *std::move(y)};
+  }
+
   void read_contour(Json value, const std::string& path) { read_edges(value, path, false); }
 
   /// Reads the edges of a contour, or loose ones.
@@ -108,14 +125,18 @@ class ShapeReader {
     std::vector<Json> edges;
     for (JsonItems items(value); const auto item = items.next();) edges.push_back(*item);
     std::optional<WrittenPoint> begin, at;
+    // The end of the edge before, as it is written: as a rule the next edge begins in the same words.
+    std::string_view end;
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const std::string name = fmt::format("{}[{}]", path, i);
       Fields edge(edges[i], name, complaint_);
       const bool arc = !edge.get("arc").text.empty();
       if (arc && !edge.get("line").text.empty()) return complain(name + " is a line and an arc");
       Fields inner(edge.get(arc ? "arc" : "line"), name, complaint_);
-      WrittenPoint from = point(inner, "from"), to = point(inner, "to");
       if (loose) at = begin = std::nullopt;
+      WrittenPoint from = at && inner.get("from").text == end ? *at : point(inner, "from");
+      WrittenPoint to = point(inner, "to");
+      end = inner.get("to").text;
       if (at && !same_as_doubles(*at, from))
         return complain(name + " does not begin where the edge before it ends");
       // Decimals of one double may differ; what counts is closed exactly.
@@ -127,15 +148,12 @@ class ShapeReader {
       if (!open.text.empty() && !open.is_bool()) complain(name + ".open is neither true nor false");
       if (!complaint_.empty()) return;
       const std::size_t first = shape_.sides.size();
-      arc ? add_arc(inner, from, to, name) : add_line(from, to, name);
+      const WrittenPoint centre = arc ? point(inner, "centre") : WrittenPoint{};
+      arc ? add_arc(inner, from, to, centre, name) : add_line(from, to, name);
       for (std::size_t s = first; s < shape_.sides.size(); ++s) shape_.sides[s].open = open.is_true();
       // Lines that join an arc to its ends have the arc's decimals.
-      WrittenSide exact{arc, !arc || inner.get("ccw").is_true(), from.x, from.y, to.x, to.y, {}, {}};
-      if (arc && complaint_.empty()) {
-        const WrittenPoint centre = point(inner, "centre");
-        exact.centre_x = centre.x, exact.centre_y = centre.y;
-      }
-      shape_.exact.resize(shape_.sides.size(), exact);
+      shape_.exact.resize(shape_.sides.size(), {arc, !arc || inner.get("ccw").is_true(), from.x, from.y, to.x,
+                                                to.y, centre.x, centre.y});
     }
     if (loose) return;
     if (!begin || !(*begin == *at)) return complain(path + " is not closed");
@@ -154,14 +172,14 @@ class ShapeReader {
     shape_.sides.push_back(side);
   }
 
-  void add_arc(Fields& fields, const WrittenPoint& from, const WrittenPoint& to, const std::string& name) {
+  void add_arc(Fields& fields, const WrittenPoint& from, const WrittenPoint& to, const WrittenPoint& centre,
+               const std::string& name) {
     const Json ccw = fields.get("ccw");
     if (!ccw.is_bool()) return complain(name + ".ccw is neither true nor false");
     Side side;
     side.arc = true;
     side.ccw = ccw.is_true();
     side.from = side.written_from = from.enclosed(), side.to = side.written_to = to.enclosed();
-    const WrittenPoint centre = point(fields, "centre");
     if (!complaint_.empty()) return;
     side.centre = centre.enclosed();
     const auto sweep = sweep_of(side.ccw ? from : to, side.ccw ? to : from, centre);

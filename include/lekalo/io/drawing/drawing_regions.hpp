@@ -113,7 +113,8 @@ struct DrawnRegions {
   /// Sentences about closed lines that are marks, because they cross an outline that is far larger: what they
   /// enclose may be meant to be cut off.
   std::vector<std::string> doubtful;
-  /// Sentences about layers left out, gaps, duplicates, mends, marks, what was set aside and not read.
+  /// Sentences about layers left out, gaps, duplicates, mends, marks and what was not read; those about what
+  /// was set aside are in `set_aside`.
   std::vector<std::string> notices;
 };
 
@@ -130,6 +131,10 @@ struct DrawingRecord {
 };
 [[nodiscard]] DrawingRecord record_of(const Drawing& drawing, const DrawingOptions& how,
                                       const DrawnRegions& drawn);
+
+/// Adds a notice for each sentence about what was set aside, a thousand at most, and one with how many more
+/// there are.
+void tell_set_aside(const std::vector<std::string>& sentences, std::vector<std::string>& notices);
 
 /// Joins, closes, mends, nests and checks. Fails with ErrorCode::bad_input where a layer is not there and
 /// where nothing is enclosed, with one sentence that counts what there is by kind and layer; with `strict`

@@ -1,0 +1,169 @@
+#include "columns.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "lekalo/layout/check.hpp"
+
+namespace lekalo::nest {
+namespace {
+
+using geom::GridBox;
+using geom::GridPoint;
+using geom::GridRotation;
+using layout::Document;
+using layout::Placement;
+
+std::int64_t width(const GridBox& box) { return box.high.x - box.low.x; }
+std::int64_t height(const GridBox& box) { return box.high.y - box.low.y; }
+
+/// A piece in one of its allowed positions, and the box that it has there.
+struct Piece {
+  std::uint32_t part = 0;
+  GridRotation rotation;
+  GridBox box;
+};
+
+/// The angle to which the columns turn a part: upright, lying, or the first that is allowed.
+std::optional<Piece> turned_piece(const layout::Part& part, std::uint32_t number, const layout::Stock& on) {
+  std::vector<double> angles{0, 90, 180, 270};
+  for (const layout::AngleRange& range : part.rotations) angles.push_back(range.from);
+  for (const double degrees : angles) {
+    const GridRotation rotation = geom::rotation_from_degrees(degrees);
+    if (!rotation_allowed(part, rotation) || !grain_allowed(part, on, rotation, false)) continue;
+    return Piece{number, rotation, geom::bounds(geom::turned(part.outline.polygon, rotation, false))};
+  }
+  return std::nullopt;
+}
+
+/// The free rest of one copy of a stock, with the column that is filled.
+class Columns {
+ public:
+  Columns(const GridBox& room, std::int64_t gap)
+      : room_(room), gap_(gap), column_(room.low), x_(room.low.x) {}
+
+  /// Returns where the lower left corner of a box goes.
+  std::optional<GridPoint> take(const GridBox& box) {
+    if (column_.y + height(box) > room_.high.y) column_ = {x_, room_.low.y};
+    if (column_.y + height(box) > room_.high.y || column_.x + width(box) > room_.high.x) return std::nullopt;
+    const GridPoint at = column_;
+    x_ = std::max(x_, column_.x + width(box) + gap_);
+    column_.y += height(box) + gap_;
+    return at;
+  }
+
+ private:
+  GridBox room_;
+  std::int64_t gap_;
+  GridPoint column_;
+  std::int64_t x_;  ///< where the next column begins
+};
+
+/// Places pieces on the copies of one stock, one copy after the other; what finds no room is given back.
+class Filler {
+ public:
+  Filler(Document& document, std::uint32_t stock) : document_(document), stock_(stock) {
+    for (const layout::Part& part : document.parts) {
+      gap_ = std::max(gap_, layout::gap_between(document, part, part));
+      border_ = std::max(border_, layout::border_gap_of(document, part));
+    }
+    for (const Placement& p : document.placements) {
+      if (p.stock != stock) continue;
+      const std::int64_t far = geom::bounds(placed_outline(document.parts[p.part], p)).high.x + gap_;
+      const auto [at, is_new] = used_.emplace(p.copy, far);
+      at->second = std::max(at->second, far);
+    }
+  }
+
+  std::vector<std::uint32_t> fill(const std::vector<std::uint32_t>& parts) {
+    const layout::Stock& stock = document_.stocks[stock_];
+    std::map<std::uint32_t, std::optional<Piece>> turned;
+    for (const std::uint32_t part : parts)
+      if (turned.count(part) == 0) turned[part] = turned_piece(document_.parts[part], part, stock);
+    std::vector<std::uint32_t> open = parts;
+    std::stable_sort(open.begin(), open.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const auto rank = [&](std::uint32_t part) {
+        return std::pair(-document_.parts[part].priority, turned[part] ? -width(turned[part]->box) : 0);
+      };
+      return rank(a) < rank(b);
+    });
+    for (std::int64_t copy = 0; copy < stock.count && !open.empty(); ++copy) {
+      Columns columns(room_of(copy), gap_);
+      std::vector<std::uint32_t> left;
+      for (const std::uint32_t part : open) {
+        const std::optional<Piece>& piece = turned[part];
+        const auto at = piece ? columns.take(piece->box) : std::nullopt;
+        if (!at) {
+          left.push_back(part);
+          continue;
+        }
+        document_.placements.push_back(
+            {document_.next_id++, part, stock_, copy, piece->rotation, false, *at - piece->box.low, false});
+      }
+      // A copy on which nothing lies yet, and that takes nothing, says that no other one takes anything.
+      const bool took_none = left.size() == open.size() && used_.count(copy) == 0;
+      open = std::move(left);
+      if (took_none) break;
+    }
+    return open;
+  }
+
+ private:
+  [[nodiscard]] GridBox room_of(std::int64_t copy) const {
+    GridBox room = geom::bounds(document_.stocks[stock_].outline.polygon);
+    room.low = room.low + GridPoint{border_, border_};
+    room.high = room.high - GridPoint{border_, border_};
+    if (const auto used = used_.find(copy); used != used_.end())
+      room.low.x = std::max(room.low.x, used->second);
+    return room;
+  }
+
+  Document& document_;
+  std::uint32_t stock_;
+  std::int64_t gap_ = 0, border_ = 0;
+  std::map<std::int64_t, std::int64_t> used_;  ///< by copy: how far to the right something lies
+};
+
+bool is_rectangle(const layout::Stock& stock) {
+  const geom::GridRegion& outline = stock.outline.polygon;
+  return geom::twice_area(outline) == geom::twice_area(geom::rectangle(geom::bounds(outline)));
+}
+
+/// Takes off what breaks a rule of the pieces with ids from `first` on.
+void take_off_violations(Document& document, std::uint64_t first) {
+  std::set<std::uint64_t> wrong;
+  for (const layout::Violation& one : layout::check(document)) wrong.insert(std::max(one.a, one.b));
+  std::erase_if(document.placements,
+                [&](const Placement& p) { return p.id >= first && wrong.count(p.id) > 0; });
+}
+
+}  // namespace
+
+void place_in_columns(Document& document, std::vector<Unplaced>& unplaced) {
+  if (!document.kits.empty()) return;
+  std::vector<std::uint32_t> open;
+  for (const Unplaced& one : unplaced)
+    if (one.reason == Reason::not_tried)
+      open.insert(open.end(), static_cast<std::size_t>(one.count), one.part);
+  if (open.empty()) return;
+  std::vector<std::uint32_t> stocks;
+  for (std::uint32_t s = 0; s < document.stocks.size(); ++s)
+    if (is_rectangle(document.stocks[s])) stocks.push_back(s);
+  std::stable_sort(stocks.begin(), stocks.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return document.stocks[a].cost < document.stocks[b].cost;
+  });
+  const std::uint64_t first = document.next_id;
+  for (const std::uint32_t stock : stocks) open = Filler(document, stock).fill(open);
+  take_off_violations(document, first);
+  std::map<std::uint32_t, std::int64_t> placed;
+  for (const Placement& p : document.placements)
+    if (p.id >= first) ++placed[p.part];
+  for (Unplaced& one : unplaced)
+    if (one.reason == Reason::not_tried) one.count -= std::exchange(placed[one.part], 0);
+  std::erase_if(unplaced, [](const Unplaced& one) { return one.count == 0; });
+}
+
+}  // namespace lekalo::nest
