@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "layout_json.hpp"
+#include "lekalo/base/parallel.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/jobs/check.hpp"
 #include "nest_checked.hpp"
@@ -153,10 +154,16 @@ Result<Nested> nest_checked(const Nester& nester, const Document& document, cons
   const RunControl nobody;
   std::optional<Listening> to_the_end;
   if (control.stop_requested()) to_the_end.emplace(nobody);
-  LEKALO_TRY(Confirmed best, confirmed(document, found.document));
-  layout::Completeness completeness = layout::completeness(layout::Workspace(best.document));
+  Result<Confirmed> best = Confirmed{};
+  layout::Completeness completeness;
+  share_out(2, kUsualThreads, [&](std::size_t task) {
+    if (task == 0) best = confirmed(document, found.document);
+    if (task == 1)
+      completeness = layout::completeness(layout::Workspace(placed_as(document, found.document)));
+  });
+  LEKALO_CHECK(best);
   return Nested{
-      std::move(best.document), std::move(best.bytes), std::move(found.unplaced), found.work, found.merges,
+      std::move(best->document), std::move(best->bytes), std::move(found.unplaced), found.work, found.merges,
       std::move(completeness)};
 }
 

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "layout_document.hpp"
+#include "lekalo/base/parallel.hpp"
 #include "lekalo/base/stop.hpp"
 
 namespace lekalo::verify {
@@ -64,21 +65,19 @@ bool demands_more(const Placed& placed_part, const WrittenStockFeature& zone) {
   return have_common_disc({&placed_part.outline, &zone.outline}, excused);
 }
 
-class Checker {
+/// Checks what lies on one copy of a stock.
+class SheetChecker {
  public:
-  explicit Checker(const WrittenLayout& layout) : layout_(layout) {}
+  explicit SheetChecker(const WrittenLayout& layout) : layout_(layout) {}
 
-  std::vector<Found> check() {
-    std::map<std::pair<std::size_t, std::int64_t>, std::vector<Placed>> sheets;
-    for (const WrittenPiece& piece : layout_.placements) {
-      const WrittenPart& part = layout_.parts[piece.part];
-      sheets[{piece.stock, piece.copy}].push_back({&piece, &part, placed_outline(part.outline, piece)});
+  std::vector<Found> check(const std::vector<const WrittenPiece*>& on_it) {
+    std::vector<Placed> pieces;
+    for (const WrittenPiece* piece : on_it) {
+      const WrittenPart& part = layout_.parts[piece->part];
+      pieces.push_back({piece, &part, placed_outline(part.outline, *piece)});
     }
-    for (auto& [sheet, pieces] : sheets) {
-      for (const Placed& piece : pieces) check_alone(piece);
-      check_pairs(pieces);
-    }
-    std::sort(found_.begin(), found_.end(), [](const Found& p, const Found& q) { return p.key() < q.key(); });
+    for (const Placed& piece : pieces) check_alone(piece);
+    check_pairs(pieces);
     return std::move(found_);
   }
 
@@ -142,6 +141,21 @@ class Checker {
   std::vector<Found> found_;
 };
 
+/// Sheets have nothing to do with each other, so two of them are looked at at a time.
+std::vector<Found> found_on_sheets(const WrittenLayout& layout) {
+  std::map<std::pair<std::size_t, std::int64_t>, std::vector<const WrittenPiece*>> by_sheet;
+  for (const WrittenPiece& piece : layout.placements) by_sheet[{piece.stock, piece.copy}].push_back(&piece);
+  std::vector<std::vector<const WrittenPiece*>> sheets;
+  for (auto& [sheet, pieces] : by_sheet) sheets.push_back(std::move(pieces));
+  std::vector<std::vector<Found>> found(sheets.size());
+  share_out(sheets.size(), kUsualThreads,
+            [&](std::size_t i) { found[i] = SheetChecker(layout).check(sheets[i]); });
+  std::vector<Found> all;
+  for (const std::vector<Found>& one : found) all.insert(all.end(), one.begin(), one.end());
+  std::sort(all.begin(), all.end(), [](const Found& p, const Found& q) { return p.key() < q.key(); });
+  return all;
+}
+
 }  // namespace
 
 GridOutline placed_outline(const GridOutline& outline, const WrittenPiece& piece) {
@@ -169,7 +183,7 @@ Result<LayoutVerdict> verify_layout(const Document& document) {
   LEKALO_TRY(const auto layout, read_layout(document));
   LayoutVerdict verdict;
   verdict.placements = layout.placements.size();
-  for (const Found& found : Checker(layout).check()) {
+  for (const Found& found : found_on_sheets(layout)) {
     const WrittenStock& stock = layout.stocks[found.stock];
     LayoutViolation violation{found.kind, found.a, found.b, stock.id, found.copy, {}};
     if (found.kind == LayoutRule::quality) violation.feature = stock.zones[found.feature].id;

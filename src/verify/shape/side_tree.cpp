@@ -44,14 +44,25 @@ std::uint32_t SideTree::build(std::uint32_t begin, std::uint32_t end) {
   nodes_.push_back({all, begin, end, 0});
   if (end - begin <= kLeaf) return at;
   const bool by_x = all.high_x - all.low_x >= all.high_y - all.low_y;
-  const auto place = [&](std::uint32_t side) {
-    const Box& box = boxes_[side];
-    return by_x ? box.low_x + box.high_x : box.low_y + box.high_y;
+  struct Placed {
+    double at;
+    std::uint32_t side;
   };
-  std::sort(order_.begin() + begin, order_.begin() + end, [&](std::uint32_t a, std::uint32_t b) {
-    return std::tuple(place(a), a) < std::tuple(place(b), b);
-  });
+  std::vector<Placed> placed;
+  placed.reserve(end - begin);
+  for (std::uint32_t k = begin; k < end; ++k) {
+    const Box& box = boxes_[order_[k]];
+    const double middles = by_x ? box.low_x + box.high_x : box.low_y + box.high_y;
+    placed.push_back({std::isnan(middles) ? 0 : middles, order_[k]});  // of a box that is everywhere
+  }
+  // The order is total, so that the halves are the same whatever the library's nth_element does.
   const std::uint32_t middle = begin + (end - begin) / 2;
+  std::nth_element(
+      placed.begin(), placed.begin() + (middle - begin), placed.end(),
+      [](const Placed& a, const Placed& b) { return std::tuple(a.at, a.side) < std::tuple(b.at, b.side); });
+  for (std::uint32_t k = begin; k < end; ++k) order_[k] = placed[k - begin].side;
+  for (const auto& [first, last] : {std::pair(begin, middle), std::pair(middle, end)})
+    if (last - first <= kLeaf) std::sort(order_.begin() + first, order_.begin() + last);
   build(begin, middle);
   nodes_[at].second = build(middle, end);
   return at;
