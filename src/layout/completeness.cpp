@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "kit_choice.hpp"
 #include "lekalo/geom/boolean.hpp"
@@ -90,6 +93,17 @@ SheetUse use_of(const Workspace& workspace, Sheet sheet, const std::vector<const
   return use;
 }
 
+/// A piece as it lies, without its name.
+using Lying = std::tuple<std::uint32_t, std::int64_t, std::int64_t, bool, std::int64_t, std::int64_t>;
+
+std::vector<Lying> lying_on(const std::vector<const Placement*>& placements) {
+  std::vector<Lying> lying;
+  for (const Placement* p : placements)
+    lying.emplace_back(p->part, p->rotation.c, p->rotation.s, p->mirrored, p->at.x, p->at.y);
+  std::sort(lying.begin(), lying.end());
+  return lying;
+}
+
 }  // namespace
 
 KitsMade kits_made(const Document& document, std::vector<PieceCount> placed) {
@@ -145,9 +159,14 @@ Completeness completeness(const Workspace& workspace) {
   }
 
   double parts_area = 0, material_area = 0;
+  // Large orders have many sheets on which the same lies, and the rest of one takes milliseconds to find.
+  std::map<std::pair<std::uint32_t, std::vector<Lying>>, SheetUse> known;
   for (const auto& [sheet, placements] : sheets) {
     if (sheet.copy < 0 || sheet.copy >= document.stocks[sheet.stock].count) continue;
-    const SheetUse& use = result.sheets.emplace_back(use_of(workspace, sheet, placements));
+    const auto [like, is_new] = known.try_emplace({sheet.stock, lying_on(placements)});
+    if (is_new) like->second = use_of(workspace, sheet, placements);
+    SheetUse& use = result.sheets.emplace_back(like->second);
+    use.sheet = sheet;
     parts_area += use.parts_area;
     material_area += use.material_area;
     result.cost += document.stocks[sheet.stock].cost;

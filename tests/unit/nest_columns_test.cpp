@@ -5,7 +5,9 @@
 
 #include "lekalo/geom/grid.hpp"
 #include "lekalo/layout/check.hpp"
+#include "lekalo/layout/completeness.hpp"
 #include "lekalo/layout/job.hpp"
+#include "lekalo/layout/workspace.hpp"
 #include "lekalo/nest/nest.hpp"
 
 // A run that is stopped before it has anything places what it can by boxes.
@@ -19,8 +21,7 @@ layout::Part triangle(double width, double height, std::int64_t demand) {
   layout::Part part;
   part.id = "triangle";
   part.outline.polygon =
-      *geom::make_grid_region(
-      {{{0, 0}, {geom::grid_from_mm(width), 0}, {0, geom::grid_from_mm(height)}}});
+      *geom::make_grid_region({{{0, 0}, {geom::grid_from_mm(width), 0}, {0, geom::grid_from_mm(height)}}});
   part.demand = demand;
   return part;
 }
@@ -54,6 +55,18 @@ TEST(NestColumns, ARunThatIsStoppedAtOncePlacesAllByTheirBoxes) {
   EXPECT_TRUE(layout::check(nested->document).empty());
   for (const std::int64_t copy : {0, 1}) EXPECT_EQ(on_copy(nested->document, copy), 12);
   EXPECT_EQ(on_copy(nested->document, 2), 6);
+}
+
+TEST(NestColumns, SheetsOnWhichTheSameLiesAreEachCounted) {
+  const auto nested = stopped_at_once(thirty_triangles());
+  ASSERT_TRUE(nested);
+  const auto sheets = layout::completeness(layout::Workspace(nested->document)).sheets;
+  ASSERT_EQ(sheets.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(sheets[k].sheet, (layout::Sheet{0, std::int64_t(k)}));
+  EXPECT_EQ(sheets[0].remnant, sheets[1].remnant);
+  EXPECT_EQ(sheets[0].parts, 12u);
+  EXPECT_EQ(sheets[2].parts, 6u);
+  EXPECT_NE(sheets[0].remnant, sheets[2].remnant);
 }
 
 TEST(NestColumns, WhatIsLockedStaysAndWhatFindsNoRoomIsToldAsNotTried) {

@@ -1,6 +1,7 @@
 #include "columns.hpp"
 
 #include <algorithm>
+#include <list>
 #include <map>
 #include <optional>
 #include <set>
@@ -62,6 +63,10 @@ class Columns {
   std::int64_t x_;  ///< where the next column begins
 };
 
+/// A copy is full when so many pieces in a row find no room on it: otherwise each copy would be asked about
+/// each piece.
+constexpr int kMostMissed = 500;
+
 /// Places pieces on the copies of one stock, one copy after the other; what finds no room is given back.
 class Filler {
  public:
@@ -83,32 +88,33 @@ class Filler {
     std::map<std::uint32_t, std::optional<Piece>> turned;
     for (const std::uint32_t part : parts)
       if (turned.count(part) == 0) turned[part] = turned_piece(document_.parts[part], part, stock);
-    std::vector<std::uint32_t> open = parts;
-    std::stable_sort(open.begin(), open.end(), [&](std::uint32_t a, std::uint32_t b) {
+    std::vector<std::uint32_t> sorted = parts;
+    std::stable_sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
       const auto rank = [&](std::uint32_t part) {
         return std::pair(-document_.parts[part].priority, turned[part] ? -width(turned[part]->box) : 0);
       };
       return rank(a) < rank(b);
     });
+    std::list<std::uint32_t> open(sorted.begin(), sorted.end());
     for (std::int64_t copy = 0; copy < stock.count && !open.empty(); ++copy) {
       Columns columns(room_of(copy), gap_);
-      std::vector<std::uint32_t> left;
-      for (const std::uint32_t part : open) {
-        const std::optional<Piece>& piece = turned[part];
-        const auto at = piece ? columns.take(piece->box) : std::nullopt;
-        if (!at) {
-          left.push_back(part);
+      bool took = false;
+      int missed = 0;
+      for (auto at = open.begin(); at != open.end() && missed < kMostMissed;) {
+        const std::optional<Piece>& piece = turned[*at];
+        const auto corner = piece ? columns.take(piece->box) : std::nullopt;
+        if (!corner) {
+          ++at, ++missed;
           continue;
         }
-        document_.placements.push_back(
-            {document_.next_id++, part, stock_, copy, piece->rotation, false, *at - piece->box.low, false});
+        document_.placements.push_back({document_.next_id++, *at, stock_, copy, piece->rotation, false,
+                                        *corner - piece->box.low, false});
+        at = open.erase(at), took = true, missed = 0;
       }
       // A copy on which nothing lies yet, and that takes nothing, says that no other one takes anything.
-      const bool took_none = left.size() == open.size() && used_.count(copy) == 0;
-      open = std::move(left);
-      if (took_none) break;
+      if (!took && used_.count(copy) == 0) break;
     }
-    return open;
+    return {open.begin(), open.end()};
   }
 
  private:
