@@ -75,7 +75,8 @@ struct Options {
 ///
 /// It is deterministic: the same document, options and control.work_limit give the same layout, whatever
 /// the threads. A run that was stopped by its flag is repeated by its `work` as the limit, unless it was
-/// stopped before its first layout was whole: then it has what lay there, or what was given.
+/// stopped before its first layout was whole: then it has what lay there, or what was given, and beside it in
+/// columns, by their boxes, the pieces whose turn had not come, as far as that breaks no rule.
 ///
 /// It fails with bad_input where the document has no stock or wants nothing, where locked placements break
 /// a rule, and for more than 100,000 pieces. Angles of ranges are tried in steps of 360 / angles degrees.
