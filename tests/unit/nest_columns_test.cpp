@@ -87,6 +87,20 @@ TEST(NestColumns, WhatIsLockedStaysAndWhatFindsNoRoomIsToldAsNotTried) {
   EXPECT_EQ(nested->unplaced[0], (Unplaced{0, 30 - 16, Reason::not_tried}));
 }
 
+TEST(NestColumns, ManyPiecesThatNoSheetHoldsKeepNoneFromItsPlace) {
+  Document document = thirty_triangles();
+  document.parts.insert(document.parts.begin(), triangle(300, 20, 2000));
+  document.parts.insert(document.parts.begin(), triangle(20, 300, 2000));
+  document.parts[0].id = "tall", document.parts[1].id = "wide";
+  document.parts[1].rotations = {{0, 0}};
+  document.parts[0].rotations = {{0, 0}};
+  const auto nested = stopped_at_once(document);
+  ASSERT_TRUE(nested) << nested.error().message;
+  EXPECT_EQ(nested->document.placements.size(), 30u);
+  EXPECT_EQ(on_copy(nested->document, 0), 12);
+  EXPECT_EQ(nested->unplaced.size(), 2u);
+}
+
 TEST(NestColumns, AnglesGrainAndDefectsHold) {
   Document document = thirty_triangles();
   document.parts[0].rotations = {{90, 90}};

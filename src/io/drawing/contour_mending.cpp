@@ -69,8 +69,8 @@ class Mender {
     if (!cut || !(cut->corner_error <= repair_)) return std::nullopt;
     cut_ = *std::move(cut);
     if (cut_.contours.empty()) {
-      for (const geom::CutEdge& one : cut_.left) made_.marks.push_back({one.edge, curves_[one.origin]});
-      return std::move(made_);
+      for (const geom::CutEdge& one : cut_.left) left_.push_back({one.edge, curves_[one.origin]});
+      return marks_alone();
     }
     for (const geom::CutContour& loop : cut_.contours) area_.push_back(geom::signed_area(loop.contour));
     // A neck may close something near it, and then its loop is cut off instead: those that are seen to do so
@@ -117,10 +117,11 @@ class Mender {
     return settle() ? std::optional(std::move(made_)) : std::nullopt;
   }
 
-  /// Cracks between lines that nearly run along each other enclose nothing that anybody would cut.
+  /// Lines that enclose nothing, or cracks that nobody would cut.
   [[nodiscard]] std::optional<Mended> marks_alone() {
     for (const std::vector<LooseEdge>& list : {left_, cut_off_})
       made_.marks.insert(made_.marks.end(), list.begin(), list.end());
+    add_corner_error();
     return std::move(made_);
   }
 
@@ -292,9 +293,13 @@ class Mender {
     };
     for (const LooseEdge& one : left_) measure(one, std::min(speck_, repair_));
     for (const LooseEdge& one : cut_off_) measure(one, repair_);
-    // Corners where edges cross may be off by this, and edges as a whole by no more.
-    for (const std::uint32_t curve : curves_) made_.moved.push_back({curve, cut_.corner_error});
+    add_corner_error();
     return true;
+  }
+
+  /// Corners where edges cross may be off by this, and edges as a whole by no more.
+  void add_corner_error() {
+    for (const std::uint32_t curve : curves_) made_.moved.push_back({curve, cut_.corner_error});
   }
 
   struct Hung {

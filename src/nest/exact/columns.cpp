@@ -23,19 +23,18 @@ std::int64_t height(const GridBox& box) { return box.high.y - box.low.y; }
 
 /// A piece in one of its allowed positions, and the box that it has there.
 struct Piece {
-  std::uint32_t part = 0;
   GridRotation rotation;
   GridBox box;
 };
 
 /// The angle to which the columns turn a part: upright, lying, or the first that is allowed.
-std::optional<Piece> turned_piece(const layout::Part& part, std::uint32_t number, const layout::Stock& on) {
+std::optional<Piece> turned_piece(const layout::Part& part, const layout::Stock& on) {
   std::vector<double> angles{0, 90, 180, 270};
   for (const layout::AngleRange& range : part.rotations) angles.push_back(range.from);
   for (const double degrees : angles) {
     const GridRotation rotation = geom::rotation_from_degrees(degrees);
     if (!rotation_allowed(part, rotation) || !grain_allowed(part, on, rotation, false)) continue;
-    return Piece{number, rotation, geom::bounds(geom::turned(part.outline.polygon, rotation, false))};
+    return Piece{rotation, geom::bounds(geom::turned(part.outline.polygon, rotation, false))};
   }
   return std::nullopt;
 }
@@ -48,11 +47,11 @@ class Columns {
 
   /// Returns where the lower left corner of a box goes.
   std::optional<GridPoint> take(const GridBox& box) {
-    if (column_.y + height(box) > room_.high.y) column_ = {x_, room_.low.y};
-    if (column_.y + height(box) > room_.high.y || column_.x + width(box) > room_.high.x) return std::nullopt;
-    const GridPoint at = column_;
-    x_ = std::max(x_, column_.x + width(box) + gap_);
-    column_.y += height(box) + gap_;
+    GridPoint at = column_;
+    if (at.y + height(box) > room_.high.y) at = {x_, room_.low.y};
+    if (at.y + height(box) > room_.high.y || at.x + width(box) > room_.high.x) return std::nullopt;
+    x_ = std::max(x_, at.x + width(box) + gap_);
+    column_ = {at.x, at.y + height(box) + gap_};
     return at;
   }
 
@@ -85,43 +84,48 @@ class Filler {
 
   std::vector<std::uint32_t> fill(const std::vector<std::uint32_t>& parts) {
     const layout::Stock& stock = document_.stocks[stock_];
-    std::map<std::uint32_t, std::optional<Piece>> turned;
-    for (const std::uint32_t part : parts)
-      if (turned.count(part) == 0) turned[part] = turned_piece(document_.parts[part], part, stock);
-    std::vector<std::uint32_t> sorted = parts;
-    std::stable_sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const GridBox whole = room();
+    std::map<std::uint32_t, Piece> pieces;  // by part: those that an empty copy can hold
+    for (const std::uint32_t part : std::set<std::uint32_t>(parts.begin(), parts.end()))
+      if (const auto piece = turned_piece(document_.parts[part], stock);
+          piece && width(piece->box) <= width(whole) && height(piece->box) <= height(whole))
+        pieces.emplace(part, *piece);
+    std::vector<std::uint32_t> fitting, left;
+    for (const std::uint32_t part : parts) (pieces.count(part) > 0 ? fitting : left).push_back(part);
+    std::stable_sort(fitting.begin(), fitting.end(), [&](std::uint32_t a, std::uint32_t b) {
       const auto rank = [&](std::uint32_t part) {
-        return std::pair(-document_.parts[part].priority, turned[part] ? -width(turned[part]->box) : 0);
+        return std::pair(-document_.parts[part].priority, -width(pieces.at(part).box));
       };
       return rank(a) < rank(b);
     });
-    std::list<std::uint32_t> open(sorted.begin(), sorted.end());
+    std::list<std::uint32_t> open(fitting.begin(), fitting.end());
     for (std::int64_t copy = 0; copy < stock.count && !open.empty(); ++copy) {
       Columns columns(room_of(copy), gap_);
-      bool took = false;
       int missed = 0;
       for (auto at = open.begin(); at != open.end() && missed < kMostMissed;) {
-        const std::optional<Piece>& piece = turned[*at];
-        const auto corner = piece ? columns.take(piece->box) : std::nullopt;
+        const Piece& piece = pieces.at(*at);
+        const auto corner = columns.take(piece.box);
         if (!corner) {
           ++at, ++missed;
           continue;
         }
-        document_.placements.push_back({document_.next_id++, *at, stock_, copy, piece->rotation, false,
-                                        *corner - piece->box.low, false});
-        at = open.erase(at), took = true, missed = 0;
+        document_.placements.push_back(
+            {document_.next_id++, *at, stock_, copy, piece.rotation, false, *corner - piece.box.low, false});
+        at = open.erase(at), missed = 0;
       }
-      // A copy on which nothing lies yet, and that takes nothing, says that no other one takes anything.
-      if (!took && used_.count(copy) == 0) break;
     }
-    return {open.begin(), open.end()};
+    left.insert(left.end(), open.begin(), open.end());
+    return left;
   }
 
  private:
+  /// The room on a copy on which nothing lies.
+  [[nodiscard]] GridBox room() const {
+    const GridBox box = geom::bounds(document_.stocks[stock_].outline.polygon);
+    return {box.low + GridPoint{border_, border_}, box.high - GridPoint{border_, border_}};
+  }
   [[nodiscard]] GridBox room_of(std::int64_t copy) const {
-    GridBox room = geom::bounds(document_.stocks[stock_].outline.polygon);
-    room.low = room.low + GridPoint{border_, border_};
-    room.high = room.high - GridPoint{border_, border_};
+    GridBox room = this->room();
     if (const auto used = used_.find(copy); used != used_.end())
       room.low.x = std::max(room.low.x, used->second);
     return room;
