@@ -9,6 +9,7 @@ target_compile_options(lekalo_options INTERFACE
   # Results must be the same bytes for every compiler and optimisation level: no fused
   # multiply-add unless the source says so (docs/design/geometry.md).
   -ffp-contract=off)
+lekalo_precompile(lekalo_headers HEADERS ${lekalo_standard_headers} LIBRARIES fmt::fmt tl::expected)
 
 # lekalo_module(NAME [PUBLIC targets...] [PRIVATE targets...] [ROOMS "room: used rooms..."...])
 #
@@ -34,6 +35,9 @@ function(lekalo_module NAME)
   target_link_libraries(lekalo_${NAME}
     PUBLIC ${ARG_PUBLIC}
     PRIVATE $<BUILD_INTERFACE:lekalo_options> ${ARG_PRIVATE})
+  if(fmt::fmt IN_LIST ARG_PRIVATE)
+    lekalo_use_precompiled(lekalo_${NAME} lekalo_headers)
+  endif()
   set_property(GLOBAL APPEND PROPERTY LEKALO_MODULES lekalo_${NAME})
 
   set(arrows "module ${NAME}")
