@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include "layout_json.hpp"
@@ -150,10 +149,9 @@ Result<Nested> nest_checked(const Nester& nester, const Document& document, cons
                                      ? nester(document, search, control)
                                      : nester(selection_of(document, options.only), search, control));
   LEKALO_CHECK(fine);
-  // The best until a stop is checked and told all the same.
+  // The best until a stop is checked and told all the same, and what is being checked is, too.
   const RunControl nobody;
-  std::optional<Listening> to_the_end;
-  if (control.stop_requested()) to_the_end.emplace(nobody);
+  const Listening to_the_end(nobody);
   Result<Confirmed> best = Confirmed{};
   layout::Completeness completeness;
   share_out(2, kUsualThreads, [&](std::size_t task) {

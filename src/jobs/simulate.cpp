@@ -11,14 +11,15 @@
 namespace lekalo::jobs {
 namespace {
 
-std::string report_json(const SimulateJob& job, const verify::SimulateReport& r) {
+std::string report_json(const SimulateJob& job, const Simulated& done) {
   io::JsonWriter json = begin_document("lekalo-simulate");
   json.field("units", "mm").key("inputs").begin_list();
   write_file(json, "program", job.program);
   write_file(json, "pocket", job.pocket);
   write_earlier(json, job.after);
   write_machining(json.end(), job.machining);
-  write_report(json, r);
+  write_report(json, done.report);
+  if (!done.unsaid.empty()) json.key("unsaid").list(done.unsaid);
   json.field("version", kVersion);
   return end_document(json);
 }
@@ -29,6 +30,20 @@ std::string samples_csv(const verify::SimulateReport& r) {
     text += fmt::format("{:.5f},{:.5f},{:.5f},{:.5f},{:.3f},{},{}\n", s.x, s.y, s.z, s.length, s.engagement,
                         s.line, s.entry ? 1 : 0);
   return text;
+}
+
+/// The checker calls the program itself "program", whatever its file is called.
+Result<std::vector<std::string>> unsaid_of(const SimulateJob& job) {
+  const double top = job.machining.top;
+  LEKALO_TRY(std::vector<std::string> all,
+             verify::unsaid_modes({"program", job.program.bytes}, top, job.machining.control));
+  for (const EarlierProgram& earlier : job.after) {
+    LEKALO_TRY(
+        const std::vector<std::string> more,
+        verify::unsaid_modes({earlier.program.name, earlier.program.bytes}, top, job.machining.control));
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
 }
 
 Result<void> add_pictures(const SimulateJob& job, Simulated& done) {
@@ -51,7 +66,8 @@ Result<Simulated> simulate(const SimulateJob& job, const PhaseListener& phases) 
              verify::simulate({job.program.name, job.program.bytes}, {job.pocket.name, job.pocket.bytes},
                               job.machining, earlier_documents(job.after),
                               begin_phase(phases, "following the program")));
-  done.json = report_json(job, done.report);
+  LEKALO_TRY(done.unsaid, unsaid_of(job));
+  done.json = report_json(job, done);
   if (job.samples) done.samples = samples_csv(done.report);
   LEKALO_CHECK(add_pictures(job, done));
   return done;

@@ -227,6 +227,8 @@ TEST_F(LocateDemands, MaximaBindAndCanBeOutOfReach) {
     for (const std::uint32_t edge : problem.features[0].edges)
       deepest = std::max(deepest, judge.depth(pose_of(free), edge));
     problem.features[0].maximum = deepest - 0.05;
+    // In another order, so that the number of an edge is not its place in the feature.
+    std::reverse(problem.features[0].edges.begin(), problem.features[0].edges.end());
     const DemandResult bound = solved(problem);
     if (bound.status == Status::infeasible) {
       closed(bound);

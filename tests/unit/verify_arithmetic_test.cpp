@@ -4,6 +4,11 @@
 #include <gtest/gtest.h>
 #include <mpfr.h>
 
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <thread>
+
 #include "support/verify_cases.hpp"
 #include "verify/locate/edge_triple.hpp"
 #include "verify/locate/outline.hpp"
@@ -132,6 +137,31 @@ TEST(VerifyArithmetic, TurnsEncloseSineAndCosineOfEveryAngleInTheInterval) {
   EXPECT_EQ(none.cosine.low_double(), 1);
   EXPECT_EQ(none.cosine.high_double(), 1);
   EXPECT_TRUE(certainly_zero(none.sine));
+}
+
+/// What GMP and MPFR hold, in blocks.
+std::atomic<int> blocks_held{0};
+
+TEST(VerifyArithmetic, AThreadThatEndsLeavesNothingBehind) {
+  const auto make = [](std::size_t size) { return ++blocks_held, std::malloc(size); };
+  const auto resize = [](void* block, std::size_t, std::size_t size) { return std::realloc(block, size); };
+  const auto release = [](void* block, std::size_t) { --blocks_held, std::free(block); };
+  void* (*make_before)(std::size_t) = nullptr;
+  void* (*resize_before)(void*, std::size_t, std::size_t) = nullptr;
+  void (*release_before)(void*, std::size_t) = nullptr;
+  mp_get_memory_functions(&make_before, &resize_before, &release_before);
+  mp_set_memory_functions(make, resize, release);
+  int held_most = 0;
+  for (int i = 0; i < 3; ++i) {
+    std::thread([&] {
+      (void)turn_by(Interval::pi(200) * Interval::exactly(0.3, 200));
+      (void)rounded_turn(0.1);
+      held_most = std::max(held_most, blocks_held.load());
+    }).join();
+    EXPECT_EQ(blocks_held, 0) << i;
+  }
+  EXPECT_GT(held_most, 0) << "MPFR keeps nothing, and nothing was shown";
+  mp_set_memory_functions(make_before, resize_before, release_before);
 }
 
 TEST(VerifyArithmetic, PrintedEndsEnclose) {

@@ -33,7 +33,7 @@ const std::string kWalls = pocket_with(kSide + "}"),
 const std::string kModes = "G21 G90 G17 G54 G40 G49 G94 G91.1 G61\n";
 const std::string kProgram = kModes + "G0 X3 Y3 Z5\nG1 Z-1 F300\nG1 X4.5 F1500\nG0 Z5\n";
 /// A program before it, which cuts a little of the strip.
-const std::string kEarlier = "G21 G90\nG0 X3 Y6.25 Z5\nG1 Z-1 F300\nG1 X4 F1500\nG0 Z5\n";
+const std::string kEarlier = kModes + "G0 X3 Y6.25 Z5\nG1 Z-1 F300\nG1 X4 F1500\nG0 Z5\n";
 
 struct Files {
   std::string program = kProgram, pocket = kWalls, pocket_name = "pocket.json";
@@ -362,6 +362,35 @@ TEST(VerifyCutReport, ModesThatTheProgramDoesNotSayAreUnchecked) {
                                    unsaid(without("G54")).size() + unsaid(without("G94")).size() +
                                    unsaid(without("G40")).size() + unsaid(without("G49")).size() +
                                    unsaid(without("G61")).size());
+}
+
+/// The stock is as the programs before left it, and a report of simulate tells what they leave to the
+/// control.
+TEST(VerifyCutReport, ModesOfEarlierProgramsAndOfSimulateAreUncheckedToo) {
+  const std::string no_unit =
+      "line 2 moves where the program does not say its unit (G20 or G21); the control decides it";
+  const Files before{.earlier = {{without("G21") + kEarlier.substr(kModes.size()), 0.25}}};
+  EXPECT_EQ(judged(pocketed(before), before), "unchecked: e.ngc: " + no_unit + "\n");
+  Json report = simulated(before);
+  EXPECT_EQ(judged(report, before), "unchecked: e.ngc: " + no_unit + "\n");
+  const Files own{.program = without("G21") + kProgram.substr(kModes.size())};
+  report = simulated(own);
+  EXPECT_EQ(judged(report, own), "unchecked: program: " + no_unit + "\n");
+  report["unsaid"] = Json::array({"program: " + no_unit});
+  EXPECT_EQ(judged(report, own), "unchecked: program: " + no_unit + "\n");
+  for (const Json& other :
+       {Json::array(), Json::array({"program: " + no_unit, "another"}), Json::array({"another"})}) {
+    report["unsaid"] = other;
+    EXPECT_EQ(judged(report, own),
+              "unsaid is not what the programs do not say\nunchecked: program: " + no_unit + "\n");
+  }
+  report["unsaid"] = 3;
+  EXPECT_EQ(judged(report, own), "r.json: field unsaid is not a list");
+  report["unsaid"] = Json::array({3});
+  EXPECT_EQ(judged(report, own), "r.json: unsaid[0] is not a text");
+  report = simulated({});
+  report["unsaid"] = Json::array({"program: " + no_unit});
+  EXPECT_EQ(judged(report), "unsaid is not what the programs do not say\n");
 }
 
 /// Controls that have one value of a mode alone need no word for it.

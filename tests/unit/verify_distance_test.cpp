@@ -151,6 +151,50 @@ TEST(VerifyDistance, HalvesOfArcsStayAsNarrowAsTheArc) {
   }
 }
 
+TEST(VerifyDistance, CutsBesideAPointAndNearAnEndMakeUpTheWhole) {
+  for (const bool ccw : {true, false}) {
+    const std::string outline = ccw ? "[" + arc(5, 0, 0, 5, 0, 0) + ", " + line(0, 5, 5, 0) + "]"
+                                    : "[" + arc(0, 5, 5, 0, 0, 0, false) + ", " + line(5, 0, 0, 5) + "]";
+    const Shape made = shape(outline);
+    for (const Side& side : made.sides) {
+      const Vec begin = side.arc ? side.centre + side.first * side.radius : side.from;
+      const Vec end = side.arc ? side.centre + side.last * side.radius : side.to;
+      const auto joined = [&](const std::array<Side, 2>& two) {
+        EXPECT_LT(length(two[0].from - begin).high, 1e-13);
+        EXPECT_LT(length(two[0].to - two[1].from).high, 1e-13);
+        EXPECT_LT(length(two[1].to - end).high, 1e-13);
+        if (!side.arc) return;
+        EXPECT_EQ(two[0].first.x.low, side.first.x.low);
+        EXPECT_EQ(two[0].last.x.low, two[1].first.x.low);
+        EXPECT_EQ(two[0].last.y.high, two[1].first.y.high);
+        EXPECT_EQ(two[1].last.y.low, side.last.y.low);
+      };
+      // Off the curve, but beside its first third.
+      const Vec beside{just(side.arc ? 6 : 3), just(side.arc ? 3 : 1)};
+      const auto cut = cut_beside(side, beside);
+      ASSERT_TRUE(cut);
+      joined(*cut);
+      const Vec foot = side.arc ? unit(beside) * just(5) : Vec{just(3.5), just(1.5)};
+      EXPECT_LT(length((*cut)[0].to - foot).high, 1e-13);
+      for (const double outside : {-1.0, 7.0})
+        EXPECT_FALSE(cut_beside(side, {just(outside), just(6 - outside)})) << outside;
+      EXPECT_FALSE(cut_beside(side, {just(-6), just(-6)}) && side.arc);
+      if (side.arc) {
+        EXPECT_FALSE(cut_beside(side, side.centre));
+        EXPECT_FALSE(cut_beside(side, begin));
+        EXPECT_FALSE(cut_beside(side, end));
+      }
+      for (const bool first : {true, false}) {
+        const auto off = with_end_cut_off(side, first);
+        joined(off);
+        const Side &shorter = off[first ? 0 : 1], &longer = off[first ? 1 : 0];
+        EXPECT_NEAR(length(shorter.to - shorter.from).low / length(end - begin).low, 1.0 / 256, 1e-3);
+        EXPECT_GT(length(longer.to - longer.from).low, 0.9 * length(end - begin).low);
+      }
+    }
+  }
+}
+
 TEST(VerifyDistance, ADivisorThatMayBeZeroSaysNothing) {
   for (const Span by : {Span{0, 1}, Span{-1e-300, 2}, Span{-2, -1}}) {
     const Span quotient = just(1) / by;

@@ -1,5 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
 #include "support/drawn_text.hpp"
 #include "verify/origin/tree.hpp"
 #include "verify/origin/tree_check.hpp"
@@ -187,12 +193,11 @@ std::string judged(const std::string& shape, const std::string& region, double r
   if (!verdict.fault.empty()) return "wrong";
   return verdict.open.empty() ? "" : "open";
 }
-std::string polygon(std::initializer_list<std::array<double, 2>> points, const std::string& holes = "") {
+std::string polygon(const std::vector<std::array<double, 2>>& p, const std::string& holes = "") {
   std::string edges;
-  const auto* const p = points.begin();
-  for (std::size_t k = 0; k < points.size(); ++k)
+  for (std::size_t k = 0; k < p.size(); ++k)
     edges += fmt::format(R"({}{{"line": {{"from": [{}, {}], "to": [{}, {}]}}}})", k == 0 ? "" : ", ", p[k][0],
-                         p[k][1], p[(k + 1) % points.size()][0], p[(k + 1) % points.size()][1]);
+                         p[k][1], p[(k + 1) % p.size()][0], p[(k + 1) % p.size()][1]);
   return R"({"outer": [)" + edges + "]" + (holes.empty() ? "" : R"(, "holes": [)" + holes + "]") + "}";
 }
 const std::string kRound = R"([{"arc": {"from": [6, 5], "to": [6, 5], "centre": [5, 5], "ccw": false}}])";
@@ -230,6 +235,35 @@ TEST(VerifyTree, ARegionIsWhatTheTreeMeans) {
                    polygon({{0, 0}, {10, 0}, {20, 0}, {20, 10}, {10, 10}, {0, 10}})),
             "");
   EXPECT_EQ(judged(kSquare, polygon({{0, 0}, {10, 0}, {10, 10}, {0, 10.0000005}})), "");
+}
+
+TEST(VerifyTree, EachOfManyHalfPlanesCounts) {
+  constexpr int kSides = 12;
+  const auto corner = [](double k) {
+    const double angle = 2 * std::numbers::pi * k / kSides;
+    return std::pair{100 * std::cos(angle), 100 * std::sin(angle)};
+  };
+  std::string planes;
+  for (int k = 0; k < kSides; ++k) {
+    const auto [x0, y0] = corner(k);
+    const auto [x1, y1] = corner(k + 1);
+    planes += fmt::format(R"({}{{"half_plane": {{"from": [{}, {}], "to": [{}, {}]}}}})", k > 0 ? ", " : "",
+                          x0, y0, x1, y1);
+  }
+  const std::string tree = R"({"intersection": [{"rectangle": {"size": [300, 300]}}, )" + planes + "]}";
+  for (int left_out = -1; left_out < kSides; ++left_out) {
+    // Without one of the lines the two beside it go on to where they meet.
+    const double far = std::cos(std::numbers::pi / kSides) / std::cos(2 * std::numbers::pi / kSides);
+    std::vector<std::array<double, 2>> points;
+    for (int k = 0; k < kSides; ++k) {
+      const auto [x, y] = corner(k == left_out ? k + 0.5 : k);
+      if (k == left_out)
+        points.push_back({far * x, far * y});
+      else if (left_out < 0 || k != (left_out + 1) % kSides)
+        points.push_back({x, y});
+    }
+    EXPECT_EQ(judged(tree, polygon(points)), left_out < 0 ? "" : "wrong") << left_out;
+  }
 }
 
 }  // namespace

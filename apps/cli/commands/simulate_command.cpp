@@ -48,7 +48,9 @@ Result<int> run_simulate(const SimulateOptions& o) {
   LEKALO_TRY(const jobs::Simulated done, jobs::simulate(job, progress_lines()));
   LEKALO_CHECK(write_all(o, done));
   if (o.json) LEKALO_CHECK(print(done.json));
-  tell(report_rows(done.report));
+  std::string unsaid;
+  for (const std::string& sentence : done.unsaid) unsaid += sentence + "\n";
+  tell(unsaid + report_rows(done.report));
   return 0;
 }
 

@@ -33,6 +33,8 @@ struct SimulateJob {
 /// A judged program. What was not asked for is empty.
 struct Simulated {
   verify::SimulateReport report;
+  /// Sentences about what the programs leave to the control, verify::unsaid_modes().
+  std::vector<std::string> unsaid;
   std::string json;  ///< the report as a document, format lekalo-simulate (docs/formats.md)
   /// The engagement at every place of the path where it was measured, as CSV.
   std::string samples;

@@ -124,6 +124,12 @@ struct SimulateReport {
                                               const std::vector<EarlierProgram>& earlier = {},
                                               const ProgressListener& progress = {});
 
+/// Returns a sentence for each mode of a control (unit, plane, from where it counts...) that a program does
+/// not say before motions that depend on it. The control decides these, as it is set up or as the program
+/// before left it, and simulate() takes what is usual: mm, from the origin, XY. Errors as there.
+[[nodiscard]] Result<std::vector<std::string>> unsaid_modes(
+    const Document& program, double top, words::Control control = words::Control::linuxcnc);
+
 /// A range of lines of a program, from 1, both ends among them.
 struct LineRange {
   std::size_t first = 1, last = 0;

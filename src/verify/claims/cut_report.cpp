@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/verify/simulate.hpp"
 #include "report_fields.hpp"
 #include "verify/origin/origin.hpp"
 #include "verify/pocket/nc_moves.hpp"
-#include "verify/pocket/nc_program.hpp"
 #include "verify/pocket/stroke.hpp"
 #include "verify/read/known_fields.hpp"
 #include "verify/shape/shape.hpp"
@@ -25,21 +25,21 @@ constexpr double kLasting = 0.2;
 /// Words of a program have four decimals at least, and three on some controls.
 constexpr double kWordRounding = 5.1e-4;
 
-/// The control, and the program that ran before, decide what a program does not say of its motions.
-Result<void> leave_unsaid_open(const Document& program, const SimulateOptions& options, ClaimReport& claims) {
-  LEKALO_TRY(const NcProgram read, read_program(program, {.control = options.control, .top = options.top}));
-  UnsaidModes unsaid(options.control);
-  for (const NcEvent& event : read.events) {
-    if (event.first_move == event.end_move && !event.upright && !event.places) continue;
-    const auto first = read.moves.begin() + static_cast<std::ptrdiff_t>(event.first_move),
-               end = read.moves.begin() + static_cast<std::ptrdiff_t>(event.end_move);
-    const bool upright = event.upright.has_value();
-    const bool feeds = upright || std::any_of(first, end, [](const Move& move) { return !move.rapid; });
-    const bool turns = upright || std::any_of(first, end, [](const Move& move) { return move.arc; });
-    unsaid.look(event.line, event.said, {.with_feed = feeds, .arcs = turns});
-  }
-  const auto& sentences = unsaid.sentences();
-  claims.unchecked.insert(claims.unchecked.end(), sentences.begin(), sentences.end());
+/// \param called  what the sentences call the program
+Result<void> leave_unsaid_open(const std::string& called, const Document& program,
+                               const SimulateOptions& options, ClaimReport& claims) {
+  LEKALO_TRY(const std::vector<std::string> unsaid,
+             unsaid_modes({called, program.bytes}, options.top, options.control));
+  claims.unchecked.insert(claims.unchecked.end(), unsaid.begin(), unsaid.end());
+  return {};
+}
+
+/// What the larger tools' programs do not say is open, too: the stock is as they left it.
+Result<void> leave_unsaid_open(const Document& program, const std::vector<EarlierProgram>& earlier,
+                               const SimulateOptions& options, ClaimReport& claims) {
+  LEKALO_CHECK(leave_unsaid_open("program", program, options, claims));
+  for (const EarlierProgram& other : earlier)
+    LEKALO_CHECK(leave_unsaid_open(other.program.name, other.program, options, claims));
   return {};
 }
 
@@ -282,12 +282,32 @@ class CutReport {
     for (const Figure& figure : figures_of(found)) compare(fields_, figure.key, figure.value, claims_);
     compare_spots(found);
     claims_.notes.push_back(fmt::format("the figures were made anew from {}", program_->name));
+    LEKALO_CHECK(compare_unsaid());
     if (!pocket_report_) return fine();
     LEKALO_CHECK(compare_regions());
     compare_stretches("hot_cuts", hot_cuts(found, options_.step_over));
     read_ramps();
-    LEKALO_CHECK(leave_unsaid_open(*program_, options_, claims_));
     return compare_depth();
+  }
+
+  /// A report of simulate tells what the programs do not say; the same is unchecked here.
+  Result<void> compare_unsaid() {
+    std::vector<EarlierProgram> named;
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      if (names_[i].role == "after") named.push_back({files_[i], names_[i].tool_mm});
+    const std::size_t before = claims_.unchecked.size();
+    LEKALO_CHECK(leave_unsaid_open(*program_, named, options_, claims_));
+    if (pocket_report_ || !fields_.has("unsaid")) return fine();
+    std::vector<std::string> told;
+    fields_.each("unsaid", [&](Json item, const std::string& path) {
+      if (!item.is_string()) return fields_.complain(path + " is not a text");
+      told.push_back(json_text(item));
+    });
+    LEKALO_CHECK(fine());
+    if (!std::equal(told.begin(), told.end(), claims_.unchecked.begin() + static_cast<std::ptrdiff_t>(before),
+                    claims_.unchecked.end()))
+      claims_.findings.push_back("unsaid is not what the programs do not say");
+    return fine();
   }
 
   /// With `rest_of_mm` the larger tool's program is one that the path maker supposes.
@@ -421,7 +441,7 @@ Result<ClaimReport> verify_pocket_program(const Document& program, const Documen
         found.uncut.size(), found.uncut[0].width_mm, found.uncut[0].x, found.uncut[0].y));
   report.notes.push_back(
       fmt::format("coverage {:.4f} %, gouge {:.5f} mm", found.coverage_percent, found.gouge_mm));
-  LEKALO_CHECK(leave_unsaid_open(program, options, report));
+  LEKALO_CHECK(leave_unsaid_open(program, earlier, options, report));
   return report;
 }
 

@@ -21,6 +21,16 @@ std::string decimal_text(mpfr_srcptr value, const char* format) {
   return mpfr_zero_p(value) != 0 ? "0" : buffer.data();  // not "-0"
 }
 
+/// MPFR keeps pi, and numbers for its series, in every thread that turns something, and does not see the
+/// thread end: each thread of a server would leave them behind.
+void free_caches_with_the_thread() {
+  struct Caches {
+    ~Caches() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
+  };
+  thread_local const Caches caches;
+  (void)caches;
+}
+
 }  // namespace
 
 Interval::Interval(Precision precision) {
@@ -72,6 +82,7 @@ Interval::~Interval() {
 
 Interval Interval::pi(Precision precision) {
   Interval result(precision);
+  free_caches_with_the_thread();
   mpfr_const_pi(result.low_, MPFR_RNDD);
   mpfr_const_pi(result.high_, MPFR_RNDU);
   return result;
@@ -134,6 +145,7 @@ Interval square(const Interval& a) {
 Turn turn_by(const Interval& angle) {
   Turn turn{Interval(angle.precision()), Interval(angle.precision())};
   Interval &c = turn.cosine, &s = turn.sine;
+  free_caches_with_the_thread();
   mpfr_sin_cos(s.low_, c.low_, angle.low_, MPFR_RNDN);
   mpfr_set(s.high_, s.low_, MPFR_RNDN);
   mpfr_set(c.high_, c.low_, MPFR_RNDN);
@@ -169,6 +181,7 @@ RoundedTurn rounded_turn(double angle) {
   mpfr_t theta, sine, cosine;
   mpfr_inits2(kDoubleBits, theta, sine, cosine, static_cast<mpfr_ptr>(nullptr));
   mpfr_set_d(theta, angle, MPFR_RNDN);
+  free_caches_with_the_thread();
   mpfr_sin_cos(sine, cosine, theta, MPFR_RNDN);
   const RoundedTurn turn{mpfr_get_d(cosine, MPFR_RNDN), mpfr_get_d(sine, MPFR_RNDN)};
   mpfr_clears(theta, sine, cosine, static_cast<mpfr_ptr>(nullptr));

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <optional>
+#include <utility>
 
 #include "near.hpp"
 #include "tree_value.hpp"
@@ -20,6 +23,9 @@ constexpr std::size_t kMostWork = 20'000'000;
 /// something must be.
 constexpr double kShort = 0.5;
 constexpr int kMostShort = 160;
+constexpr int kShortAtCorner = 16;
+/// An end that is cut off is to be no shorter than that; it is about a 256th of the whole.
+constexpr double kEnd = 256;
 /// The tree is asked this many times the reach to the left and to the right of a stretch.
 constexpr double kAside = 2;
 /// A point this many times the reach away from all outlines of the tree is on none of them.
@@ -30,6 +36,16 @@ struct Beside {
   In left = In::open, right = In::open;
   /// The primitives along which the stretch runs.
   std::vector<SideOfTree> along;
+};
+
+/// A part of a side that is still to be shown.
+struct Part {
+  Side piece;
+  /// Whether it begins, and ends, where outlines may meet: the shorter it is the less of it is open there.
+  bool begins_at_corner = false, ends_at_corner = false;
+  /// The half-planes of which the parts that it was cut from did not tell on which side of them it lies: a
+  /// range of TreeCheck::undecided_. What was said of the others is so much of TreeCheck::value_.
+  std::size_t undecided_begin = 0, undecided_end = 0, said = 0;
 };
 
 class TreeCheck {
@@ -46,9 +62,11 @@ class TreeCheck {
       check_edge(side);
       if (!verdict_.fault.empty()) return verdict_;
     }
-    for (const Primitive& primitive : primitives_)
-      for (const Side& side : primitive.shape.sides) {
-        check_side(side);
+    for (std::size_t k = 0; k < primitives_.size(); ++k)
+      for (std::size_t i = 0; i < primitives_[k].shape.sides.size(); ++i) {
+        const auto ends = ends_along_.find({k, i});
+        check_side(primitives_[k].shape.sides[i],
+                   ends == ends_along_.end() ? std::vector<Vec>() : ends->second);
         if (!verdict_.fault.empty()) return verdict_;
       }
     return verdict_;
@@ -78,20 +96,24 @@ class TreeCheck {
     }
   }
 
-  /// The sides of all primitives stand in one tree, and their boxes in another, so that a piece is asked about
-  /// those near to it alone.
+  /// The sides of all primitives stand in one tree, and their boxes in another, so that a piece is asked
+  /// about those near to it alone. Half-planes, which are near to all, are kept apart.
   void gather_sides() {
     std::vector<Box> boxes, wholes;
     for (std::size_t k = 0; k < primitives_.size(); ++k) {
       const Primitive& primitive = primitives_[k];
       const Shape& shape = primitive.shape;
+      if (primitive.half_plane) {
+        half_planes_.push_back({{k, 0}, unit(shape.sides[0].to - shape.sides[0].from)});
+        continue;
+      }
       for (std::size_t i = 0; i < shape.sides.size(); ++i) {
         const Side& side = shape.sides[i];
         members_.push_back({{k, i}, side.arc ? Vec{} : unit(side.to - side.from)});
         boxes.push_back(shape.tree->box(i));
       }
-      wholes.push_back(primitive.half_plane ? Box{-kInfinity, -kInfinity, kInfinity, kInfinity}
-                                            : Box{shape.low_x, shape.low_y, shape.high_x, shape.high_y});
+      wholes.push_back({shape.low_x, shape.low_y, shape.high_x, shape.high_y});
+      with_box_.push_back(k);
     }
     sides_ = SideTree(std::move(boxes));
     wholes_ = SideTree(std::move(wholes));
@@ -99,10 +121,10 @@ class TreeCheck {
 
   /// Beyond the window there is none of any primitive but half-planes.
   bool ends_in_window() {
-    value_.clear();
-    for (std::size_t k = 0; k < primitives_.size(); ++k)
-      if (primitives_[k].half_plane) value_.set(k, In::open);
-    return value_.value() == In::no;
+    for (const Member& half_plane : half_planes_) value_.set(half_plane.side.primitive, In::open);
+    const bool ends = value_.value() == In::no;
+    value_.take_back(0);
+    return ends;
   }
 
   static In in_half_plane(const Side& line, const Vec& p) {
@@ -176,6 +198,30 @@ class TreeCheck {
     return (absolute(off) - just(room) - just(side.off)).low > 0;
   }
 
+  /// Decides which of the half-planes of which the parts before did not tell hold all of a piece and of the
+  /// stretches beside it, or nothing of them. The others are undecided for its parts, too.
+  void decide_half_planes(const Corners& corners) {
+    const double room = 2 * kAside * reach_;
+    const std::size_t begin = part_.undecided_begin, end = part_.undecided_end;
+    part_.undecided_begin = undecided_.size();
+    for (std::size_t u = begin; u < end; ++u) {
+      const Member& half_plane = half_planes_[undecided_[u]];
+      const Side& line = primitives_[half_plane.side.primitive].shape.sides[0];
+      bool within = true, without = true;
+      for (std::size_t i = 0; i < corners.count; ++i) {
+        const Span height = cross(half_plane.along, corners.at[i] - line.from);
+        within = within && height.low > room, without = without && height.high < -room;
+      }
+      ++work_;
+      if (within || without)
+        value_.set(half_plane.side.primitive, within ? In::yes : In::no);
+      else
+        undecided_.push_back(undecided_[u]);
+    }
+    part_.undecided_end = undecided_.size();
+    part_.said = value_.said();
+  }
+
   /// Asks on which side of a piece there is material of the tree. Where the outline of a primitive meets a
   /// stretch beside the piece, that primitive is open there, and what the others say may be enough: another
   /// shape of a union holds all of the stretch, or a half-plane of an intersection nothing of it. For the
@@ -184,6 +230,7 @@ class TreeCheck {
   Beside beside(const Side& piece, const Corners& corners, bool apart) {
     const double aside = kAside * reach_;
     Beside known;
+    decide_half_planes(corners);
     if (piece.arc && !(piece.radius.low > 2 * aside)) return known;
     const Side left = aside_of(piece, aside), right = aside_of(piece, -aside);
     const Vec at_left = middle_of(left), at_right = middle_of(right);
@@ -195,71 +242,141 @@ class TreeCheck {
     };
     std::vector<Near> near;
     bool given_up = false;
-    double limit = 2 * aside;
-    sides_.visit_near(box_of(piece), limit, [&](std::size_t m) {
-      if (given_up) return void(limit = -1);  // no box is so near, which ends the walk
+    const auto look_at = [&](const Member& member) {
       ++work_;
-      const auto [k, i] = members_[m].side;
+      const auto [k, i] = member.side;
       const Side& side = primitives_[k].shape.sides[i];
-      if (is_away(members_[m], side, middle, room)) return;
+      if (is_away(member, side, middle, room)) return;
       work_ += 3;
       near.push_back({k, !surely_apart(left, side), !surely_apart(right, side)});
       const bool meets = near.back().meets_left || near.back().meets_right;
       given_up = apart && meets;
-      if (!meets && farthest(piece, corners, side) <= reach_) known.along.push_back({k, i});
+      if (!meets && !is_away(member, side, middle, reach_) && farthest(piece, corners, side) <= reach_)
+        known.along.push_back({k, i});
+    };
+    double limit = 2 * aside;
+    sides_.visit_near(box_of(piece), limit, [&](std::size_t m) {
+      if (given_up) return void(limit = -1);  // no box is so near, which ends the walk
+      look_at(members_[m]);
     });
+    for (std::size_t u = part_.undecided_begin; u < part_.undecided_end && !given_up; ++u)
+      look_at(half_planes_[undecided_[u]]);
     if (given_up) return known;
-    value_.clear();
     const auto may_hold = [&](const Box& box) {
       return !(at_left.x.high < box.low_x || at_left.x.low > box.high_x || at_left.y.high < box.low_y ||
                at_left.y.low > box.high_y);
     };
-    wholes_.visit(may_hold, [&](std::size_t k) {
+    const auto look_within = [&](std::size_t k) {
       ++work_;
       value_.set(k, in_primitive(primitives_[k], at_left));
-    });
+    };
+    wholes_.visit(may_hold, [&](std::size_t w) { look_within(with_box_[w]); });
+    for (std::size_t u = part_.undecided_begin; u < part_.undecided_end; ++u)
+      look_within(half_planes_[undecided_[u]].side.primitive);
     for (const Near& one : near)
       if (one.meets_left) value_.set(one.primitive, In::open);
     known.left = value_.value();
     // A primitive that is not near is the same on both hands.
-    for (const Near& one : near) value_.set(one.primitive, in_primitive(primitives_[one.primitive], at_right));
+    for (const Near& one : near)
+      value_.set(one.primitive, in_primitive(primitives_[one.primitive], at_right));
     for (const Near& one : near)
       if (one.meets_right) value_.set(one.primitive, In::open);
     known.right = value_.value();
+    value_.take_back(part_.said);
     return known;
   }
 
-  /// Calls `settled(piece, corners)` for parts of a side until it is true for all but the shortest.
+  static bool is_wide(const Side& piece) { return piece.arc && piece.sweep != Sweep::less; }
+
+  /// Returns a side in parts that turn by less than a half, cut at those of its places that are nearest to
+  /// the corners.
+  static std::vector<Part> cut_at_corners(const Side& whole, const std::vector<Vec>& corners) {
+    const bool has_ends = whole.sweep != Sweep::full;  // those of a circle are where it happens to begin
+    std::vector<Part> open{{whole, has_ends, has_ends}}, parts;
+    while (!open.empty()) {
+      Part part = open.back();
+      open.pop_back();
+      if (is_wide(part.piece)) {
+        const std::array<Side, 2> two = halves(part.piece);
+        open.push_back({two[1], false, part.ends_at_corner});
+        open.push_back({two[0], part.begins_at_corner, false});
+        continue;
+      }
+      // In the order of their distance from its beginning. Each is looked for in what the one before it left.
+      std::vector<std::pair<double, Vec>> in_order;
+      const Vec begin =
+          part.piece.arc ? part.piece.centre + part.piece.first * part.piece.radius : part.piece.from;
+      for (const Vec& corner : corners)
+        if (cut_beside(part.piece, corner)) in_order.emplace_back(length(corner - begin).high, corner);
+      std::sort(in_order.begin(), in_order.end(),
+                [](const auto& a, const auto& b) { return a.first < b.first; });
+      for (const auto& [away, corner] : in_order) {
+        const auto two = cut_beside(part.piece, corner);
+        if (!two) continue;
+        parts.push_back({(*two)[0], part.begins_at_corner, true});
+        part = {(*two)[1], true, part.ends_at_corner};
+      }
+      parts.push_back(part);
+    }
+    return parts;
+  }
+
+  /// Returns two parts that make up the whole. What is open lies mostly where outlines meet; if that is at
+  /// one end, most of the rest can be told at once. No part is made that is far shorter than the shortest
+  /// that are looked at: within the reach outlines may run on the wrong side of each other.
+  [[nodiscard]] std::array<Part, 2> cut(const Part& part) const {
+    std::array<Part, 2> two{part, part};
+    const bool long_enough = length(part.piece.to - part.piece.from).low > kEnd * kShort * reach_;
+    const std::array<Side, 2> pieces = part.begins_at_corner != part.ends_at_corner && long_enough
+                                           ? with_end_cut_off(part.piece, part.begins_at_corner)
+                                           : halves(part.piece);
+    two[0].piece = pieces[0], two[1].piece = pieces[1];
+    two[0].ends_at_corner = two[1].begins_at_corner = false;
+    return two;
+  }
+
+  /// Calls `settled(piece, corners)` for parts of a side until it is true for all but the shortest. Outlines
+  /// may meet at its ends and at `meetings`.
   template <class Settled>
-  bool halve(const Side& whole, Settled settled) {
-    std::vector<Side> open{whole};
+  bool halve(const Side& whole, const std::vector<Vec>& meetings, Settled settled) {
+    undecided_.resize(half_planes_.size());
+    std::iota(undecided_.begin(), undecided_.end(), std::size_t{0});
+    value_.take_back(0);
+    std::vector<Part> open = cut_at_corners(whole, meetings);
+    for (Part& part : open) part.undecided_end = undecided_.size();
     int short_ones = 0;
     while (!open.empty()) {
-      const Side piece = open.back();
+      part_ = open.back();
       open.pop_back();
-      const bool wide = piece.arc && piece.sweep != Sweep::less;
-      if (!wide) {
-        const Corners corners = corners_of(piece);
-        const Vec middle = piece.arc ? piece.from : (piece.from + piece.to) * just(0.5);
-        if (settled(piece, corners)) {
-          short_ones = 0;
-          continue;
-        }
-        if (farthest(piece, middle) <= kShort * reach_) {
-          if (++short_ones > kMostShort) return false;
-          continue;
-        }
-        if (work_ > kMostWork) {
-          leave_open("more work than is spent on it would be needed");
-          return false;
-        }
+      undecided_.resize(part_.undecided_end);
+      value_.take_back(part_.said);
+      const Side piece = part_.piece;
+      const Corners corners = corners_of(piece);
+      const Vec middle = piece.arc ? piece.from : (piece.from + piece.to) * just(0.5);
+      const bool at_corner = part_.begins_at_corner || part_.ends_at_corner;
+      const bool is_short = farthest(piece, middle) <= (at_corner ? kShortAtCorner : 1) * kShort * reach_;
+      // An end at a corner is open as long as it is not short: to ask would be for nothing.
+      const bool is_end = part_.begins_at_corner != part_.ends_at_corner;
+      if ((!is_end || is_short) && settled(piece, corners)) {
+        short_ones = 0;
+        continue;
+      }
+      // Beside a corner nothing is shown of a stretch that stands for as many of the shortest.
+      if (is_short) {
+        short_ones += at_corner ? kShortAtCorner : 1;
+        if (short_ones > kMostShort) return false;
+        continue;
+      }
+      if (work_ > kMostWork) {
+        leave_open("more work than is spent on it would be needed");
+        return false;
       }
       at_ = piece.from;
-      for (const Side& half : halves(piece)) {
+      for (const Part& half : cut(part_)) {
         // A part that cannot be halved is as long as the whole.
-        if (!wide && half.arc && half.first.x.low == piece.first.x.low &&
-            half.last.x.low == piece.last.x.low && half.first.y.low == piece.first.y.low &&
-            half.last.y.low == piece.last.y.low)
+        if (piece.arc && half.piece.first.x.low == piece.first.x.low &&
+            half.piece.last.x.low == piece.last.x.low && half.piece.first.y.low == piece.first.y.low &&
+            half.piece.last.y.low == piece.last.y.low)
           return false;
         open.push_back(half);
       }
@@ -275,6 +392,8 @@ class TreeCheck {
       const auto [k, i] = members_[m].side;
       far = far && distance(p, primitives_[k].shape.sides[i]).low > limit;
     });
+    for (const Member& half_plane : half_planes_)
+      far = far && is_away(half_plane, primitives_[half_plane.side.primitive].shape.sides[0], p, limit);
     return far;
   }
 
@@ -286,7 +405,7 @@ class TreeCheck {
         return;
       }
     bool wrong = false;
-    const bool whole = halve(side, [&](const Side& piece, const Corners& corners) {
+    const bool whole = halve(side, {}, [&](const Side& piece, const Corners& corners) {
       const Beside known = beside(piece, corners, true);
       if (known.along.empty() || known.left == In::open || known.right == In::open) return false;
       const Vec aside = left_of(piece) * just(kAside * reach_);
@@ -296,14 +415,18 @@ class TreeCheck {
       wrong = wrong || (known.left == In::yes) != *in || (known.right == In::yes) != *out;
       return true;
     });
+    for (const SideOfTree& one : along) {
+      std::vector<Vec>& ends = ends_along_[one];
+      ends.push_back(side.from), ends.push_back(side.to);
+    }
     if (wrong) verdict_.fault = fmt::format("its material about {} is not that of the tree", text_of(at_));
     if (!whole || along.empty())
       leave_open(fmt::format("its outline about {} is not shown to be the tree's", text_of(at_)));
   }
 
-  void check_side(const Side& side) {
+  void check_side(const Side& side, const std::vector<Vec>& meetings) {
     bool missing = false;
-    const bool whole = halve(side, [&](const Side& piece, const Corners& corners) {
+    const bool whole = halve(side, meetings, [&](const Side& piece, const Corners& corners) {
       if (!outline_.first_not_within({{piece, 0}}, 2 * kAside * reach_, work_, 0)) return true;
       const Beside known = beside(piece, corners, false);
       if (known.left == In::open || known.right == In::open) return false;
@@ -321,11 +444,20 @@ class TreeCheck {
   const Shape& used_;
   double reach_;
   double window_ = 0;
-  std::vector<Member> members_;
-  /// Over the sides of all primitives, in the order of members_, and over the boxes of the primitives.
+  /// The sides of all primitives but half-planes, and the lines of those.
+  std::vector<Member> members_, half_planes_;
+  /// The primitives that are no half-planes.
+  std::vector<std::size_t> with_box_;
+  /// Over the sides in the order of members_, and over the boxes of the primitives in the order of with_box_.
   SideTree sides_{std::vector<Box>()}, wholes_{std::vector<Box>()};
   CurvePieces outline_;
   TreeValue value_;
+  /// The part that is looked at, and the half-planes that it and those it was cut from leave undecided, one
+  /// range after the other.
+  Part part_;
+  std::vector<std::size_t> undecided_;
+  /// The ends of the edges that run along a side.
+  std::map<SideOfTree, std::vector<Vec>> ends_along_;
   std::size_t work_ = 0;
   /// A place near the last piece that was cut.
   Vec at_;

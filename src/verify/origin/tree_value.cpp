@@ -56,13 +56,17 @@ void TreeValue::put(std::size_t n, In value) {
 }
 
 void TreeValue::set(std::size_t primitive, In value) {
-  if (value != In::no) changed_.push_back(primitive);
-  put(node_of_[primitive], value);
+  const std::size_t node = node_of_[primitive];
+  if (nodes_[node].value == value) return;
+  said_.push_back({primitive, nodes_[node].value});
+  put(node, value);
 }
 
-void TreeValue::clear() {
-  for (const std::size_t primitive : changed_) put(node_of_[primitive], In::no);
-  changed_.clear();
+void TreeValue::take_back(std::size_t said) {
+  while (said_.size() > said) {
+    put(node_of_[said_.back().primitive], said_.back().before);
+    said_.pop_back();
+  }
 }
 
 }  // namespace lekalo::verify

@@ -18,9 +18,11 @@ class TreeValue {
  public:
   explicit TreeValue(const Tree& tree);
 
-  /// Says what a primitive is at the place; at first, and after `clear`, it is `no`.
+  /// Says what a primitive is at the place; at first it is `no`.
   void set(std::size_t primitive, In value);
-  void clear();
+  /// What was said since `said` was so large is taken back.
+  [[nodiscard]] std::size_t said() const { return said_.size(); }
+  void take_back(std::size_t said);
   [[nodiscard]] In value() const { return nodes_.back().value; }
 
  private:
@@ -40,8 +42,13 @@ class TreeValue {
   void put(std::size_t node, In value);
 
   std::vector<Node> nodes_;
+  /// What a primitive was before something else was said of it.
+  struct Said {
+    std::size_t primitive;
+    In before;
+  };
   std::vector<std::size_t> node_of_;  ///< by primitive
-  std::vector<std::size_t> changed_;  ///< primitives that may be other than `no`
+  std::vector<Said> said_;            ///< in order
 };
 
 }  // namespace lekalo::verify

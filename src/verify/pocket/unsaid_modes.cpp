@@ -2,6 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
+#include "lekalo/verify/simulate.hpp"
+#include "nc_program.hpp"
+
 namespace lekalo::verify {
 namespace {
 
@@ -51,9 +56,24 @@ void UnsaidModes::look(std::size_t line, const SaidGroups& said, const Motions& 
       continue;
     const bool of_one = mode.controls == kLinuxcnc;
     sentences_.push_back(fmt::format(
-        "program: line {} moves where the program does not say {}; the control decides it{}", line, mode.what,
-        of_one ? " (--control says whose words these are, if not LinuxCNC's)" : ""));
+        "{}: line {} moves where the program does not say {}; the control decides it{}", program_, line,
+        mode.what, of_one ? " (--control says whose words these are, if not LinuxCNC's)" : ""));
   }
+}
+
+Result<std::vector<std::string>> unsaid_modes(const Document& program, double top, Control control) {
+  LEKALO_TRY(const NcProgram read, read_program(program, {.control = control, .top = top}));
+  UnsaidModes unsaid(control, program.name);
+  for (const NcEvent& event : read.events) {
+    if (event.first_move == event.end_move && !event.upright && !event.places) continue;
+    const auto first = read.moves.begin() + static_cast<std::ptrdiff_t>(event.first_move),
+               end = read.moves.begin() + static_cast<std::ptrdiff_t>(event.end_move);
+    const bool upright = event.upright.has_value();
+    const bool feeds = upright || std::any_of(first, end, [](const Move& move) { return !move.rapid; });
+    const bool turns = upright || std::any_of(first, end, [](const Move& move) { return move.arc; });
+    unsaid.look(event.line, event.said, {.with_feed = feeds, .arcs = turns});
+  }
+  return unsaid.sentences();
 }
 
 }  // namespace lekalo::verify

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "lekalo/base/nc_words.hpp"
@@ -42,7 +43,9 @@ struct Motions {
 /// is set up or as the program before it left them, so that such a program is neither right nor wrong.
 class UnsaidModes {
  public:
-  explicit UnsaidModes(words::Control control) : control_(control) {}
+  /// \param program  what the sentences call it
+  UnsaidModes(words::Control control, std::string program)
+      : control_(control), program_(std::move(program)) {}
 
   /// Looks at a block that moves, after its own words were said.
   void look(std::size_t line, const SaidGroups& said, const Motions& motions);
@@ -52,6 +55,7 @@ class UnsaidModes {
 
  private:
   words::Control control_;
+  std::string program_;
   std::set<std::string_view> told_;
   std::vector<std::string> sentences_;
 };

@@ -44,6 +44,18 @@ std::optional<Vec> about_the_middle(const Side& arc) {
   return std::nullopt;
 }
 
+/// Returns the parts of an arc of less than half a turn before and behind a direction between its ends.
+std::array<Side, 2> parts(const Side& arc, const Vec& direction) {
+  std::array<Side, 2> two{arc, arc};
+  two[0].last = two[1].first = direction;
+  for (Side& part : two) {
+    part.from = part.centre + part.first * part.radius;
+    part.to = part.centre + part.last * part.radius;
+    part.ccw = true;
+  }
+  return two;
+}
+
 }  // namespace
 
 Corners corners_of(const Side& piece) {
@@ -96,13 +108,38 @@ std::array<Side, 2> halves(const Side& piece) {
     // An arc of hardly less than a full turn still turns by more than a half without its first quarter.
     if (!about) two[1].sweep = Sweep::more;
   }
-  two[0].last = two[1].first = middle;
-  for (Side& half : two) {
-    half.from = half.centre + half.first * half.radius;
-    half.to = half.centre + half.last * half.radius;
-    half.ccw = true;
+  std::array<Side, 2> cut = parts(piece, middle);
+  for (std::size_t i = 0; i < 2; ++i) cut[i].sweep = two[i].sweep;
+  return cut;
+}
+
+std::optional<std::array<Side, 2>> cut_beside(const Side& piece, const Vec& point) {
+  if (piece.arc) {
+    const Vec away = point - piece.centre;
+    const Vec towards{just(middle_of(away.x)), just(middle_of(away.y))};
+    if (!(length(towards).low > 0)) return std::nullopt;
+    const Vec direction = unit(towards);
+    if (!(cross(piece.first, direction).low > 0 && cross(direction, piece.last).low > 0)) return std::nullopt;
+    return parts(piece, direction);
   }
+  const Vec along = piece.to - piece.from;
+  const double share = middle_of(dot(point - piece.from, along)) / middle_of(dot(along, along));
+  if (!(share > 0 && share < 1)) return std::nullopt;
+  std::array<Side, 2> two{piece, piece};
+  two[0].to = two[1].from = piece.from + along * just(share);
   return two;
+}
+
+std::array<Side, 2> with_end_cut_off(const Side& piece, bool first) {
+  Side end = piece;
+  for (int k = 0; k < 8; ++k) end = halves(end)[first ? 0 : 1];
+  Side rest = piece;
+  if (!piece.arc) {
+    (first ? rest.from : rest.to) = first ? end.to : end.from;
+  } else {
+    rest = parts(piece, first ? end.last : end.first)[first ? 1 : 0];
+  }
+  return first ? std::array<Side, 2>{end, rest} : std::array<Side, 2>{rest, end};
 }
 
 }  // namespace lekalo::verify
