@@ -34,7 +34,7 @@ Result<void> leave_unsaid_open(const std::string& called, const Document& progra
   return {};
 }
 
-/// What the larger tools' programs do not say is open, too: the stock is as they left it.
+/// The same of the larger tools' programs: the stock is as they left it.
 Result<void> leave_unsaid_open(const Document& program, const std::vector<EarlierProgram>& earlier,
                                const SimulateOptions& options, ClaimReport& claims) {
   LEKALO_CHECK(leave_unsaid_open("program", program, options, claims));

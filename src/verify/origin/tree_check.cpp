@@ -41,7 +41,7 @@ struct Beside {
 /// A part of a side that is still to be shown.
 struct Part {
   Side piece;
-  /// Whether it begins, and ends, where outlines may meet: the shorter it is the less of it is open there.
+  /// It begins, or ends, where outlines may meet: the shorter it is the less of it is open there.
   bool begins_at_corner = false, ends_at_corner = false;
   /// The half-planes of which the parts that it was cut from did not tell on which side of them it lies: a
   /// range of TreeCheck::undecided_. What was said of the others is so much of TreeCheck::value_.

@@ -20,7 +20,7 @@ class TreeValue {
 
   /// Says what a primitive is at the place; at first it is `no`.
   void set(std::size_t primitive, In value);
-  /// What was said since `said` was so large is taken back.
+  /// Takes back all that was set since `said()` was so large.
   [[nodiscard]] std::size_t said() const { return said_.size(); }
   void take_back(std::size_t said);
   [[nodiscard]] In value() const { return nodes_.back().value; }
@@ -42,7 +42,7 @@ class TreeValue {
   void put(std::size_t node, In value);
 
   std::vector<Node> nodes_;
-  /// What a primitive was before something else was said of it.
+  /// A primitive, and its value before another was set.
   struct Said {
     std::size_t primitive;
     In before;
