@@ -81,7 +81,8 @@ std::vector<Ring> drawn(Random& random) {
     Corner at{0, 0};
     Ring back;
     for (std::int64_t k = 0; k < 2 * n; ++k) {
-      const Corner way = ways[static_cast<std::size_t>(k % 4)], last = ways[static_cast<std::size_t>((k + 3) % 4)];
+      const Corner way = ways[static_cast<std::size_t>(k % 4)],
+                   last = ways[static_cast<std::size_t>((k + 3) % 4)];
       const bool first = k == 0, end = k + 1 == 2 * n;
       const Corner left{(end ? 0 : -way.y) + (first ? 0 : -last.y), (end ? 0 : way.x) + (first ? 0 : last.x)};
       rings[0].push_back(at);
@@ -94,7 +95,8 @@ std::vector<Ring> drawn(Random& random) {
   }
   const bool lying = random.below(2) == 0;
   for (std::int64_t k = 0; k < n; ++k)
-    for (const Corner c : {Corner{6 * k, 2}, {6 * k, 40}, {6 * k + 4, 40}, {6 * k + 4, 2}}) rings[0].push_back(c);
+    for (const Corner c : {Corner{6 * k, 2}, {6 * k, 40}, {6 * k + 4, 40}, {6 * k + 4, 2}})
+      rings[0].push_back(c);
   rings[0].push_back({6 * n - 2, 0});
   rings[0].push_back({0, 0});
   for (std::int64_t k = 0; k < n; ++k) hole(6 * k + 1, 10 + static_cast<std::int64_t>(random.below(20)));
@@ -114,8 +116,9 @@ TEST(VerifyPruned, PlacesAreInsideAsIntegersSay) {
     for (int k = 0; k < 100; ++k) {
       const auto reach = static_cast<std::uint64_t>(2 * (shape.high_x - shape.low_x) + 20),
                  rise = static_cast<std::uint64_t>(2 * (shape.high_y - shape.low_y) + 20);
-      const Corner p{2 * static_cast<std::int64_t>(shape.low_x) - 10 + static_cast<std::int64_t>(random.below(reach)),
-                     2 * static_cast<std::int64_t>(shape.low_y) - 10 + static_cast<std::int64_t>(random.below(rise))};
+      const Corner p{
+          2 * static_cast<std::int64_t>(shape.low_x) - 10 + static_cast<std::int64_t>(random.below(reach)),
+          2 * static_cast<std::int64_t>(shape.low_y) - 10 + static_cast<std::int64_t>(random.below(rise))};
       std::optional<bool> expected = lies_in(rings[0], p);
       for (std::size_t r = 1; r < rings.size() && expected; ++r) {
         const auto in = lies_in(rings[r], p);
@@ -141,7 +144,8 @@ TEST(VerifyPruned, TheNearestStrokeIsTheNearestOfAll) {
   const std::size_t count = case_count(60);
   for (std::size_t i = 0; i < count; ++i) {
     const double size = random.below(2) == 0 ? 100 : 1e5;
-    StrokeIndex index({-0.5 * size, -0.5 * size}, {0.5 * size, 0.5 * size}, size * (0.01 + random.uniform(0, 1)) / 10);
+    StrokeIndex index({-0.5 * size, -0.5 * size}, {0.5 * size, 0.5 * size},
+                      size * (0.01 + random.uniform(0, 1)) / 10);
     std::vector<Stroke> strokes;
     std::vector<double> wider;
     std::vector<std::uint32_t> numbers;
@@ -195,7 +199,9 @@ std::size_t grow(Tree& tree, Random& random, int depth) {
   return tree.nodes.size() - 1;
 }
 
-In both(In a, In b) { return a == In::no || b == In::no ? In::no : (a == In::yes && b == In::yes ? In::yes : In::open); }
+In both(In a, In b) {
+  return a == In::no || b == In::no ? In::no : (a == In::yes && b == In::yes ? In::yes : In::open);
+}
 In inverse(In a) { return a == In::open ? a : (a == In::yes ? In::no : In::yes); }
 
 In value_of(const Tree& tree, std::size_t n, const std::vector<In>& primitives) {
@@ -219,8 +225,15 @@ TEST(VerifyPruned, TheValueOfATreeIsThatOfItsNodes) {
     grow(tree, random, 4);
     TreeValue value(tree);
     std::vector<In> primitives(tree.primitives.size(), In::no);
+    std::vector<std::pair<std::size_t, std::vector<In>>> earlier{{value.said(), primitives}};
     for (int k = 0; k < 30; ++k) {
-      if (random.below(10) == 0) value.clear(), primitives.assign(primitives.size(), In::no);
+      if (random.below(4) == 0) earlier.emplace_back(value.said(), primitives);
+      if (random.below(6) == 0) {
+        earlier.resize(1 + random.below(earlier.size()));
+        value.take_back(earlier.back().first);
+        primitives = earlier.back().second;
+        ASSERT_EQ(value.value(), value_of(tree, tree.nodes.size() - 1, primitives)) << i << ' ' << k;
+      }
       const std::size_t at = random.below(primitives.size());
       primitives[at] = static_cast<In>(random.below(3));
       value.set(at, primitives[at]);
