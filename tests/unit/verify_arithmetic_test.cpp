@@ -319,6 +319,11 @@ TEST(VerifyArithmetic, JsonPiecesKeepTheirText) {
                            "\"", "\"\\u12g4\"", "\"\\q\"", "[1]]", "[1] x", "'a'",     "[\t\"a\tb\"]"}) {
     EXPECT_FALSE(parse_json(text, "j")) << text;
   }
+  // A document that ends in a backslash ends there: the byte behind it was once counted as one of its lines.
+  const std::string_view more = "[\n\"\\\n";
+  const auto cut = parse_json(more.substr(0, 4), "j");
+  ASSERT_FALSE(cut);
+  EXPECT_NE(cut.error().message.find("j:2: "), std::string::npos) << cut.error().message;
 }
 
 TEST(VerifyArithmetic, JsonNests64DeepAndNoDeeper) {

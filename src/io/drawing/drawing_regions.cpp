@@ -1041,8 +1041,12 @@ class Assembly {
       contours.push_back(contour.edges);
       auto made = geom::make_region(contour.edges);
       if (made) continue;
-      return refuse(fmt::format("the contour of {} curves that begins with {} is none: {}",
-                                contour.curves.size(), name(contour.curves.front()), made.error().message));
+      // A mend may have left edges alone, without a curve of the drawing.
+      const std::string which = contour.curves.empty()
+                                    ? "a contour"
+                                    : fmt::format("the contour of {} curves that begins with {}",
+                                                  contour.curves.size(), name(contour.curves.front()));
+      return refuse(fmt::format("{} is none: {}", which, made.error().message));
     }
     auto nested = geom::nest_contours(std::move(contours));
     if (!nested) return refuse(meeting_sentence(nested.error().message));

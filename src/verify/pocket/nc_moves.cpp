@@ -128,7 +128,8 @@ class ProgramReader {
         rest += name_of(*code) + " ";
     // The words have to say whether it is a rapid where no move is seen, as up from a Z that is not known.
     // A cycle is seen at its places.
-    if (!moved && block.has_axis() && block.code(Group::once) == nullptr) rest += name_of(*motion_) + " ";
+    if (motion_ != nullptr && !moved && block.has_axis() && block.code(Group::once) == nullptr)
+      rest += name_of(*motion_) + " ";
     for (const int m : block.allowed) rest += fmt::format("M{} ", m);
     const bool turns = is_arc(motion_) && block.code(Group::once) == nullptr;
     const std::string_view shown = turns ? "NOXYIJKRP" : block.code(Group::once) != nullptr ? "NO" : "NOXY";

@@ -124,8 +124,9 @@ class GrammarCheck {
 
   bool escape() {
     const char c = here();
+    if (c == '\0') return false;  // the end of the document, too
     ++at_;
-    if (c != 'u') return std::string_view("\"\\/bfnrt").find(c) != std::string_view::npos && c != '\0';
+    if (c != 'u') return std::string_view("\"\\/bfnrt").find(c) != std::string_view::npos;
     for (int i = 0; i < 4; ++i, ++at_) {
       if (!is_hex(here())) return false;
     }
