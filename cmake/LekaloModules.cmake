@@ -35,7 +35,7 @@ function(lekalo_module NAME)
   target_link_libraries(lekalo_${NAME}
     PUBLIC ${ARG_PUBLIC}
     PRIVATE $<BUILD_INTERFACE:lekalo_options> ${ARG_PRIVATE})
-  if(fmt::fmt IN_LIST ARG_PRIVATE)
+  if(fmt::fmt IN_LIST ARG_PRIVATE)  # g++ takes the headers with the definitions they were made with
     lekalo_use_precompiled(lekalo_${NAME} lekalo_headers)
   endif()
   set_property(GLOBAL APPEND PROPERTY LEKALO_MODULES lekalo_${NAME})

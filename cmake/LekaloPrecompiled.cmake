@@ -21,7 +21,7 @@ function(lekalo_precompile NAME)
   lekalo_takes_precompiled(${NAME})
 endfunction()
 
-# What a target needs so that ccache takes the objects it makes with a precompiled header: ccache asks to be told that
+# Makes ccache take the objects of a target that are made with a precompiled header: it asks to be told that
 # this is safe, and the header itself must hold no time.
 function(lekalo_takes_precompiled TARGET)
   if(CMAKE_CXX_COMPILER_LAUNCHER)
@@ -29,7 +29,7 @@ function(lekalo_takes_precompiled TARGET)
       "${CMAKE_COMMAND};-E;env;CCACHE_SLOPPINESS=pch_defines,time_macros;${CMAKE_CXX_COMPILER_LAUNCHER}")
   endif()
   # g++ 12 does not know any more that these headers are the system's, and tells of strings of the library what it
-  # suspects there (GCC bug 105651); the sanitizers look for the same.
+  # suspects there, of which nothing was true; the address sanitizer looks for the same.
   target_compile_options(${TARGET} PRIVATE
     $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>
     $<$<CXX_COMPILER_ID:GNU>:SHELL:-fpch-preprocess -Wno-array-bounds -Wno-stringop-overread -Wno-stringop-overflow>)

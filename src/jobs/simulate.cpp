@@ -32,20 +32,6 @@ std::string samples_csv(const verify::SimulateReport& r) {
   return text;
 }
 
-/// The checker calls the program itself "program", whatever its file is called.
-Result<std::vector<std::string>> unsaid_of(const SimulateJob& job) {
-  const double top = job.machining.top;
-  LEKALO_TRY(std::vector<std::string> all,
-             verify::unsaid_modes({"program", job.program.bytes}, top, job.machining.control));
-  for (const EarlierProgram& earlier : job.after) {
-    LEKALO_TRY(
-        const std::vector<std::string> more,
-        verify::unsaid_modes({earlier.program.name, earlier.program.bytes}, top, job.machining.control));
-    all.insert(all.end(), more.begin(), more.end());
-  }
-  return all;
-}
-
 Result<void> add_pictures(const SimulateJob& job, Simulated& done) {
   if (!job.picture && !job.animation) return {};
   std::vector<geom::Edge> open;
@@ -62,11 +48,11 @@ Result<void> add_pictures(const SimulateJob& job, Simulated& done) {
 
 Result<Simulated> simulate(const SimulateJob& job, const PhaseListener& phases) {
   Simulated done;
-  LEKALO_TRY(done.report,
-             verify::simulate({job.program.name, job.program.bytes}, {job.pocket.name, job.pocket.bytes},
-                              job.machining, earlier_documents(job.after),
-                              begin_phase(phases, "following the program")));
-  LEKALO_TRY(done.unsaid, unsaid_of(job));
+  const verify::Document program{job.program.name, job.program.bytes};
+  const std::vector<verify::EarlierProgram> earlier = earlier_documents(job.after);
+  LEKALO_TRY(done.report, verify::simulate(program, {job.pocket.name, job.pocket.bytes}, job.machining,
+                                           earlier, begin_phase(phases, "following the program")));
+  LEKALO_TRY(done.unsaid, verify::unsaid_modes(program, job.machining, earlier));
   done.json = report_json(job, done);
   if (job.samples) done.samples = samples_csv(done.report);
   LEKALO_CHECK(add_pictures(job, done));

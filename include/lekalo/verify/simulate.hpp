@@ -124,11 +124,13 @@ struct SimulateReport {
                                               const std::vector<EarlierProgram>& earlier = {},
                                               const ProgressListener& progress = {});
 
-/// Returns a sentence for each mode of a control (unit, plane, from where it counts...) that a program does
-/// not say before motions that depend on it. The control decides these, as it is set up or as the program
-/// before left it, and simulate() takes what is usual: mm, from the origin, XY. Errors as there.
-[[nodiscard]] Result<std::vector<std::string>> unsaid_modes(
-    const Document& program, double top, words::Control control = words::Control::linuxcnc);
+/// Returns a sentence for each mode of a control (unit, plane, from where it counts...) that the program, or
+/// one before it, does not say before motions that depend on it. The control decides these, as it is set up
+/// or as another program left it, and simulate() takes what is usual: mm, from the origin, XY. The sentences
+/// call the program itself "program", and the others by their names. Errors as there.
+[[nodiscard]] Result<std::vector<std::string>> unsaid_modes(const Document& program,
+                                                            const SimulateOptions& options,
+                                                            const std::vector<EarlierProgram>& earlier = {});
 
 /// A range of lines of a program, from 1, both ends among them.
 struct LineRange {

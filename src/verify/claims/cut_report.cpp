@@ -25,24 +25,6 @@ constexpr double kLasting = 0.2;
 /// Words of a program have four decimals at least, and three on some controls.
 constexpr double kWordRounding = 5.1e-4;
 
-/// \param called  what the sentences call the program
-Result<void> leave_unsaid_open(const std::string& called, const Document& program,
-                               const SimulateOptions& options, ClaimReport& claims) {
-  LEKALO_TRY(const std::vector<std::string> unsaid,
-             unsaid_modes({called, program.bytes}, options.top, options.control));
-  claims.unchecked.insert(claims.unchecked.end(), unsaid.begin(), unsaid.end());
-  return {};
-}
-
-/// The same of the larger tools' programs: the stock is as they left it.
-Result<void> leave_unsaid_open(const Document& program, const std::vector<EarlierProgram>& earlier,
-                               const SimulateOptions& options, ClaimReport& claims) {
-  LEKALO_CHECK(leave_unsaid_open("program", program, options, claims));
-  for (const EarlierProgram& other : earlier)
-    LEKALO_CHECK(leave_unsaid_open(other.program.name, other.program, options, claims));
-  return {};
-}
-
 struct Figure {
   std::string_view key;
   double value;
@@ -290,13 +272,13 @@ class CutReport {
     return compare_depth();
   }
 
-  /// A report of simulate tells what the programs do not say; the same is unchecked here.
+  /// All that the programs leave to the control is unchecked. A report of simulate tells the same.
   Result<void> compare_unsaid() {
-    std::vector<EarlierProgram> named;
+    std::vector<EarlierProgram> named;  // without one that is supposed
     for (std::size_t i = 0; i < names_.size(); ++i)
       if (names_[i].role == "after") named.push_back({files_[i], names_[i].tool_mm});
-    const std::size_t before = claims_.unchecked.size();
-    LEKALO_CHECK(leave_unsaid_open(*program_, named, options_, claims_));
+    LEKALO_TRY(const std::vector<std::string> unsaid, unsaid_modes(*program_, options_, named));
+    claims_.unchecked.insert(claims_.unchecked.end(), unsaid.begin(), unsaid.end());
     if (pocket_report_ || !fields_.has("unsaid")) return fine();
     std::vector<std::string> told;
     fields_.each("unsaid", [&](Json item, const std::string& path) {
@@ -304,9 +286,7 @@ class CutReport {
       told.push_back(json_text(item));
     });
     LEKALO_CHECK(fine());
-    if (!std::equal(told.begin(), told.end(), claims_.unchecked.begin() + static_cast<std::ptrdiff_t>(before),
-                    claims_.unchecked.end()))
-      claims_.findings.push_back("unsaid is not what the programs do not say");
+    if (told != unsaid) claims_.findings.push_back("unsaid is not what the programs do not say");
     return fine();
   }
 
@@ -441,7 +421,7 @@ Result<ClaimReport> verify_pocket_program(const Document& program, const Documen
         found.uncut.size(), found.uncut[0].width_mm, found.uncut[0].x, found.uncut[0].y));
   report.notes.push_back(
       fmt::format("coverage {:.4f} %, gouge {:.5f} mm", found.coverage_percent, found.gouge_mm));
-  LEKALO_CHECK(leave_unsaid_open(program, earlier, options, report));
+  LEKALO_TRY(report.unchecked, unsaid_modes(program, options, earlier));
   return report;
 }
 

@@ -47,6 +47,24 @@ bool depends(Moves moves, const Motions& motions) {
   return moves == Moves::any || (moves == Moves::arcs ? motions.arcs : motions.with_feed);
 }
 
+/// Adds the sentences about one program.
+Result<void> add_unsaid(const Document& program, const std::string& called, const SimulateOptions& options,
+                        std::vector<std::string>& to) {
+  LEKALO_TRY(const NcProgram read, read_program(program, {.control = options.control, .top = options.top}));
+  UnsaidModes unsaid(options.control, called);
+  for (const NcEvent& event : read.events) {
+    if (event.first_move == event.end_move && !event.upright && !event.places) continue;
+    const auto first = read.moves.begin() + static_cast<std::ptrdiff_t>(event.first_move),
+               end = read.moves.begin() + static_cast<std::ptrdiff_t>(event.end_move);
+    const bool upright = event.upright.has_value();
+    const bool feeds = upright || std::any_of(first, end, [](const Move& move) { return !move.rapid; });
+    const bool turns = upright || std::any_of(first, end, [](const Move& move) { return move.arc; });
+    unsaid.look(event.line, event.said, {.with_feed = feeds, .arcs = turns});
+  }
+  to.insert(to.end(), unsaid.sentences().begin(), unsaid.sentences().end());
+  return {};
+}
+
 }  // namespace
 
 void UnsaidModes::look(std::size_t line, const SaidGroups& said, const Motions& motions) {
@@ -61,19 +79,13 @@ void UnsaidModes::look(std::size_t line, const SaidGroups& said, const Motions& 
   }
 }
 
-Result<std::vector<std::string>> unsaid_modes(const Document& program, double top, Control control) {
-  LEKALO_TRY(const NcProgram read, read_program(program, {.control = control, .top = top}));
-  UnsaidModes unsaid(control, program.name);
-  for (const NcEvent& event : read.events) {
-    if (event.first_move == event.end_move && !event.upright && !event.places) continue;
-    const auto first = read.moves.begin() + static_cast<std::ptrdiff_t>(event.first_move),
-               end = read.moves.begin() + static_cast<std::ptrdiff_t>(event.end_move);
-    const bool upright = event.upright.has_value();
-    const bool feeds = upright || std::any_of(first, end, [](const Move& move) { return !move.rapid; });
-    const bool turns = upright || std::any_of(first, end, [](const Move& move) { return move.arc; });
-    unsaid.look(event.line, event.said, {.with_feed = feeds, .arcs = turns});
-  }
-  return unsaid.sentences();
+Result<std::vector<std::string>> unsaid_modes(const Document& program, const SimulateOptions& options,
+                                              const std::vector<EarlierProgram>& earlier) {
+  std::vector<std::string> unsaid;
+  LEKALO_CHECK(add_unsaid(program, "program", options, unsaid));
+  for (const EarlierProgram& other : earlier)
+    LEKALO_CHECK(add_unsaid(other.program, other.program.name, options, unsaid));
+  return unsaid;
 }
 
 }  // namespace lekalo::verify

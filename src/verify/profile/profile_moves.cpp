@@ -128,7 +128,8 @@ class ProfileReader {
     if (block.has('O') && (block.words.size() > 1 || !block.g.empty() || line_ > 2))
       complain("a number of a program where none is");
     // LinuxCNC reads no such number: the program is another control's, with that one's modes.
-    if (block.has('O') && control_ == words::Control::linuxcnc) unsaid_ = UnsaidModes(words::Control::fanuc, "program");
+    if (block.has('O') && control_ == words::Control::linuxcnc)
+      unsaid_ = UnsaidModes(words::Control::fanuc, "program");
     if (dwell && motion) complain("a wait beside a motion");
     if (motion && !dwell && complaint_.empty()) move(block);
   }
