@@ -57,6 +57,23 @@ TEST(DrawingRegions, NestsByContainmentInTheOrderOfTheFile) {
   EXPECT_EQ(found.curve_of_edge, (std::vector<std::uint32_t>{0, 1, 2, 3, 5, 6, 7, 8, 4}));
 }
 
+TEST(DrawingRegions, ALoopNoLongerThanItsGapsIsTooShort) {
+  // Closing the gap leaves nothing of the line, which a sentence about its contour once began with.
+  const Point from{2, 0}, to{2.0000000000000009, 0};
+  DrawingOptions options;
+  options.join_tolerance = 1e-6;
+  Sketch alone;
+  alone.line(from, to);
+  EXPECT_EQ(refusal(alone, options),
+            "sketch.dxf: none of the 1 curves closes a contour: 1 of LINE on layer '0'");
+  Sketch beside;
+  beside.line(from, to).polyline({{5, 0}, {15, 0}, {15, 10}, {5, 10}});
+  options.strict = true;
+  const auto found = made(beside, options);
+  EXPECT_EQ(found.regions.size(), 1u);
+  EXPECT_EQ(found.specks, std::vector<std::uint32_t>{0});
+}
+
 TEST(DrawingRegions, LinesMeetHalfWayAcrossAGap) {
   Sketch sketch;
   sketch.line({0, 0}, {10, 0}).line({10, 0.008}, {10, 10}).line({10, 10}, {0, 0});

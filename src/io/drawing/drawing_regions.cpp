@@ -928,6 +928,13 @@ class Assembly {
         if (gap.size > worked_[gap.before].coordinate_error + worked_[gap.after].coordinate_error + digits)
           result_.gaps.push_back({gap.at, gap.size, {gap.before, gap.after}});
       }
+      if (contour.edges.empty()) {  // it was no longer than its gaps
+        for (const Link& link : chain.links) {
+          worked_[link.curve].taken = false;
+          result_.specks.push_back(link.curve);
+        }
+        continue;
+      }
       contours_.push_back(std::move(contour));
     }
   }
@@ -1041,12 +1048,8 @@ class Assembly {
       contours.push_back(contour.edges);
       auto made = geom::make_region(contour.edges);
       if (made) continue;
-      // A mend may have left edges alone, without a curve of the drawing.
-      const std::string which = contour.curves.empty()
-                                    ? "a contour"
-                                    : fmt::format("the contour of {} curves that begins with {}",
-                                                  contour.curves.size(), name(contour.curves.front()));
-      return refuse(fmt::format("{} is none: {}", which, made.error().message));
+      return refuse(fmt::format("the contour of {} curves that begins with {} is none: {}",
+                                contour.curves.size(), name(contour.curves.front()), made.error().message));
     }
     auto nested = geom::nest_contours(std::move(contours));
     if (!nested) return refuse(meeting_sentence(nested.error().message));
