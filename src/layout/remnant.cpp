@@ -31,34 +31,25 @@ class FreeSpace {
     return true;
   }
 
-  /// Says whether no cell of a box is free: a body holds all of it, or it is outside.
-  [[nodiscard]] bool is_taken(const GridBox& box) const {
-    const GridRegion region = rectangle(box);
-    for (const phi::BodyIndex index : scene_.near(box, 0, kPartLayer | kDefectLayer | kBorderLayer)) {
-      const phi::Body& body = scene_.body(index);
-      const GridRegion& outline = scene_.outline(body.shape);
-      if (body.container ? !phi::interiors_meet(outline, region, -body.at)
-                         : phi::lies_within(outline, region, -body.at))
-        return true;
-    }
-    return false;
-  }
-
   /// Returns the largest rectangle of free cells.
   [[nodiscard]] GridBox of_cells() const {
-    const Cells cells = free_cells();
+    const GridPoint size = within_.high - within_.low;
+    const std::int64_t cell = std::max(size.x, size.y) / kCells + 1;
+    const std::int64_t columns = size.x / cell, rows = size.y / cell;
     GridBox best{within_.low, within_.low};
     Int128 most = 0;
     // Each row is the base of columns of free cells with some height. A stack of rising heights finds the
     // largest rectangle under them.
-    std::vector<std::int64_t> height(static_cast<std::size_t>(cells.columns) + 1, 0);
-    for (std::int64_t y = 0; y < cells.rows; ++y) {
-      for (std::int64_t x = 0; x < cells.columns; ++x) {
+    std::vector<std::int64_t> height(static_cast<std::size_t>(columns) + 1, 0);
+    for (std::int64_t y = 0; y < rows; ++y) {
+      ask(1 + static_cast<std::uint64_t>(columns));
+      for (std::int64_t x = 0; x < columns; ++x) {
+        const GridPoint low = within_.low + GridPoint{x * cell, y * cell};
         auto& h = height[static_cast<std::size_t>(x)];
-        h = cells.free[cells.index(x, y)] ? h + 1 : 0;
+        h = is_free({low, low + GridPoint{cell, cell}}) ? h + 1 : 0;
       }
       std::vector<std::int64_t> rising;
-      for (std::int64_t x = 0; x <= cells.columns; ++x) {
+      for (std::int64_t x = 0; x <= columns; ++x) {
         while (!rising.empty() &&
                height[static_cast<std::size_t>(rising.back())] >= height[static_cast<std::size_t>(x)]) {
           const std::int64_t h = height[static_cast<std::size_t>(rising.back())];
@@ -66,7 +57,8 @@ class FreeSpace {
           const std::int64_t left = rising.empty() ? 0 : rising.back() + 1;
           if (Int128{h} * (x - left) <= most) continue;
           most = Int128{h} * (x - left);
-          best = box_of(cells, left, y - h + 1, x, y + 1);
+          best = {within_.low + GridPoint{left * cell, (y - h + 1) * cell},
+                  within_.low + GridPoint{x * cell, (y + 1) * cell}};
         }
         rising.push_back(x);
       }
@@ -99,54 +91,6 @@ class FreeSpace {
 
  private:
   static constexpr std::int64_t kCells = 192;
-  /// Smaller blocks of cells are not asked whether they are taken as a whole: their cells are as soon asked.
-  static constexpr std::int64_t kLeastTaken = 16;
-
-  struct Cells {
-    std::int64_t size, columns, rows;
-    std::vector<bool> free;
-    [[nodiscard]] std::size_t index(std::int64_t x, std::int64_t y) const {
-      return static_cast<std::size_t>(y * columns + x);
-    }
-  };
-  /// The box of the cells from (x0, y0) to before (x1, y1).
-  [[nodiscard]] GridBox box_of(const Cells& cells, std::int64_t x0, std::int64_t y0, std::int64_t x1,
-                               std::int64_t y1) const {
-    return {within_.low + GridPoint{x0 * cells.size, y0 * cells.size},
-            within_.low + GridPoint{x1 * cells.size, y1 * cells.size}};
-  }
-
-  [[nodiscard]] Cells free_cells() const {
-    const GridPoint size = within_.high - within_.low;
-    Cells cells{std::max(size.x, size.y) / kCells + 1, 0, 0, {}};
-    cells.columns = size.x / cells.size, cells.rows = size.y / cells.size;
-    cells.free.resize(static_cast<std::size_t>(cells.columns * cells.rows));
-    if (!cells.free.empty()) mark_free(cells, 0, 0, cells.columns, cells.rows);
-    return cells;
-  }
-
-  /// Marks the free cells of a block: all at once, none, or those of its halves. Each cell counts as it would
-  /// alone, for what is free as a whole is free in each part, and what is taken is taken.
-  void mark_free(Cells& cells, std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1) const {
-    ask(1);
-    const GridBox box = box_of(cells, x0, y0, x1, y1);
-    if (is_free(box)) {
-      for (std::int64_t y = y0; y < y1; ++y)
-        for (std::int64_t x = x0; x < x1; ++x) cells.free[cells.index(x, y)] = true;
-      return;
-    }
-    const std::int64_t width = x1 - x0, height = y1 - y0;
-    if (width * height == 1) return;
-    if (width * height >= kLeastTaken && is_taken(box)) return;
-    if (width >= height) {
-      mark_free(cells, x0, y0, x0 + width / 2, y1);
-      mark_free(cells, x0 + width / 2, y0, x1, y1);
-    } else {
-      mark_free(cells, x0, y0, x1, y0 + height / 2);
-      mark_free(cells, x0, y0 + height / 2, x1, y1);
-    }
-  }
-
   const phi::Scene& scene_;
   GridBox within_;
 };

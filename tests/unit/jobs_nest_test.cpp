@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <optional>
 #include <vector>
 
 #include "jobs/nest_checked.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/jobs/check.hpp"
 #include "lekalo/jobs/nest.hpp"
@@ -104,6 +106,24 @@ TEST(JobsNest, HandsOutTheBytesThatBothChecksConfirmed) {
   Layout again;
   again.document = nested->document;
   EXPECT_TRUE(check(again)->valid());
+}
+
+TEST(JobsNest, AStopThatComesDuringTheCheckDoesNotThrowTheLayoutAway) {
+  // The stop comes when the search hands its layout over; who stops the command listens on this thread.
+  const Document squares = wanted_squares();
+  std::atomic<bool> stop{false};
+  RunControl outer;
+  outer.stop = &stop;
+  const Listening listening(outer);
+  const Nester found = finding({squares});
+  const Nester stopped = [&](const Document& document, const nest::Options& options, const RunControl& run) {
+    auto nested = found(document, options, run);
+    stop = true;
+    return nested;
+  };
+  const auto nested = nest_checked(stopped, squares, {}, {});
+  ASSERT_TRUE(nested) << nested.error().message;
+  EXPECT_FALSE(nested->bytes.empty());
 }
 
 TEST(JobsNest, ASelectionLeavesDemandLocksAndTheRestAsTheyWere) {
