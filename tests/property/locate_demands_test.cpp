@@ -226,9 +226,12 @@ TEST_F(LocateDemands, MaximaBindAndCanBeOutOfReach) {
     double deepest = 0;
     for (const std::uint32_t edge : problem.features[0].edges)
       deepest = std::max(deepest, judge.depth(pose_of(free), edge));
-    problem.features[0].maximum = deepest - 0.05;
     // In another order, so that the number of an edge is not its place in the feature.
     std::reverse(problem.features[0].edges.begin(), problem.features[0].edges.end());
+    // One that the best placement just keeps is among what holds it.
+    problem.features[0].maximum = deepest + 1e-3;
+    expect_contacts_on_their_edges(problem, solved(problem));
+    problem.features[0].maximum = deepest - 0.05;
     const DemandResult bound = solved(problem);
     if (bound.status == Status::infeasible) {
       closed(bound);
