@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { Checking } from '../src/work/checking';
+import { Checking } from '../src/tasks/checking';
 import type { LayoutDocument, Placement, Violation } from '../src/layout/document';
 import type { Kernel, Looked } from '../src/kernel/kernel';
 import { Model } from '../src/layout/model';

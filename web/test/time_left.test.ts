@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { TimeLeft } from '../src/work/time_left';
+import { TimeLeft } from '../src/tasks/time_left';
 
 describe('the time left', () => {
   it('is not told before there is something to go by', () => {

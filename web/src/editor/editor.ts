@@ -1,6 +1,6 @@
 // The state of the page, and the gestures that change it. Drawing and panels look at it and are told when it changes.
 
-import { Checking } from '../work/checking';
+import { Checking } from '../tasks/checking';
 import type { FeatureChange, LayoutDocument, Placement, Violation } from '../layout/document';
 import { snapToGrid } from '../layout/grid';
 import { UNKNOWN, type Kernel, type LiveState } from '../kernel/kernel';
@@ -9,7 +9,7 @@ import { Model, type Change } from '../layout/model';
 import { Photos } from './photos';
 import type { Client, Connection, Course } from '../server/socket';
 import { t } from '../i18n';
-import { Transfer, type Answer } from '../work/transfer';
+import { Transfer, type Answer } from '../tasks/transfer';
 
 export type Tool = 'select' | 'slide' | 'push' | 'nearest' | 'measure' | 'pan' | 'defect' | 'zone' | 'photo';
 export type Topic =

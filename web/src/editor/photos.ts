@@ -2,7 +2,7 @@
 
 import { t } from '../i18n';
 import { Photo, type PhotoScale } from './photo';
-import { sentenceOf, type Answer } from '../work/transfer';
+import { sentenceOf, type Answer } from '../tasks/transfer';
 
 /** The types that the server takes; an image of another type or size is written anew. */
 const TYPES = ['image/png', 'image/jpeg'];

@@ -5,7 +5,7 @@ import { exportDialog, type Saved } from '../dialogs/export_dialog';
 import type { Editor } from '../editor/editor';
 import { h, showDialog } from '../html/elements';
 import { t } from '../i18n';
-import { sentenceOf } from '../work/transfer';
+import { sentenceOf } from '../tasks/transfer';
 import { store, stored } from './settings';
 
 /** A download needs its address until the browser has taken it. */

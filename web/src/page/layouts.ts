@@ -9,7 +9,7 @@ import { showDialog } from '../html/elements';
 import { t } from '../i18n';
 import type { LayoutDocument, Part } from '../layout/document';
 import { Client, type Wire } from '../server/socket';
-import { sentenceOf } from '../work/transfer';
+import { sentenceOf } from '../tasks/transfer';
 import { author, store, stored } from './settings';
 
 export interface Known {
