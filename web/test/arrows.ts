@@ -8,14 +8,14 @@ export const ARROWS: Record<string, readonly string[]> = {
   i18n: [],
   layout: [],
   kernel: ['layout'],
-  work: ['kernel', 'layout'],
+  tasks: ['kernel', 'layout'],
   server: ['kernel', 'layout'],
-  editor: ['i18n', 'kernel', 'layout', 'server', 'work'],
+  editor: ['i18n', 'kernel', 'layout', 'server', 'tasks'],
   dialogs: ['html', 'i18n', 'layout'],
   panels: ['editor', 'html', 'i18n', 'layout'],
   picture: ['editor', 'html', 'i18n', 'kernel', 'layout'],
   tools: ['editor', 'i18n', 'layout', 'picture'],
-  page: ['dialogs', 'editor', 'html', 'i18n', 'kernel', 'layout', 'panels', 'picture', 'server', 'tools', 'work'],
+  page: ['dialogs', 'editor', 'html', 'i18n', 'kernel', 'layout', 'panels', 'picture', 'server', 'tasks', 'tools'],
 };
 
 const MOST_FILES_IN_A_FOLDER = 40;
