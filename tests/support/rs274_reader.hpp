@@ -97,7 +97,7 @@ class Reader {
       rotation_ = Motion::turned(0, 0, words['R'] * kPi / 180);
     } else if (has(codes, 690)) {
       rotation_ = {};
-    } else {
+    } else if (!has(codes, 40)) {  // the X of a dwell is its time
       move(words);
     }
   }

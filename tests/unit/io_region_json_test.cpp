@@ -1,5 +1,6 @@
 #include "lekalo/io/shape/region_json.hpp"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 namespace lekalo::io {
@@ -32,6 +33,15 @@ TEST(RegionJson, RefusesWithOneSentence) {
     EXPECT_EQ(file.error().code, ErrorCode::bad_input) << bad;
     EXPECT_EQ(file.error().message.find("bad.json"), 0u) << file.error().message;
     EXPECT_EQ(file.error().message.find('\n'), std::string::npos) << file.error().message;
+  }
+}
+
+TEST(RegionJson, NothingFollowsAZeroByteUnread) {
+  for (const std::string& tail : {std::string(1, '\0'), std::string("\n\0\n{\"a\": 1}", 11)}) {
+    const auto file = parse_regions(kKeyhole + tail, "tail.json");
+    ASSERT_FALSE(file.has_value());
+    EXPECT_EQ(file.error().message, fmt::format("tail.json, line {}: this is not JSON from '\\x00' on",
+                                                tail.front() == '\n' ? 6 : 5));
   }
 }
 

@@ -58,12 +58,24 @@ class Translation {
     constexpr int kNumberTooLarge = 406;
     const auto end = bytes_.begin() + static_cast<std::ptrdiff_t>(std::min(position, bytes_.size()));
     // The parser reports the end of the text one beyond the last byte.
-    listener_.broken({1 + static_cast<std::size_t>(std::count(bytes_.begin(), end, '\n')), position, token,
-                      error.id == kNumberTooLarge, position > bytes_.size()});
+    listener_.broken({line_of(end), position, token, error.id == kNumberTooLarge, position > bytes_.size()});
+    return false;
+  }
+
+  /// The parser takes a zero byte for the end of the text, so that anything might follow it unread.
+  bool ends_at_the_last_byte() {
+    const auto zero = std::find(bytes_.begin(), bytes_.end(), '\0');
+    if (zero == bytes_.end()) return true;
+    const auto position = static_cast<std::size_t>(zero - bytes_.begin()) + 1;
+    listener_.broken({line_of(zero), position, std::string(1, *zero), false, false});
     return false;
   }
 
  private:
+  [[nodiscard]] std::size_t line_of(std::string_view::const_iterator at) const {
+    return 1 + static_cast<std::size_t>(std::count(bytes_.begin(), at, '\n'));
+  }
+
   std::string_view bytes_;
   JsonEvents& listener_;
 };
@@ -72,7 +84,7 @@ class Translation {
 
 bool parse_json(std::string_view bytes, JsonEvents& listener) {
   Translation translation(bytes, listener);
-  return Json::sax_parse(bytes.begin(), bytes.end(), &translation);
+  return Json::sax_parse(bytes.begin(), bytes.end(), &translation) && translation.ends_at_the_last_byte();
 }
 
 }  // namespace lekalo::io
