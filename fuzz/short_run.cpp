@@ -30,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace {
 
-constexpr std::size_t kStandardCases = 4000;
+constexpr std::size_t kStandardCases = 1500;
 constexpr std::size_t kLargestInput = 1 << 14;
 constexpr unsigned kMostSeconds = 20;         // for one input
 constexpr std::size_t kMostMegabytes = 1024;  // what a command may take for an input of a megabyte

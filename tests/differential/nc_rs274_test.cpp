@@ -294,7 +294,7 @@ TEST(NcRs274, ProgramsOfPostsAgree) {
 /// Programs with words that few readers agree about: what is rewritten is the moved original, and what rs274
 /// refuses is refused, or refused by it in the result too.
 TEST(NcRs274, StrangeProgramsAgreeOrAreRefused) {
-  const std::size_t count = std::min<std::size_t>(lekalo::cases::case_count(150), 10000);
+  const std::size_t count = std::min<std::size_t>(lekalo::cases::case_count(50), 10000);
   std::size_t rewritten = 0;
   std::array<std::size_t, rs274::kFamilies.size()> drawn{}, taken{};
   for (std::size_t k = 0; k < count; ++k) {
@@ -326,7 +326,7 @@ TEST(NcRs274, AModalWordMissingAtTheTopIsSetByTheOffsetLine) {
 }
 
 TEST(NcRs274, RandomProgramsAgree) {
-  const std::size_t count = std::min<std::size_t>(lekalo::cases::case_count(100), 1500);
+  const std::size_t count = std::min<std::size_t>(lekalo::cases::case_count(40), 1500);
   std::size_t compared = 0;
   for (std::size_t k = 1; k <= count; ++k) {
     const std::string program = rs274::RandomProgram(lekalo::cases::seed(), 2 * k).write();

@@ -130,7 +130,7 @@ TEST(VerifySimulateRs274, TheComparisonNoticesWhatDiffers) {
 }
 
 TEST(VerifySimulateRs274, WhatIsReadMovesAsTheInterpreterDoes) {
-  const std::size_t count = std::min<std::size_t>(cases::case_count(1000), 10000);
+  const std::size_t count = std::min<std::size_t>(cases::case_count(400), 10000);
   std::size_t judged = 0, motions = 0;
   std::array<std::size_t, rs274::kFamilies.size()> drawn{}, read{};
   for (std::size_t index = 0; index < count; ++index) {

@@ -13,7 +13,7 @@ namespace lekalo {
 namespace {
 
 TEST(Cases, TheKnownPoseHasThePromisedAllowance) {
-  const std::size_t count = cases::case_count(1000);
+  const std::size_t count = cases::case_count(400);
   for (std::size_t index = 0; index < count; ++index) {
     const auto c = cases::random_case(cases::seed(), index);
     ASSERT_GT(c.allowance, 0) << c.name;
@@ -87,7 +87,7 @@ TEST(Cases, NearParallelEdgesAreThere) {
 }
 
 TEST(ReferenceMethods, IcpNeverReportsMoreThanTheExactClearance) {
-  const std::size_t count = cases::case_count(300);
+  const std::size_t count = cases::case_count(120);
   for (std::size_t index = 0; index < count; ++index) {
     const auto c = cases::random_case(cases::seed(), index);
     const auto best = locate::locate_icp(c.part, c.blank, {}).value().best;
@@ -98,7 +98,7 @@ TEST(ReferenceMethods, IcpNeverReportsMoreThanTheExactClearance) {
 
 #ifdef LEKALO_WITH_IPOPT
 TEST(ReferenceMethods, IpoptNeverReportsMoreThanTheExactClearance) {
-  const std::size_t count = std::min<std::size_t>(cases::case_count(40), 400);  // 20 ms a start
+  const std::size_t count = std::min<std::size_t>(cases::case_count(16), 400);  // 20 ms a start
   for (std::size_t index = 0; index < count; ++index) {
     const auto c = cases::random_case(cases::seed(), index);
     locate::IpoptOptions options;
