@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <span>
 #include <tuple>
 
 #include "lekalo/base/assert.hpp"
+#include "lekalo/base/parallel.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/phi/outline_relation.hpp"
@@ -249,18 +251,26 @@ std::vector<Violation> check(const Document& document) {
   const auto sheet = [](const Placement* p) { return std::tuple{p->stock, p->copy}; };
   std::stable_sort(order.begin(), order.end(),
                    [&](const Placement* p, const Placement* q) { return sheet(p) < sheet(q); });
-  std::vector<Violation> violations;
-  std::optional<Features> features;
+  std::vector<std::span<const Placement* const>> sheets;
+  std::map<std::uint32_t, Features> features;  // by stock
   for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-    std::vector<Placed> placed;
-    for (; end < order.size() && sheet(order[end]) == sheet(order[begin]); ++end)
-      placed.push_back({order[end], placed_outline(part_of(document, *order[end]), *order[end])});
-    if (begin == 0 || order[begin]->stock != order[begin - 1]->stock)
-      features.emplace(stock_of(document, *order[begin]));
-    for (const Placed& one : placed)
-      add_stock_violations(document, one, *features, Depths::measured, violations);
-    add_pair_violations(document, placed, violations);
+    while (end < order.size() && sheet(order[end]) == sheet(order[begin])) ++end;
+    sheets.push_back(std::span(order).subspan(begin, end - begin));
+    features.try_emplace(order[begin]->stock, stock_of(document, *order[begin]));
   }
+  // Sheets have nothing to do with each other.
+  std::vector<std::vector<Violation>> found(sheets.size());
+  share_out(sheets.size(), kUsualThreads, [&](std::size_t i) {
+    std::vector<Placed> placed;
+    for (const Placement* one : sheets[i])
+      placed.push_back({one, placed_outline(part_of(document, *one), *one)});
+    for (const Placed& one : placed)
+      add_stock_violations(document, one, features.at(one.placement->stock), Depths::measured, found[i]);
+    add_pair_violations(document, placed, found[i]);
+  });
+  std::vector<Violation> violations;
+  for (const std::vector<Violation>& some : found)
+    violations.insert(violations.end(), some.begin(), some.end());
   sort_violations(violations);
   return violations;
 }

@@ -197,6 +197,9 @@ TEST(ShapeTree, RefusesWithOneSentenceThatNamesThePlace) {
   for (int i = 0; i < 70; ++i) deep = R"({"union": [)" + deep + "]}";
   std::string many = disc;
   for (int i = 0; i < 10'000; ++i) many += "," + disc;
+  const std::string half_plane = R"({"half_plane": {"from": [0, 0], "to": [1, 0]}})";
+  std::string half_planes = disc;
+  for (int i = 0; i < 1'001; ++i) half_planes += "," + half_plane;
   const Case cases[] = {
       {"{}", "no shape here"},
       {"[]", "a shape is an object, not array"},
@@ -265,6 +268,7 @@ TEST(ShapeTree, RefusesWithOneSentenceThatNamesThePlace) {
       {R"({"mirror": {"from": [0, 0], "to": [0, 0], "shape": )" + disc + "}}", "are one point"},
       {deep, "nested more than 64 deep"},
       {R"({"union": [)" + many + "]}", "more than 10000 primitives"},
+      {R"({"intersection": [)" + half_planes + "]}", "more than 1000 half-planes; give what they enclose"},
   };
   for (const Case& c : cases) {
     const auto file = parse_shape_tree(document(c.shape), "part.json");

@@ -62,7 +62,7 @@ struct Violation {
 [[nodiscard]] std::int64_t defect_gap_of(const Document& document, const Part& part) noexcept;
 
 /// Returns every violation of a document, ordered by stock, copy, a, kind, b, feature. Cost: O(n log n +
-/// pairs of parts whose boxes come within their gap, times their edges).
+/// pairs of parts whose boxes come within their gap, times their edges), two sheets at a time.
 /// \pre indices and ids are as Document says
 [[nodiscard]] std::vector<Violation> check(const Document& document);
 

@@ -126,7 +126,11 @@ class TreeReader {
     const std::string place = where + "." + word;
     if (is_primitive(word)) {
       if (++primitives_ > kMostPrimitives)
-        return refuse(place, fmt::format("more than {} primitives", kMostPrimitives));
+        return refuse(place, fmt::format("more than {} primitives; give the outline of some as a \"polygon\"",
+                                         kMostPrimitives));
+      if (word == "half_plane" && ++half_planes_ > kMostHalfPlanes)
+        return refuse(place, fmt::format("more than {} half-planes; give what they enclose as a \"polygon\"",
+                                         kMostHalfPlanes));
       auto made = read_primitive(word, value, place, scale_);
       if (made) made->name = name;
       return made;
@@ -185,7 +189,7 @@ class TreeReader {
   }
 
   double scale_;
-  std::size_t primitives_ = 0;
+  std::size_t primitives_ = 0, half_planes_ = 0;
 };
 
 }  // namespace

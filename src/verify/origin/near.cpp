@@ -32,7 +32,7 @@ CurvePieces::CurvePieces(std::vector<CurvePiece> pieces)
     : pieces_(std::move(pieces)), index_(boxes_of(pieces_)) {}
 
 std::optional<Vec> CurvePieces::first_not_within(const std::vector<CurvePiece>& pieces, double reach,
-                                                 std::size_t& work, std::size_t most_work) {
+                                                 std::size_t& work, std::size_t most_work) const {
   struct Open {
     CurvePiece piece;
     int depth = 0;

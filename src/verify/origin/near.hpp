@@ -24,16 +24,16 @@ class CurvePieces {
   /// are shown to. Each piece is halved until a part is within reach of one of these, or too short to be.
   /// \param work  counts looks at pairs; where they are above `most_work` nothing is halved
   [[nodiscard]] std::optional<Vec> first_not_within(const std::vector<CurvePiece>& pieces, double reach,
-                                                    std::size_t& work, std::size_t most_work);
+                                                    std::size_t& work, std::size_t most_work) const;
   /// Calls f(k) for every piece k that p lies within `reach` of.
   template <class F>
-  void each_near(const Vec& p, double reach, F f) {
+  void each_near(const Vec& p, double reach, F f) const {
     index_.visit_near(box_of(p), reach, [&](std::size_t k) {
       if (distance(p, pieces_[k].side).low <= reach + pieces_[k].off + pieces_[k].more) f(k);
     });
   }
   /// Says whether p surely lies farther than `reach` from all pieces.
-  [[nodiscard]] bool surely_away(const Vec& p, double reach) {
+  [[nodiscard]] bool surely_away(const Vec& p, double reach) const {
     bool away = true;
     each_near(p, reach, [&](std::size_t) { away = false; });
     return away;

@@ -1,12 +1,17 @@
 #include "tree_check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "lekalo/base/parallel.hpp"
 #include "near.hpp"
 #include "tree_value.hpp"
 #include "verify/shape/shape_distance.hpp"
@@ -48,50 +53,66 @@ struct Part {
   std::size_t undecided_begin = 0, undecided_end = 0, said = 0;
 };
 
-class TreeCheck {
- public:
-  TreeCheck(const Tree& tree, const Shape& used, double reach)
-      : primitives_(tree.primitives), used_(used), reach_(reach), outline_(pieces_of(used)), value_(tree) {}
+/// A side of a primitive, and the direction of a line.
+struct Member {
+  SideOfTree side;
+  Vec along;
+};
 
-  TreeVerdict run() {
+/// Says whether the line or circle that carries a side is surely farther than `room` from a point.
+bool is_away(const Member& member, const Side& side, const Vec& p, double room) {
+  const Span off = side.arc ? length(p - side.centre) - side.radius : cross(member.along, p - side.from);
+  return (absolute(off) - just(room) - just(side.off)).low > 0;
+}
+
+/// A tree and the region that is to be it, arranged for walks along their sides.
+struct Ground {
+  Ground(const Tree& tree, const Shape& region, double distance)
+      : primitives(tree.primitives), used(region), reach(distance), outline(pieces_of(region)) {
     clip_half_planes();
     gather_sides();
-    if (!ends_in_window()) leave_open("the shape may have no end");
-    for (const Side& side : used_.sides) {
-      if (side.written || verdict_.along.empty()) verdict_.along.emplace_back();
-      check_edge(side);
-      if (!verdict_.fault.empty()) return verdict_;
-    }
-    for (std::size_t k = 0; k < primitives_.size(); ++k)
-      for (std::size_t i = 0; i < primitives_[k].shape.sides.size(); ++i) {
-        const auto ends = ends_along_.find({k, i});
-        check_side(primitives_[k].shape.sides[i],
-                   ends == ends_along_.end() ? std::vector<Vec>() : ends->second);
-        if (!verdict_.fault.empty()) return verdict_;
-      }
-    return verdict_;
   }
+
+  /// A side with a point farther from every primitive is none of the tree's.
+  [[nodiscard]] bool far_from_primitives(const Vec& p) const {
+    bool far = true;
+    const double limit = kFar * reach;
+    sides.visit_near(box_of(p), limit, [&](std::size_t m) {
+      const auto [k, i] = members[m].side;
+      far = far && distance(p, primitives[k].shape.sides[i]).low > limit;
+    });
+    for (const Member& half_plane : half_planes)
+      far = far && is_away(half_plane, primitives[half_plane.side.primitive].shape.sides[0], p, limit);
+    return far;
+  }
+
+  std::vector<Primitive> primitives;
+  const Shape& used;
+  double reach;
+  /// The sides of all primitives but half-planes, and the lines of those.
+  std::vector<Member> members, half_planes;
+  /// The primitives that are no half-planes.
+  std::vector<std::size_t> with_box;
+  /// Over the sides in the order of members, and over the boxes of the primitives in the order of with_box.
+  SideTree sides{std::vector<Box>()}, wholes{std::vector<Box>()};
+  CurvePieces outline;
 
  private:
-  void leave_open(std::string sentence) {
-    if (verdict_.open.empty()) verdict_.open = std::move(sentence);
-  }
-
   /// Half-planes become lines that are longer than everything else together.
   void clip_half_planes() {
-    double size = std::max({-used_.low_x, -used_.low_y, used_.high_x, used_.high_y, 0.0});
-    for (const Primitive& primitive : primitives_)
+    double size = std::max({-used.low_x, -used.low_y, used.high_x, used.high_y, 0.0});
+    for (const Primitive& primitive : primitives)
       for (const Side& side : primitive.shape.sides) {
         const Box box = box_of(side);
         size = std::max({size, -box.low_x, -box.low_y, box.high_x, box.high_y});
       }
-    window_ = 4 * size;
-    for (Primitive& primitive : primitives_) {
+    const double window = 4 * size;
+    for (Primitive& primitive : primitives) {
       if (!primitive.half_plane) continue;
       Side& line = primitive.shape.sides[0];
       const Vec along = unit(line.to - line.from);
       const Vec foot = line.from - along * dot(along, line.from);
-      line.from = foot - along * just(window_), line.to = foot + along * just(window_);
+      line.from = foot - along * just(window), line.to = foot + along * just(window);
       bound(primitive.shape);
     }
   }
@@ -99,32 +120,102 @@ class TreeCheck {
   /// The sides of all primitives stand in one tree, and their boxes in another, so that a piece is asked
   /// about those near to it alone. Half-planes, which are near to all, are kept apart.
   void gather_sides() {
-    std::vector<Box> boxes, wholes;
-    for (std::size_t k = 0; k < primitives_.size(); ++k) {
-      const Primitive& primitive = primitives_[k];
+    std::vector<Box> boxes, of_primitives;
+    for (std::size_t k = 0; k < primitives.size(); ++k) {
+      const Primitive& primitive = primitives[k];
       const Shape& shape = primitive.shape;
       if (primitive.half_plane) {
-        half_planes_.push_back({{k, 0}, unit(shape.sides[0].to - shape.sides[0].from)});
+        half_planes.push_back({{k, 0}, unit(shape.sides[0].to - shape.sides[0].from)});
         continue;
       }
       for (std::size_t i = 0; i < shape.sides.size(); ++i) {
         const Side& side = shape.sides[i];
-        members_.push_back({{k, i}, side.arc ? Vec{} : unit(side.to - side.from)});
+        members.push_back({{k, i}, side.arc ? Vec{} : unit(side.to - side.from)});
         boxes.push_back(shape.tree->box(i));
       }
-      wholes.push_back({shape.low_x, shape.low_y, shape.high_x, shape.high_y});
-      with_box_.push_back(k);
+      of_primitives.push_back({shape.low_x, shape.low_y, shape.high_x, shape.high_y});
+      with_box.push_back(k);
     }
-    sides_ = SideTree(std::move(boxes));
-    wholes_ = SideTree(std::move(wholes));
+    sides = SideTree(std::move(boxes));
+    wholes = SideTree(std::move(of_primitives));
   }
+};
+
+/// The result of a walk along one side.
+struct Finding {
+  std::string fault, open;
+  /// The sides of primitives along which an edge of the region runs.
+  std::set<SideOfTree> along;
+};
+
+/// Walks along sides, one after the other.
+class Walk {
+ public:
+  Walk(const Tree& tree, const Ground& ground)
+      : ground_(ground), primitives_(ground.primitives), reach_(ground.reach), value_(tree) {}
+
+  /// Returns the looks at sides that were needed so far.
+  [[nodiscard]] std::size_t work() const { return work_; }
 
   /// Beyond the window there is none of any primitive but half-planes.
   bool ends_in_window() {
-    for (const Member& half_plane : half_planes_) value_.set(half_plane.side.primitive, In::open);
+    for (const Member& half_plane : ground_.half_planes) value_.set(half_plane.side.primitive, In::open);
     const bool ends = value_.value() == In::no;
     value_.take_back(0);
     return ends;
+  }
+
+  /// Looks at an edge of the region.
+  /// \param most_work  nothing more is shown when this walk has needed more
+  Finding along_edge(const Side& side, std::size_t most_work) {
+    begin(most_work);
+    for (const Vec& p : points_of(side))
+      if (ground_.far_from_primitives(p)) {
+        found_.fault = fmt::format("its outline at {} is none of the tree's", text_of(p));
+        return std::move(found_);
+      }
+    bool wrong = false;
+    const bool whole = halve(side, {}, [&](const Side& piece, const Corners& corners) {
+      const Beside known = beside(piece, corners, true);
+      if (known.along.empty() || known.left == In::open || known.right == In::open) return false;
+      const Vec aside = left_of(piece) * just(kAside * reach_);
+      const auto in = holds(ground_.used, middle_of(piece) + aside),
+                 out = holds(ground_.used, middle_of(piece) - aside);
+      if (!in || !out) return false;
+      found_.along.insert(known.along.begin(), known.along.end());
+      wrong = wrong || (known.left == In::yes) != *in || (known.right == In::yes) != *out;
+      return true;
+    });
+    if (wrong) found_.fault = fmt::format("its material about {} is not that of the tree", text_of(at_));
+    if (!whole || found_.along.empty())
+      leave_open(fmt::format("its outline about {} is not shown to be the tree's", text_of(at_)));
+    return std::move(found_);
+  }
+
+  /// Looks at a side of a primitive, which edges of the region meet, or leave, at `meetings`.
+  Finding along_side(const Side& side, const std::vector<Vec>& meetings, std::size_t most_work) {
+    begin(most_work);
+    bool missing = false;
+    const bool whole = halve(side, meetings, [&](const Side& piece, const Corners& corners) {
+      if (!ground_.outline.first_not_within({{piece, 0}}, 2 * kAside * reach_, work_, 0)) return true;
+      const Beside known = beside(piece, corners, false);
+      if (known.left == In::open || known.right == In::open) return false;
+      missing = missing ||
+                (known.left != known.right && distance(middle_of(piece), ground_.used).low > kFar * reach_);
+      return known.left == known.right || missing;
+    });
+    if (missing) found_.fault = fmt::format("it lacks the outline of the tree about {}", text_of(at_));
+    if (!whole) leave_open(fmt::format("the tree's outline about {} is not shown to be its", text_of(at_)));
+    return std::move(found_);
+  }
+
+ private:
+  void begin(std::size_t most_work) {
+    found_ = {};
+    most_work_ = most_work;
+  }
+  void leave_open(std::string sentence) {
+    if (found_.open.empty()) found_.open = std::move(sentence);
   }
 
   static In in_half_plane(const Side& line, const Vec& p) {
@@ -163,19 +254,23 @@ class TreeCheck {
   }
   /// Says whether a piece surely does not meet a side. Its ends tell more than the line through it, which is
   /// hardly known far from a short piece.
-  static bool surely_apart(const Side& piece, const Side& side) {
+  /// \param endless  the side is a half-plane's
+  static bool surely_apart(const Side& piece, const Side& side, bool endless) {
     const Corners corners = corners_of(piece);
-    bool before = true, behind = true;
+    bool before = true, behind = true, ends_before = false, ends_behind = false;
     Span nearest = just(kInfinity);
     for (std::size_t i = 0; i < corners.count; ++i) {
       const Vec& at = corners.at[i];
       const Span height =
           side.arc ? length(at - side.centre) - side.radius : cross(side.to - side.from, at - side.from);
       before = before && height.high < 0, behind = behind && height.low > 0;
+      ends_before = ends_before || (i < 2 && height.high < 0);
+      ends_behind = ends_behind || (i < 2 && height.low > 0);
       if (i < 2 && side.arc) nearest = {std::min(nearest.low, length(at - side.centre).low), kInfinity};
     }
     // The corners are on one side of a line, or within a circle, with all between them.
     if (before || (behind && !side.arc)) return true;
+    if (endless && ends_before && ends_behind) return false;
     if (side.arc && behind) {
       // The chord is nowhere nearer to the centre than this, and the arc nowhere farther from its chord.
       const Span half = length(corners.at[1] - corners.at[0]) * just(0.5);
@@ -187,17 +282,6 @@ class TreeCheck {
     return (distance(middle, side) - just(farthest(piece, middle))).low > 0 || distance(piece, side).low > 0;
   }
 
-  /// A side of a primitive, and the direction of a line.
-  struct Member {
-    SideOfTree side;
-    Vec along;
-  };
-  /// Says whether the line or circle that carries a side is surely farther than `room` from a point.
-  static bool is_away(const Member& member, const Side& side, const Vec& p, double room) {
-    const Span off = side.arc ? length(p - side.centre) - side.radius : cross(member.along, p - side.from);
-    return (absolute(off) - just(room) - just(side.off)).low > 0;
-  }
-
   /// Decides which of the half-planes of which the parts before did not tell hold all of a piece and of the
   /// stretches beside it, or nothing of them. The others are undecided for its parts, too.
   void decide_half_planes(const Corners& corners) {
@@ -205,7 +289,7 @@ class TreeCheck {
     const std::size_t begin = part_.undecided_begin, end = part_.undecided_end;
     part_.undecided_begin = undecided_.size();
     for (std::size_t u = begin; u < end; ++u) {
-      const Member& half_plane = half_planes_[undecided_[u]];
+      const Member& half_plane = ground_.half_planes[undecided_[u]];
       const Side& line = primitives_[half_plane.side.primitive].shape.sides[0];
       bool within = true, without = true;
       for (std::size_t i = 0; i < corners.count; ++i) {
@@ -248,19 +332,20 @@ class TreeCheck {
       const Side& side = primitives_[k].shape.sides[i];
       if (is_away(member, side, middle, room)) return;
       work_ += 3;
-      near.push_back({k, !surely_apart(left, side), !surely_apart(right, side)});
+      const bool endless = primitives_[k].half_plane;
+      near.push_back({k, !surely_apart(left, side, endless), !surely_apart(right, side, endless)});
       const bool meets = near.back().meets_left || near.back().meets_right;
       given_up = apart && meets;
       if (!meets && !is_away(member, side, middle, reach_) && farthest(piece, corners, side) <= reach_)
         known.along.push_back({k, i});
     };
     double limit = 2 * aside;
-    sides_.visit_near(box_of(piece), limit, [&](std::size_t m) {
+    ground_.sides.visit_near(box_of(piece), limit, [&](std::size_t m) {
       if (given_up) return void(limit = -1);  // no box is so near, which ends the walk
-      look_at(members_[m]);
+      look_at(ground_.members[m]);
     });
     for (std::size_t u = part_.undecided_begin; u < part_.undecided_end && !given_up; ++u)
-      look_at(half_planes_[undecided_[u]]);
+      look_at(ground_.half_planes[undecided_[u]]);
     if (given_up) return known;
     const auto may_hold = [&](const Box& box) {
       return !(at_left.x.high < box.low_x || at_left.x.low > box.high_x || at_left.y.high < box.low_y ||
@@ -270,9 +355,9 @@ class TreeCheck {
       ++work_;
       value_.set(k, in_primitive(primitives_[k], at_left));
     };
-    wholes_.visit(may_hold, [&](std::size_t w) { look_within(with_box_[w]); });
+    ground_.wholes.visit(may_hold, [&](std::size_t w) { look_within(ground_.with_box[w]); });
     for (std::size_t u = part_.undecided_begin; u < part_.undecided_end; ++u)
-      look_within(half_planes_[undecided_[u]].side.primitive);
+      look_within(ground_.half_planes[undecided_[u]].side.primitive);
     for (const Near& one : near)
       if (one.meets_left) value_.set(one.primitive, In::open);
     known.left = value_.value();
@@ -339,7 +424,7 @@ class TreeCheck {
   /// may meet at its ends and at `meetings`.
   template <class Settled>
   bool halve(const Side& whole, const std::vector<Vec>& meetings, Settled settled) {
-    undecided_.resize(half_planes_.size());
+    undecided_.resize(ground_.half_planes.size());
     std::iota(undecided_.begin(), undecided_.end(), std::size_t{0});
     value_.take_back(0);
     std::vector<Part> open = cut_at_corners(whole, meetings);
@@ -367,7 +452,7 @@ class TreeCheck {
         if (short_ones > kMostShort) return false;
         continue;
       }
-      if (work_ > kMostWork) {
+      if (work_ > most_work_) {
         leave_open("more work than is spent on it would be needed");
         return false;
       }
@@ -384,83 +469,91 @@ class TreeCheck {
     return true;
   }
 
-  /// A side with a point farther from every primitive is none of the tree's.
-  [[nodiscard]] bool far_from_primitives(const Vec& p) const {
-    bool far = true;
-    const double limit = kFar * reach_;
-    sides_.visit_near(box_of(p), limit, [&](std::size_t m) {
-      const auto [k, i] = members_[m].side;
-      far = far && distance(p, primitives_[k].shape.sides[i]).low > limit;
-    });
-    for (const Member& half_plane : half_planes_)
-      far = far && is_away(half_plane, primitives_[half_plane.side.primitive].shape.sides[0], p, limit);
-    return far;
-  }
-
-  void check_edge(const Side& side) {
-    std::set<SideOfTree>& along = verdict_.along.back();
-    for (const Vec& p : points_of(side))
-      if (far_from_primitives(p)) {
-        verdict_.fault = fmt::format("its outline at {} is none of the tree's", text_of(p));
-        return;
-      }
-    bool wrong = false;
-    const bool whole = halve(side, {}, [&](const Side& piece, const Corners& corners) {
-      const Beside known = beside(piece, corners, true);
-      if (known.along.empty() || known.left == In::open || known.right == In::open) return false;
-      const Vec aside = left_of(piece) * just(kAside * reach_);
-      const auto in = holds(used_, middle_of(piece) + aside), out = holds(used_, middle_of(piece) - aside);
-      if (!in || !out) return false;
-      along.insert(known.along.begin(), known.along.end());
-      wrong = wrong || (known.left == In::yes) != *in || (known.right == In::yes) != *out;
-      return true;
-    });
-    for (const SideOfTree& one : along) {
-      std::vector<Vec>& ends = ends_along_[one];
-      ends.push_back(side.from), ends.push_back(side.to);
-    }
-    if (wrong) verdict_.fault = fmt::format("its material about {} is not that of the tree", text_of(at_));
-    if (!whole || along.empty())
-      leave_open(fmt::format("its outline about {} is not shown to be the tree's", text_of(at_)));
-  }
-
-  void check_side(const Side& side, const std::vector<Vec>& meetings) {
-    bool missing = false;
-    const bool whole = halve(side, meetings, [&](const Side& piece, const Corners& corners) {
-      if (!outline_.first_not_within({{piece, 0}}, 2 * kAside * reach_, work_, 0)) return true;
-      const Beside known = beside(piece, corners, false);
-      if (known.left == In::open || known.right == In::open) return false;
-      missing =
-          missing || (known.left != known.right && distance(middle_of(piece), used_).low > kFar * reach_);
-      return known.left == known.right || missing;
-    });
-    if (missing) verdict_.fault = fmt::format("it lacks the outline of the tree about {}", text_of(at_));
-    if (!whole) leave_open(fmt::format("the tree's outline about {} is not shown to be its", text_of(at_)));
-  }
-
   static std::string text_of(const Vec& p) { return fmt::format("({}, {})", p.x.low, p.y.low); }
 
-  std::vector<Primitive> primitives_;
-  const Shape& used_;
-  double reach_;
-  double window_ = 0;
-  /// The sides of all primitives but half-planes, and the lines of those.
-  std::vector<Member> members_, half_planes_;
-  /// The primitives that are no half-planes.
-  std::vector<std::size_t> with_box_;
-  /// Over the sides in the order of members_, and over the boxes of the primitives in the order of with_box_.
-  SideTree sides_{std::vector<Box>()}, wholes_{std::vector<Box>()};
-  CurvePieces outline_;
+  const Ground& ground_;
+  const std::vector<Primitive>& primitives_;
+  const double reach_;
   TreeValue value_;
   /// The part that is looked at, and the half-planes that it and those it was cut from leave undecided, one
   /// range after the other.
   Part part_;
   std::vector<std::size_t> undecided_;
-  /// The ends of the edges that run along a side.
-  std::map<SideOfTree, std::vector<Vec>> ends_along_;
-  std::size_t work_ = 0;
+  std::size_t work_ = 0, most_work_ = 0;
   /// A place near the last piece that was cut.
   Vec at_;
+  Finding found_;
+};
+
+/// Walks along all sides, on two threads. Each of two walks takes every other side, whoever runs it, and they
+/// wait for each other now and then, so that the threads change neither what is found nor what it costs.
+class TreeCheck {
+ public:
+  TreeCheck(const Tree& tree, const Shape& used, double reach)
+      : ground_(tree, used, reach), walks_{Walk(tree, ground_), Walk(tree, ground_)} {}
+
+  TreeVerdict run() {
+    if (!walks_[0].ends_in_window()) verdict_.open = "the shape may have no end";
+    const std::vector<Side>& edges = ground_.used.sides;
+    const bool goes_on = walk(
+        edges.size(),
+        [&](Walk& walk, std::size_t e, std::size_t most) { return walk.along_edge(edges[e], most); },
+        [&](std::size_t e, const Finding& found) {
+          if (edges[e].written || verdict_.along.empty()) verdict_.along.emplace_back();
+          verdict_.along.back().insert(found.along.begin(), found.along.end());
+          for (const SideOfTree& one : verdict_.along.back()) {
+            std::vector<Vec>& ends = ends_along_[one];
+            ends.push_back(edges[e].from), ends.push_back(edges[e].to);
+          }
+        });
+    if (!goes_on) return std::move(verdict_);
+    std::vector<SideOfTree> sides;
+    for (std::size_t k = 0; k < ground_.primitives.size(); ++k)
+      for (std::size_t i = 0; i < ground_.primitives[k].shape.sides.size(); ++i) sides.push_back({k, i});
+    walk(
+        sides.size(),
+        [&](Walk& walk, std::size_t s, std::size_t most) {
+          const auto ends = ends_along_.find(sides[s]);
+          return walk.along_side(ground_.primitives[sides[s].primitive].shape.sides[sides[s].side],
+                                 ends == ends_along_.end() ? std::vector<Vec>() : ends->second, most);
+        },
+        [](std::size_t, const Finding&) {});
+    return std::move(verdict_);
+  }
+
+ private:
+  /// Calls `look(walk, side, most work)` for each of so many sides, and `take(side, finding)` in their order.
+  /// False when a fault was found.
+  template <class Look, class Take>
+  bool walk(std::size_t count, Look look, Take take) {
+    for (std::size_t begin = 0; begin < count; begin += kRound) {
+      const std::size_t end = std::min(begin + kRound, count);
+      std::vector<Finding> found(end - begin);
+      const std::size_t done = walks_[0].work() + walks_[1].work();
+      share_out(walks_.size(), kUsualThreads, [&](std::size_t w) {
+        // The looks of the other walk until they wait for each other are left out.
+        const std::size_t most = kMostWork - std::min(kMostWork, done - walks_[w].work());
+        for (std::size_t i = begin + w; i < end; i += walks_.size())
+          found[i - begin] = look(walks_[w], i, most);
+      });
+      for (std::size_t i = begin; i < end; ++i) {
+        Finding& one = found[i - begin];
+        take(i, one);
+        if (verdict_.open.empty()) verdict_.open = std::move(one.open);
+        verdict_.fault = std::move(one.fault);
+        if (!verdict_.fault.empty()) return false;
+      }
+    }
+    return true;
+  }
+
+  /// So many sides are walked along before the walks wait for each other.
+  static constexpr std::size_t kRound = 128;
+
+  Ground ground_;
+  std::array<Walk, 2> walks_;
+  /// The ends of the edges that run along a side.
+  std::map<SideOfTree, std::vector<Vec>> ends_along_;
   TreeVerdict verdict_;
 };
 

@@ -13,9 +13,11 @@
 
 namespace lekalo::io {
 
-/// How deep a tree of shapes may be, and how many primitives it may have.
+/// How deep a tree of shapes may be, and how many primitives it may have, half-planes among them. Each of
+/// those meets nearly every other.
 inline constexpr std::size_t kDeepestShapeTree = 64;
 inline constexpr std::size_t kMostPrimitives = 10'000;
+inline constexpr std::size_t kMostHalfPlanes = 1'000;
 /// ShapeFile::name_of_edge where neither the primitive of an edge nor a node above it has a name.
 inline constexpr std::uint32_t kNoName = 0xffffffff;
 
