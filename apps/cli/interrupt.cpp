@@ -15,6 +15,7 @@ namespace {
 
 // A signal handler reaches nothing but globals.
 std::atomic<bool> stop_flag{false};
+std::chrono::steady_clock::time_point began;
 static_assert(std::atomic<bool>::is_always_lock_free, "the flag is set in a signal handler");
 
 void request_stop(int) { stop_flag.store(true, std::memory_order_relaxed); }
@@ -42,14 +43,11 @@ constexpr auto kBetweenLines = std::chrono::milliseconds(250);
 
 }  // namespace
 
-StopRequests::StopRequests(std::optional<double> seconds) {
+StopRequests::StopRequests() {
+  began = std::chrono::steady_clock::now();
   stop_flag.store(false);
   handle(SIGINT);
   handle(SIGTERM);
-  if (seconds) {
-    handle(SIGALRM);
-    start_timer(*seconds);
-  }
 }
 
 StopRequests::~StopRequests() {
@@ -59,12 +57,13 @@ StopRequests::~StopRequests() {
 
 const std::atomic<bool>* StopRequests::flag() noexcept { return &stop_flag; }
 
-void StopRequests::end_sooner(double seconds) noexcept {
-  itimerval timer{};
-  getitimer(ITIMER_REAL, &timer);
-  const double left =
-      static_cast<double>(timer.it_value.tv_sec) + 1e-6 * static_cast<double>(timer.it_value.tv_usec);
-  if (left > 0) start_timer(std::max(left - seconds, 0.0));
+void StopRequests::end_at(double seconds) noexcept {
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began;
+  handle(SIGALRM);
+  if (seconds > passed.count())
+    start_timer(seconds - passed.count());
+  else
+    stop_flag.store(true);
 }
 
 ToTheEnd::ToTheEnd() {

@@ -16,14 +16,14 @@ namespace lekalo::cli {
 /// most one lives at a time.
 class StopRequests {
  public:
-  /// `seconds`: set the flag by itself after this time.
-  explicit StopRequests(std::optional<double> seconds);
+  StopRequests();
   ~StopRequests();
   StopRequests(const StopRequests&) = delete;
   StopRequests& operator=(const StopRequests&) = delete;
   [[nodiscard]] static const std::atomic<bool>* flag() noexcept;
-  /// Lets the time limit, where there is one, end this much sooner, s.
-  static void end_sooner(double seconds) noexcept;
+  /// Lets the flag be set by itself so long after this object was made, s; at once where that is past. A
+  /// command says so when it has something to keep: before that a time limit would leave nothing.
+  static void end_at(double seconds) noexcept;
 };
 
 /// While this lives, nothing is stopped that was not to be stopped before: what a search has found until a

@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <exception>
 #include <new>
-#include <optional>
 #include <variant>
 
 #include "commands/check_command.hpp"
@@ -43,18 +42,10 @@ Result<int> run(const PrintText& command) {
   return print(command.text).map([] { return 0; });
 }
 
-template <class Options>
-std::optional<double> seconds_of(const Options& options) {
-  if constexpr (requires { options.seconds; })
-    return options.seconds;
-  else
-    return std::nullopt;
-}
-
-/// A command that Ctrl-C, SIGTERM and its time may end wherever it is.
+/// A command that Ctrl-C and SIGTERM may end wherever it is.
 template <class Options>
 Result<int> run_until_stopped(const Options& options, std::uint64_t steps) {
-  const StopRequests stop(seconds_of(options));
+  const StopRequests stop;
   RunControl control;
   control.stop = StopRequests::flag();
   control.work_limit = steps;

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <iterator>
 #include <tuple>
+#include <vector>
 
 #include "layout_json.hpp"
+#include "lekalo/base/parallel.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
 #include "lekalo/verify/layout.hpp"
 #include "report_document.hpp"
@@ -54,8 +56,11 @@ void add_missing(const Findings& one, const Findings& other, const char* who, st
 
 Result<Checked> check(const Layout& layout) {
   Checked checked;
-  checked.violations = layout::check(layout.document);
-  Result<verify::LayoutVerdict> verdict = verify::verify_layout({layout.name, layout_bytes(layout)});
+  Result<verify::LayoutVerdict> verdict;
+  share_out(2, kUsualThreads, [&](std::size_t task) {
+    if (task == 0) verdict = verify::verify_layout({layout.name, layout_bytes(layout)});
+    if (task == 1) checked.violations = layout::check(layout.document);
+  });
   if (!verdict) verdict = verify::verify_layout({layout.name, io::write_layout(layout.document)});
   if (!verdict)
     return failure(ErrorCode::refuted,
@@ -78,12 +83,16 @@ std::string check_json(const Layout& layout, const Checked& checked) {
 }
 
 Result<void> confirm_layout(const layout::Document& document, std::string_view bytes) {
-  const auto violations = layout::check(document);
+  std::vector<layout::Violation> violations;
+  Result<verify::LayoutVerdict> verdict;
+  share_out(2, kUsualThreads, [&](std::size_t task) {
+    if (task == 0) verdict = verify::verify_layout({"the layout found", std::string(bytes)});
+    if (task == 1) violations = layout::check(document);
+  });
   if (!violations.empty())
     return failure(ErrorCode::refuted,
                    fmt::format("the layout found breaks a rule ({}), so it was withheld; please report it",
                                layout::name_of(violations[0].kind)));
-  const auto verdict = verify::verify_layout({"the layout found", std::string(bytes)});
   if (!verdict) return failure(ErrorCode::refuted, verdict.error().message);
   if (!verdict->violations.empty())
     return failure(

@@ -1,3 +1,7 @@
+#include <fmt/core.h>
+
+#include <cmath>
+
 #include "e2e/cli_run.hpp"
 
 namespace lekalo::test {
@@ -64,6 +68,26 @@ TEST(CliOrder, NewWritesWhatNestWouldPlace) {
   const Ran by_file = shop({"nest", "job.json", "--work", "1000"});
   EXPECT_EQ(by_file.status, 0) << by_file.err;
   EXPECT_EQ(by_file.out, shop(Words{"nest", "--work", "1000"} + order).out);
+}
+
+/// Twenty rings of 400 corners take far longer to read than a hundredth of a second.
+TEST(CliOrder, DrawingsThatTakeLongerToReadThanTheTimeArePlaced) {
+  const Shop shop;
+  std::string rings =
+      "<svg xmlns='http://www.w3.org/2000/svg' width='2000mm' height='100mm' viewBox='0 0 2000 100'>";
+  for (int ring = 0; ring < 20; ++ring) {
+    rings += "<path d='M";
+    for (int corner = 0; corner < 400; ++corner) {
+      const double angle = 6.283185307179586 * corner / 400, radius = 40 + corner % 2;
+      rings += fmt::format(" {:.4f} {:.4f}", 50 + 100 * ring + radius * std::cos(angle),
+                           50 + radius * std::sin(angle));
+    }
+    rings += " z'/>";
+  }
+  write_bytes(shop / "rings.svg", rings + "</svg>");
+  const Ran ran = shop({"nest", "--part", "rings.svg", "--sheet", "1000x500", "--time", "0.01"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(ran.json()["placements"].size(), 20u);
 }
 
 TEST(CliOrder, LengthsHaveUnits) {

@@ -36,6 +36,7 @@ Result<jobs::LocateJob> read_files(const LocateOptions& o) {
 }
 
 Result<jobs::Located> located(const jobs::LocateJob& job, const LocateOptions& o) {
+  if (o.seconds) StopRequests::end_at(*o.seconds);
   std::optional<ProgressLine> line;
   RunControl run;
   run.stop = StopRequests::flag();

@@ -21,6 +21,10 @@ namespace {
 /// A second that a run takes longer than its time limit is within what is promised, s.
 constexpr double kUnnoticed = 1;
 
+/// The checks at the end, and writing, take about as long as reading did. The time limit holds for all of it;
+/// but what is read is placed, however long that took.
+double end_of_search(double limit, double reading) { return limit - std::max(reading - kUnnoticed, 0.0); }
+
 double processor_seconds() {
   timespec at{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &at);
@@ -95,9 +99,7 @@ Result<int> run_nest(const NestOptions& o) {
   const auto begin = std::chrono::steady_clock::now();
   LEKALO_TRY(const jobs::Layout input, read_input(o));
   const double reading = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  // The checks at the end, and writing, take about as long as reading did. The time limit holds for all of
-  // it.
-  if (reading > kUnnoticed) StopRequests::end_sooner(reading - kUnnoticed);
+  if (o.seconds) StopRequests::end_at(end_of_search(*o.seconds, reading));
   const double start = processor_seconds();
   LEKALO_TRY(const jobs::Nested nested, nest_watched(input.document, o));
   const double seconds = processor_seconds() - start;
