@@ -73,8 +73,10 @@ class Reader {
     std::vector<int> codes;
     for (std::size_t k = 0; k < text.size(); ++k) {
       if (text[k] == ';' || text[k] == '/') break;
-      if (text[k] == '(') k = text.find(')', k);
-      if (k == std::string::npos) break;
+      if (text[k] == '(')  // a comment may hold another one
+        for (int depth = 1; depth > 0 && ++k < text.size();)
+          depth += text[k] == '(' ? 1 : text[k] == ')' ? -1 : 0;
+      if (k >= text.size()) break;
       if (!std::isalpha(static_cast<unsigned char>(text[k]))) continue;
       const char letter = static_cast<char>(std::toupper(static_cast<unsigned char>(text[k])));
       std::size_t end = k + 1;

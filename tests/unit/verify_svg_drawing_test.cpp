@@ -353,6 +353,14 @@ TEST(VerifySvgDrawing, APageSaysItsUnitAndItsPlace) {
   EXPECT_EQ(read("<html/>"), "d.svg: its root is no svg");
 }
 
+TEST(VerifySvgDrawing, APageLargerThanDoublesHasNoPlaces) {
+  const auto drawing = read_svg_drawing(
+      {"d.svg", "<svg width='1e308cm' viewBox='0 0 100 50'><line x1='1' y1='2' x2='3' y2='4'/></svg>"}, 1, 1);
+  ASSERT_TRUE(drawing) << drawing.error().message;
+  for (const DrawnCurve& curve : drawing->curves)
+    for (const CurvePiece& piece : curve.pieces) EXPECT_FALSE(std::isfinite(piece.side.to.y.high));
+}
+
 TEST(VerifySvgDrawing, WhetherAPageSaysItsUnitIsTold) {
   const auto says = [](const std::string& words) {
     return read_svg_drawing({"d.svg", "<svg " + words + "/>"}, 1, 1)->says_unit;

@@ -18,7 +18,7 @@ constexpr std::size_t kMostCurves = 2'000'000;
 
 Span enclosed(const Fraction& value) {
   const double near = cut_to_double(value);
-  return Fraction(near) == value ? just(near) : outwards(near, near);
+  return std::isfinite(near) && Fraction(near) == value ? just(near) : outwards(near, near);
 }
 
 /// Reads numbers and words of an attribute one by one.

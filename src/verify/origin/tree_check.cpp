@@ -252,11 +252,22 @@ class Walk {
     piece.from = piece.from + shift, piece.to = piece.to + shift;
     return piece;
   }
+  /// A piece with what is asked of it again and again.
+  struct Stretch {
+    explicit Stretch(const Side& side)
+        : piece(side), corners(corners_of(side)), middle(middle_of(side)), half(farthest(side, middle)) {}
+    Side piece;
+    Corners corners;
+    Vec middle;
+    /// Nothing of it is farther from its middle.
+    double half;
+  };
   /// Says whether a piece surely does not meet a side. Its ends tell more than the line through it, which is
   /// hardly known far from a short piece.
   /// \param endless  the side is a half-plane's
-  static bool surely_apart(const Side& piece, const Side& side, bool endless) {
-    const Corners corners = corners_of(piece);
+  static bool surely_apart(const Stretch& stretch, const Side& side, bool endless) {
+    const Side& piece = stretch.piece;
+    const Corners& corners = stretch.corners;
     bool before = true, behind = true, ends_before = false, ends_behind = false;
     Span nearest = just(kInfinity);
     for (std::size_t i = 0; i < corners.count; ++i) {
@@ -278,8 +289,7 @@ class Walk {
       if (piece.arc) least = least - half * half / piece.radius;
       if (least.low > side.radius.high) return true;
     }
-    const Vec middle = middle_of(piece);
-    return (distance(middle, side) - just(farthest(piece, middle))).low > 0 || distance(piece, side).low > 0;
+    return (distance(stretch.middle, side) - just(stretch.half)).low > 0 || distance(piece, side).low > 0;
   }
 
   /// Decides which of the half-planes of which the parts before did not tell hold all of a piece and of the
@@ -316,8 +326,8 @@ class Walk {
     Beside known;
     decide_half_planes(corners);
     if (piece.arc && !(piece.radius.low > 2 * aside)) return known;
-    const Side left = aside_of(piece, aside), right = aside_of(piece, -aside);
-    const Vec at_left = middle_of(left), at_right = middle_of(right);
+    const Stretch left(aside_of(piece, aside)), right(aside_of(piece, -aside));
+    const Vec &at_left = left.middle, &at_right = right.middle;
     const Vec middle = middle_of(piece);
     const double room = (just(farthest(piece, middle)) + just(2 * aside)).high;
     struct Near {
@@ -333,8 +343,11 @@ class Walk {
       if (is_away(member, side, middle, room)) return;
       work_ += 3;
       const bool endless = primitives_[k].half_plane;
-      near.push_back({k, !surely_apart(left, side, endless), !surely_apart(right, side, endless)});
-      const bool meets = near.back().meets_left || near.back().meets_right;
+      const bool meets_left = !surely_apart(left, side, endless);
+      given_up = apart && meets_left;
+      if (given_up) return;
+      near.push_back({k, meets_left, !surely_apart(right, side, endless)});
+      const bool meets = meets_left || near.back().meets_right;
       given_up = apart && meets;
       if (!meets && !is_away(member, side, middle, reach_) && farthest(piece, corners, side) <= reach_)
         known.along.push_back({k, i});
