@@ -62,7 +62,7 @@ quick_suite() {
 threaded() {
   unset LEKALO_CASES LEKALO_TIMES
   local fields='^(unit|property)\.field' targets
-  local tests="$fields|^(unit|property|differential|e2e)\.(base_(parallel|stop)|jobs|nest|mill|serve|verify_simulate|io_files|cli_(nest|order|pocket))"
+  local tests="$fields|^(unit|property|differential|e2e)\.(base_(parallel|stop)|jobs|nest|mill|serve|verify_(simulate|tree|layout)|layout_check|io_files|cli_(nest|order|pocket))"
   (cd "$root" && cmake --preset tsan)
   mapfile -t targets < <(cd "$root" && ctest --preset tsan -N -R "$tests" |
     sed -n 's/^ *Test *#[0-9]*: \([a-z0-9]*\)\./\1_/p')
