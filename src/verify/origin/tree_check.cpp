@@ -272,12 +272,12 @@ class Walk {
     Span nearest = just(kInfinity);
     for (std::size_t i = 0; i < corners.count; ++i) {
       const Vec& at = corners.at[i];
-      const Span height =
-          side.arc ? length(at - side.centre) - side.radius : cross(side.to - side.from, at - side.from);
+      const Span away = side.arc ? length(at - side.centre) : just(0);
+      const Span height = side.arc ? away - side.radius : cross(side.to - side.from, at - side.from);
       before = before && height.high < 0, behind = behind && height.low > 0;
       ends_before = ends_before || (i < 2 && height.high < 0);
       ends_behind = ends_behind || (i < 2 && height.low > 0);
-      if (i < 2 && side.arc) nearest = {std::min(nearest.low, length(at - side.centre).low), kInfinity};
+      if (i < 2 && side.arc) nearest = {std::min(nearest.low, away.low), kInfinity};
     }
     // The corners are on one side of a line, or within a circle, with all between them.
     if (before || (behind && !side.arc)) return true;
@@ -330,11 +330,7 @@ class Walk {
     const Vec &at_left = left.middle, &at_right = right.middle;
     const Vec middle = middle_of(piece);
     const double room = (just(farthest(piece, middle)) + just(2 * aside)).high;
-    struct Near {
-      std::size_t primitive;
-      bool meets_left, meets_right;
-    };
-    std::vector<Near> near;
+    near_.clear();
     bool given_up = false;
     const auto look_at = [&](const Member& member) {
       ++work_;
@@ -346,8 +342,8 @@ class Walk {
       const bool meets_left = !surely_apart(left, side, endless);
       given_up = apart && meets_left;
       if (given_up) return;
-      near.push_back({k, meets_left, !surely_apart(right, side, endless)});
-      const bool meets = meets_left || near.back().meets_right;
+      near_.push_back({k, meets_left, !surely_apart(right, side, endless)});
+      const bool meets = meets_left || near_.back().meets_right;
       given_up = apart && meets;
       if (!meets && !is_away(member, side, middle, reach_) && farthest(piece, corners, side) <= reach_)
         known.along.push_back({k, i});
@@ -371,13 +367,13 @@ class Walk {
     ground_.wholes.visit(may_hold, [&](std::size_t w) { look_within(ground_.with_box[w]); });
     for (std::size_t u = part_.undecided_begin; u < part_.undecided_end; ++u)
       look_within(ground_.half_planes[undecided_[u]].side.primitive);
-    for (const Near& one : near)
+    for (const Near& one : near_)
       if (one.meets_left) value_.set(one.primitive, In::open);
     known.left = value_.value();
     // A primitive that is not near is the same on both hands.
-    for (const Near& one : near)
+    for (const Near& one : near_)
       value_.set(one.primitive, in_primitive(primitives_[one.primitive], at_right));
-    for (const Near& one : near)
+    for (const Near& one : near_)
       if (one.meets_right) value_.set(one.primitive, In::open);
     known.right = value_.value();
     value_.take_back(part_.said);
@@ -492,6 +488,12 @@ class Walk {
   /// range after the other.
   Part part_;
   std::vector<std::size_t> undecided_;
+  /// The primitives near the stretch that is looked at.
+  struct Near {
+    std::size_t primitive;
+    bool meets_left, meets_right;
+  };
+  std::vector<Near> near_;
   std::size_t work_ = 0, most_work_ = 0;
   /// A place near the last piece that was cut.
   Vec at_;
