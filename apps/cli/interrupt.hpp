@@ -21,8 +21,8 @@ class StopRequests {
   StopRequests(const StopRequests&) = delete;
   StopRequests& operator=(const StopRequests&) = delete;
   [[nodiscard]] static const std::atomic<bool>* flag() noexcept;
-  /// Lets the flag be set by itself so long after this object was made, s; at once where that is past. A
-  /// command says so when it has something to keep: before that a time limit would leave nothing.
+  /// Lets the flag be set by itself so long after this object was made, s; at once where that is past. `nest`
+  /// says so when all is read, because before that a time limit would leave nothing.
   static void end_at(double seconds) noexcept;
 };
 

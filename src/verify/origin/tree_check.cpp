@@ -144,6 +144,8 @@ struct Ground {
 /// The result of a walk along one side.
 struct Finding {
   std::string fault, open;
+  /// Says that an edge runs along no side. One that is but a short piece of a written edge may.
+  std::string alone;
   /// The sides of primitives along which an edge of the region runs.
   std::set<SideOfTree> along;
 };
@@ -168,7 +170,7 @@ class Walk {
   /// Looks at an edge of the region.
   /// \param most_work  nothing more is shown when this walk has needed more
   Finding along_edge(const Side& side, std::size_t most_work) {
-    begin(most_work);
+    begin(side, most_work);
     for (const Vec& p : points_of(side))
       if (ground_.far_from_primitives(p)) {
         found_.fault = fmt::format("its outline at {} is none of the tree's", text_of(p));
@@ -187,14 +189,16 @@ class Walk {
       return true;
     });
     if (wrong) found_.fault = fmt::format("its material about {} is not that of the tree", text_of(at_));
-    if (!whole || found_.along.empty())
-      leave_open(fmt::format("its outline about {} is not shown to be the tree's", text_of(at_)));
+    const std::string sentence =
+        fmt::format("its outline about {} is not shown to be the tree's", text_of(at_));
+    if (!whole) leave_open(sentence);
+    if (found_.along.empty()) found_.alone = sentence;
     return std::move(found_);
   }
 
   /// Looks at a side of a primitive, which edges of the region meet, or leave, at `meetings`.
   Finding along_side(const Side& side, const std::vector<Vec>& meetings, std::size_t most_work) {
-    begin(most_work);
+    begin(side, most_work);
     bool missing = false;
     const bool whole = halve(side, meetings, [&](const Side& piece, const Corners& corners) {
       if (!ground_.outline.first_not_within({{piece, 0}}, 2 * kAside * reach_, work_, 0)) return true;
@@ -210,8 +214,9 @@ class Walk {
   }
 
  private:
-  void begin(std::size_t most_work) {
+  void begin(const Side& side, std::size_t most_work) {
     found_ = {};
+    at_ = side.from;
     most_work_ = most_work;
   }
   void leave_open(std::string sentence) {
@@ -516,6 +521,8 @@ class TreeCheck {
         [&](std::size_t e, const Finding& found) {
           if (edges[e].written || verdict_.along.empty()) verdict_.along.emplace_back();
           verdict_.along.back().insert(found.along.begin(), found.along.end());
+          if (verdict_.along.back().empty() && verdict_.open.empty())
+            verdict_.open = found.open.empty() ? found.alone : found.open;
           for (const SideOfTree& one : verdict_.along.back()) {
             std::vector<Vec>& ends = ends_along_[one];
             ends.push_back(edges[e].from), ends.push_back(edges[e].to);
