@@ -54,7 +54,8 @@ Workspace::SheetScene& Workspace::sheet_scene(Sheet sheet) const {
   std::size_t count = 0;
   for (const Placement& placement : document_.placements)
     count += placement.stock == sheet.stock && placement.copy == sheet.copy ? 1 : 0;
-  SheetScene& made = scenes_.try_emplace(sheet, world_of(document_, sheet), 4 * count + 64).first->second;
+  // It is kept when it is whole: whoever is stopped here leaves no scene in which something is missing.
+  SheetScene made(world_of(document_, sheet), 4 * count + 64);
   const Stock& stock = document_.stocks[sheet.stock];
   made.scene.put(
       {.shape = made.scene.add_shape(stock.outline.polygon), .layers = kBorderLayer, .container = true});
@@ -65,7 +66,7 @@ Workspace::SheetScene& Workspace::sheet_scene(Sheet sheet) const {
       put_feature_body(made, feature_at(stock, kind, i), i);
   for (const Placement& placement : document_.placements)
     if (placement.stock == sheet.stock && placement.copy == sheet.copy) put(made, placement);
-  return made;
+  return scenes_.emplace(sheet, std::move(made)).first->second;
 }
 
 void Workspace::put_feature_body(SheetScene& in, const Feature& feature, std::uint32_t index) const {
@@ -88,7 +89,7 @@ void Workspace::number_features(SheetScene& in, FeatureKind kind, std::size_t fr
 
 void Workspace::put(SheetScene& in, const Placement& placement) const {
   const Part& part = document_.parts[placement.part];
-  const phi::BodyIndex body = in.scene.put({.shape = shape({placement.stock, placement.copy}, placement),
+  const phi::BodyIndex body = in.scene.put({.shape = shape_in(in, placement),
                                             .at = placement.at,
                                             .gap = part.gap.value_or(document_.rules.gap),
                                             .layers = kPartLayer});
@@ -97,17 +98,19 @@ void Workspace::put(SheetScene& in, const Placement& placement) const {
   in.placements[body] = placement.id;
 }
 
-void Workspace::take(SheetScene& in, std::uint64_t id) const {
+Workspace::BodyOfPlacement::node_type Workspace::take(SheetScene& in, std::uint64_t id) {
   const auto at = in.bodies.find(id);
   in.scene.take(at->second);
-  in.bodies.erase(at);
+  return in.bodies.extract(at);
 }
 
 const phi::Scene& Workspace::scene(Sheet sheet) const { return sheet_scene(sheet).scene; }
 
 phi::ShapeIndex Workspace::shape(Sheet sheet, const Placement& placement) const {
-  // A scene under construction is asked for its shapes too, and is in the map by then.
-  SheetScene& in = scenes_.contains(sheet) ? scenes_.at(sheet) : sheet_scene(sheet);
+  return shape_in(sheet_scene(sheet), placement);
+}
+
+phi::ShapeIndex Workspace::shape_in(SheetScene& in, const Placement& placement) const {
   const std::tuple key{placement.part, placement.rotation.c, placement.rotation.s, placement.mirrored};
   if (const auto found = in.shapes.find(key); found != in.shapes.end()) return found->second;
   const phi::ShapeIndex made = in.scene.add_shape(
@@ -302,21 +305,28 @@ bool Workspace::has_room(const Placement& placement) const {
   return !in.forbidden(probe);
 }
 
-Workspace::Lifted::Lifted(const Workspace& workspace, std::span<const std::uint64_t> ids)
-    : workspace_(workspace) {
-  std::set<std::uint64_t> taken;
-  for (const std::uint64_t id : ids) {
-    const Placement* placement = workspace.find(id);
-    if (placement == nullptr || !taken.insert(id).second) continue;
-    workspace.take(workspace.sheet_scene({placement->stock, placement->copy}), id);
-    ids_.push_back(id);
+Workspace::Lifted::Lifted(const Workspace& workspace, std::span<const std::uint64_t> ids) {
+  std::map<std::uint64_t, SheetScene*> lifted;
+  std::vector<std::uint64_t> order;
+  for (const std::uint64_t id : ids)
+    if (const Placement* placement = workspace.find(id); placement != nullptr)
+      if (lifted.emplace(id, &workspace.sheet_scene({placement->stock, placement->copy})).second)
+        order.push_back(id);
+  // From here on nothing is allocated or stopped, so that whatever is taken out is put back.
+  taken_.reserve(order.size());
+  for (const std::uint64_t id : order) {
+    SheetScene& in = *lifted[id];
+    const phi::Body body = in.scene.body(in.bodies.at(id));
+    taken_.push_back({&in, body, take(in, id)});
   }
 }
 
 Workspace::Lifted::~Lifted() {
-  for (const std::uint64_t id : ids_) {
-    const Placement* placement = workspace_.find(id);
-    workspace_.put(workspace_.sheet_scene({placement->stock, placement->copy}), *placement);
+  // The last one first: so each becomes the body that it was.
+  for (auto one = taken_.rbegin(); one != taken_.rend(); ++one) {
+    one->entry.mapped() = one->in->scene.put(one->body);
+    one->in->placements[one->entry.mapped()] = one->entry.key();
+    one->in->bodies.insert(std::move(one->entry));
   }
 }
 
@@ -325,15 +335,25 @@ bool Workspace::is_clear(std::span<const Placement> placements) const {
   ids.reserve(placements.size());
   for (const Placement& placement : placements) ids.push_back(placement.id);
   const Lifted lifted(*this, ids);
+  // What is put in here is taken out again also when somebody stops this.
+  struct Laid {
+    const Workspace& workspace;
+    std::span<const Placement> placements;
+    std::size_t count = 0;
+    ~Laid() {
+      for (; count > 0; --count) {
+        const Placement& last = placements[count - 1];
+        take(workspace.scenes_.at({last.stock, last.copy}), last.id);
+      }
+    }
+  } laid{*this, placements};
   // The placements are put in one after the other, each against the scene and those put in before it.
-  std::size_t clear = 0;
-  while (clear < placements.size() && is_clear_of_scene(placements[clear])) {
-    put(sheet_scene({placements[clear].stock, placements[clear].copy}), placements[clear]);
-    ++clear;
+  for (const Placement& placement : placements) {
+    if (!is_clear_of_scene(placement)) return false;
+    put(sheet_scene({placement.stock, placement.copy}), placement);
+    ++laid.count;
   }
-  for (std::size_t i = 0; i < clear; ++i)
-    take(sheet_scene({placements[i].stock, placements[i].copy}), placements[i].id);
-  return clear == placements.size();
+  return true;
 }
 
 std::vector<Violation> Workspace::violations_of(std::span<const Placement> placements, Depths depths) const {

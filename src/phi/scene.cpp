@@ -327,6 +327,7 @@ BodyIndex Scene::put(const Body& body) {
                       shape.is_box};
   if (free_.empty()) {
     bodies_.push_back(body);
+    free_.reserve(bodies_.capacity());  // so that taking a body out asks for no memory
     placed_.push_back(placed);
     blockers_.emplace_back().fill(kNoBody);
     is_in_.push_back(1);

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <atomic>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/layout/check.hpp"
 #include "support/layout_cases.hpp"
 
@@ -532,6 +534,42 @@ TEST(LayoutCommandsUnit, LongCommandsSayHowFarTheyAreAndGiveWhatTheyHaveWhenStop
       plan(workspace, *command_from_text("fit square sheet 0", workspace.document()), Mode::strict, run);
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().message, "stopped before a place was found where part 'square' fits");
+}
+
+/// What lies in the scenes: of each sheet and body the placement and the place, in the document's order.
+std::vector<std::tuple<std::int64_t, std::uint64_t, GridPoint>> bodies_of(const Workspace& workspace) {
+  std::vector<std::tuple<std::int64_t, std::uint64_t, GridPoint>> found;
+  for (std::int64_t copy = 0; copy < 2; ++copy) {
+    const Sheet sheet{0, copy};
+    for (const phi::BodyIndex body :
+         workspace.near(sheet, {grid_point(-1000, -1000), grid_point(1000, 1000)}, 0, ~0U))
+      found.emplace_back(copy, workspace.placement_of(sheet, body), workspace.scene(sheet).body(body).at);
+  }
+  return found;
+}
+
+TEST(LayoutSession, AStopAtAnyStepLeavesTheScenesAsTheyWere) {
+  // A person who closes the page stops a gesture, and others go on in the same workspace.
+  Document document = two();
+  place(document, 1, 40, 80);
+  place(document, 2, 20, 10);
+  document.placements.back().copy = 1;
+  const auto whole = bodies_of(Workspace(document));
+  for (const char* const line : {"move 1,2 by 5 0", "move 1,3 by 0 0 to sheet 1", "swap 1 3",
+                                 "settle 1,2 towards 0 -1", "push 1 by 60 0", "compact towards 0 -1"}) {
+    const auto command = command_from_text(line, document);
+    ASSERT_TRUE(command.has_value()) << line << ": " << command.error().message;
+    std::size_t stops = 0;
+    RunControl run;
+    for (run.work_limit = 0;; ++run.work_limit) {
+      const Workspace workspace(document);
+      const auto planned = stoppable(run, [&] { return plan(workspace, *command, Mode::strict); });
+      ASSERT_EQ(bodies_of(workspace), whole) << line << ", stopped after " << run.work_limit << " steps";
+      if (planned) break;
+      ++stops;
+    }
+    EXPECT_GT(stops, 0U) << line;
+  }
 }
 
 }  // namespace

@@ -87,18 +87,9 @@ class Workspace {
   /// it.
   [[nodiscard]] bool concerns(const Part& part, Sheet sheet, phi::BodyIndex body) const;
 
-  /// Takes placements out of their scenes while it lives, so that only the others forbid.
-  class Lifted {
-   public:
-    Lifted(const Workspace& workspace, std::span<const std::uint64_t> ids);
-    ~Lifted();
-    Lifted(const Lifted&) = delete;
-    Lifted& operator=(const Lifted&) = delete;
-
-   private:
-    const Workspace& workspace_;
-    std::vector<std::uint64_t> ids_;
-  };
+  /// Takes placements out of their scenes while it lives, so that only the others forbid. They are put back
+  /// also when there is no memory left, for that takes none.
+  class Lifted;
   /// Says whether one placement breaks no rule against what lies in its scene now: whether both of the
   /// following hold.
   [[nodiscard]] bool is_clear_of_scene(const Placement& placement) const {
@@ -110,11 +101,12 @@ class Workspace {
   [[nodiscard]] bool has_room(const Placement& placement) const;
 
  private:
+  using BodyOfPlacement = std::map<std::uint64_t, phi::BodyIndex>;
   struct SheetScene {
     explicit SheetScene(const geom::GridBox& world, std::size_t cells) : scene(world, cells) {}
     phi::Scene scene;
     std::map<std::tuple<std::uint32_t, std::int64_t, std::int64_t, bool>, phi::ShapeIndex> shapes;
-    std::map<std::uint64_t, phi::BodyIndex> bodies;  ///< by placement
+    BodyOfPlacement bodies;
     /// By body; 0 for what belongs to the stock.
     std::vector<std::uint64_t> placements;
     /// By body: the index of the defect or zone.
@@ -124,8 +116,10 @@ class Workspace {
     std::size_t old_shapes = 0;
   };
   [[nodiscard]] SheetScene& sheet_scene(Sheet sheet) const;
+  phi::ShapeIndex shape_in(SheetScene& in, const Placement& placement) const;
   void put(SheetScene& in, const Placement& placement) const;
-  void take(SheetScene& in, std::uint64_t id) const;
+  /// Returns the entry of the body that was taken out, which still says where it was.
+  static BodyOfPlacement::node_type take(SheetScene& in, std::uint64_t id);
   void put_feature_body(SheetScene& in, const Feature& feature, std::uint32_t index) const;
   void number_features(SheetScene& in, FeatureKind kind, std::size_t from) const;
   void forget_old_shapes(Sheet sheet);
@@ -133,6 +127,22 @@ class Workspace {
   Document document_;
   /// The caches: what they hold follows from the document.
   mutable std::map<Sheet, SheetScene> scenes_;
+};
+
+class Workspace::Lifted {
+ public:
+  Lifted(const Workspace& workspace, std::span<const std::uint64_t> ids);
+  ~Lifted();
+  Lifted(const Lifted&) = delete;
+  Lifted& operator=(const Lifted&) = delete;
+
+ private:
+  struct Taken {
+    SheetScene* in;
+    phi::Body body;
+    BodyOfPlacement::node_type entry;
+  };
+  std::vector<Taken> taken_;
 };
 
 }  // namespace lekalo::layout
