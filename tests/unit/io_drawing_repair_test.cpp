@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "lekalo/geom/region_check.hpp"
@@ -385,6 +386,23 @@ TEST(DrawingRepair, ManyEndsInOnePlaceSetNothingElseAside) {
   const auto found = made(sketch);
   EXPECT_EQ(found.regions.size(), 1u);
   EXPECT_EQ(found.marks.size(), 100u);
+}
+
+TEST(DrawingRepair, ACircleInArcsThatOverlapByLessThanTheJoinToleranceIsOne) {
+  // Every end lies near the next all around, which makes no place of it where they all meet.
+  Sketch sketch;
+  constexpr int kArcs = 200;
+  const double radius = kArcs * 0.0196 / (2 * std::numbers::pi);
+  const auto at = [&](double k) {
+    const double angle = 2 * std::numbers::pi * k / kArcs;
+    return Point{radius * std::cos(angle), radius * std::sin(angle)};
+  };
+  for (int k = 0; k < kArcs; ++k) sketch.arc(at(k), at(k + 1.5), {0, 0});
+  const auto found = made(sketch);
+  ASSERT_EQ(found.regions.size(), 1u);
+  EXPECT_TRUE(found.regions[0].holes.empty());
+  EXPECT_NEAR(geom::area(found.regions[0]), std::numbers::pi * radius * radius, 1e-3);
+  EXPECT_LE(found.tolerance, 0.01);
 }
 
 TEST(DrawingRepair, ADrawingThatEnclosesNothingIsRefusedWithCounts) {

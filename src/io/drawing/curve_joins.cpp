@@ -6,11 +6,15 @@
 
 #include "lekalo/base/disjoint_sets.hpp"
 #include "lekalo/base/stop.hpp"
+#include "lekalo/geom/polygon.hpp"
 
 namespace lekalo::io {
 namespace {
 
 using geom::Point;
+
+/// Of the join tolerance: points that lie in a row, each near the next, are no place where curves meet.
+constexpr double kWidestPlace = 4;
 
 struct End {
   Point at;
@@ -198,8 +202,18 @@ std::vector<std::vector<EndNumber>> branchings(const std::vector<OpenCurve>& cur
   const auto crowded = EndGrid(places, tolerance).visit_pairs([&](const Pair& pair) {
     if (free[pair.a] != 0 || free[pair.b] != 0) near.push_back(pair);
   });
-  if (!crowded)
-    for (const Pair& pair : near) sets.join(pair.a, pair.b);
+  if (!crowded) {
+    DisjointSets rows(places.size());
+    for (const Pair& pair : near) rows.join(pair.a, pair.b);
+    std::vector<geom::Box> boxes;
+    for (const End& place : places) boxes.push_back({place.at, place.at});
+    for (std::uint32_t p = 0; p < places.size(); ++p)
+      boxes[rows.of(p)] = joined(boxes[rows.of(p)], {places[p].at, places[p].at});
+    for (const Pair& pair : near) {
+      const geom::Box& box = boxes[rows.of(pair.a)];
+      if (norm(box.high - box.low) <= kWidestPlace * tolerance) sets.join(pair.a, pair.b);
+    }
+  }
   std::vector<char> branches(places.size(), 0);
   for (std::uint32_t p = 0; p < places.size(); ++p)
     if (free[p] != 0) branches[sets.of(p)] = 1;

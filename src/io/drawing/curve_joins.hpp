@@ -43,7 +43,8 @@ inline constexpr std::size_t kMostEndsNearby = 64;
 /// Returns the places where three ends or more meet, one of them without a partner: all ends of each place,
 /// ascending, also those that have a partner. Ends belong to one place when they are within the tolerance of
 /// each other and one of the two has no partner, or are partners. Where more than kMostEndsNearby different
-/// points lie close together, only equal ones are of one place. Cost: O(n log n).
+/// points lie close together, or points in a row lead farther than four times the tolerance, only equal ones
+/// are of one place. Cost: O(n log n).
 [[nodiscard]] std::vector<std::vector<EndNumber>> branchings(const std::vector<OpenCurve>& curves,
                                                              const CurveJoins& joins, double tolerance);
 
