@@ -13,6 +13,7 @@ import resource
 import subprocess
 import sys
 import tempfile
+import time
 
 from growth_families import FAMILIES
 
@@ -25,42 +26,46 @@ WAIT = 60  # seconds of processor time, after which a command is ended
 
 
 def run(lekalo, words, files):
-    """Returns exit status, seconds of processor time, bytes of memory and what was said."""
+    """Returns exit status, seconds of processor time and until the end, bytes of memory and what was said."""
     with tempfile.TemporaryDirectory() as folder:
         for name, text in files.items():
             with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                 file.write(text)
         with open(os.path.join(folder, "said"), "w+", encoding="utf-8", errors="replace") as said:
+            begun = time.monotonic()
             process = subprocess.Popen([lekalo, *words], cwd=folder, stdin=subprocess.DEVNULL, stdout=said, stderr=said)
             # Processor time, of which a machine that does other things too takes nothing away.
             resource.prlimit(process.pid, resource.RLIMIT_CPU, (WAIT, WAIT))
             _, status, used = os.wait4(process.pid, 0)
+            waited = time.monotonic() - begun
             process.returncode = os.waitstatus_to_exitcode(status)
             said.seek(0)
-            return process.returncode, used.ru_utime + used.ru_stime, used.ru_maxrss * 1024, said.read()
+            return process.returncode, used.ru_utime + used.ru_stime, waited, used.ru_maxrss * 1024, said.read()
 
 
 def judge(lekalo, name, n, words, make):
     """Returns what is wrong with a family, and a line that says what it cost."""
     small, large = make(n), make(2 * n)
     size = sum(map(len, large.values()))
-    first = second = float("inf")
+    first = second = longest = float("inf")
     for _ in range(3):
-        status, seconds, _, said = run(lekalo, words, small)
+        status, seconds, _, _, said = run(lekalo, words, small)
         first = min(first, seconds)
-        status, seconds, memory, said = run(lekalo, words, large)
+        status, seconds, waited, memory, said = run(lekalo, words, large)
         second = min(second, seconds)
+        # Who waits for two threads waits for less than they work; a busy machine makes nobody's command slower.
+        longest = min(longest, seconds, waited)
         ratio = second / max(first, START)
-        if ratio <= RATIO or second > 2 * SECONDS:
+        if ratio <= RATIO or longest > 2 * SECONDS:
             break
-    line = f"{name:30} {n:7} {size / 1e6:6.2f} MB {first:7.2f} s {second:7.2f} s {ratio:5.2f} {memory / 2**20:6.0f} MiB  exit {status}"
+    line = f"{name:30} {n:7} {size / 1e6:6.2f} MB {first:7.2f} s {second:7.2f} s, {longest:.2f} s to the end {ratio:5.2f} {memory / 2**20:6.0f} MiB  exit {status}"
     wrong = []
     if status not in (0, 1, 3):
         wrong.append(f"exit status {status}: {said.strip()[-300:]}")
     if ratio > RATIO:
         wrong.append(f"twice the input costs {ratio:.2f} times as much")
-    if second > SECONDS * max(1, size / 1e6):
-        wrong.append(f"{size} bytes take {second:.1f} s")
+    if longest > SECONDS * max(1, size / 1e6):
+        wrong.append(f"{size} bytes take {longest:.1f} s")
     if memory > ALLOWED_BYTES * max(1, size / 1e6):
         wrong.append(f"{size} bytes take {memory >> 20} MiB")
     return wrong, line + "  " + said.strip().replace("\n", " ")[:100]
