@@ -148,8 +148,7 @@ class Writer {
     const double sweep = arc_sweep(arc), pieces = std::max(1.0, std::ceil(sweep / 3.2));
     const double turn = move.shape == EdgeKind::arc_ccw ? sweep : -sweep;
     const double depth = static_cast<double>(z_) * step_;
-    for (double i = 0; i < pieces; ++i)
-      part_of_arc({arc, turn, depth, &move}, i / pieces, (i + 1) / pieces, 0);
+    for (double i = 0; i < pieces; ++i) part_of_arc({arc, turn, depth, &move}, i / pieces, (i + 1) / pieces);
   }
 
   struct Arc {
@@ -169,17 +168,19 @@ class Writer {
 
   /// Steps 6.4 and 6.5: the arc between two shares of its sweep. Of the centres on the grid near its own it
   /// gets the one whose circle, as the control draws it between the written ends, keeps nearest to the arc.
-  void part_of_arc(const Arc& arc, double begin, double end, int halved) {
+  void part_of_arc(const Arc& arc, double begin, double end) {
     const Point to = arc.at(end);
     const double z = end >= 1 ? arc.move->z : arc.from_z + end * (arc.move->z - arc.from_z);
     const double middle = 0.5 * (begin + end);
     const double sagitta = norm(arc.at(middle) - 0.5 * (arc.at(begin) + to));
     const Count stop = count(to);
-    if (sagitta < 0.5 * step_) return straight(to, z, *arc.move);
     std::array<Point, 5> meant;
     for (std::size_t i = 0; i < meant.size(); ++i)
       meant[i] = arc.at(begin + (end - begin) * (static_cast<double>(i) / 4));
     const Point first = place(*at_), last = place(stop);
+    // A line between the rounded ends is off by the height of the arc and by what an end was moved.
+    const double moved = std::max(norm(first - meant.front()), norm(last - meant.back()));
+    if (sagitta + moved <= 0.99 * kWritingError || sagitta < 0.25 * step_) return straight(to, z, *arc.move);
     const Count about = count(arc.edge.centre - first);
     const double sweep = std::abs(arc.turn) * (end - begin);
     Count best;
@@ -199,10 +200,10 @@ class Writer {
         if (fault < least && swept < sweep + 1) least = fault, best = offset;
       }
     if (!(least <= 0.8 * kWritingError)) {
-      // No circle on this grid keeps to the arc. Shorter arcs bind it less by their ends.
-      if (sagitta < 0.7 * kWritingError || halved > 8) return straight(to, z, *arc.move);
-      part_of_arc(arc, begin, middle, halved + 1);
-      return part_of_arc(arc, middle, end, halved + 1);
+      // No circle on this grid keeps to the arc. Shorter arcs bind it less by their ends, and have a quarter
+      // of the height, so that lines will do in the end.
+      part_of_arc(arc, begin, middle);
+      return part_of_arc(arc, middle, end);
     }
     std::string words = arc.turn > 0 ? "G3" : "G2";
     words += out_.pair('X', 'Y', stop);

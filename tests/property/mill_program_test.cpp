@@ -92,12 +92,22 @@ double farthest(const std::vector<Spot>& spots, const PocketPath& other) {
       const Point out = p.at - move.centre, begin = from.at - move.centre;
       double angle = turn * std::atan2(cross(begin, out), dot(begin, out));
       if (angle < 0) angle += 2 * M_PI;
-      for (const double at : {std::clamp(angle, 0.0, sweep), 0.0, sweep}) {
-        const double share = at / sweep, direction = std::atan2(begin.y, begin.x) + turn * at;
-        const Point q = move.centre + radius * Point{std::cos(direction), std::sin(direction)};
-        const double up = p.z - (from.z + share * (move.z - from.z));
-        least = std::min(least, std::sqrt(dot(p.at - q, p.at - q) + up * up));
-      }
+      const auto spot_at = [&](double at) {
+        const double direction = std::atan2(begin.y, begin.x) + turn * at;
+        return Spot{move.centre + radius * Point{std::cos(direction), std::sin(direction)},
+                    from.z + at / sweep * (move.z - from.z)};
+      };
+      // On a steep helix the nearest spot has another angle: it is looked for along the tangent.
+      const double rise = (move.z - from.z) / sweep;
+      for (double at : {std::clamp(angle, 0.0, sweep), 0.0, sweep})
+        for (int step = 0; step < 3; ++step) {
+          const Spot q = spot_at(at);
+          const Point off = p.at - q.at;
+          const double up = p.z - q.z;
+          least = std::min(least, std::sqrt(dot(off, off) + up * up));
+          const double along = turn * cross(q.at - move.centre, off) + up * rise;
+          at = std::clamp(at + along / (radius * radius + rise * rise), 0.0, sweep);
+        }
     }
     most = std::max(most, least);
   }
@@ -166,6 +176,25 @@ TEST(MillProgram, EveryPostReadBackIsThePathThatWasMeant) {
       }
   }
   EXPECT_GT(most, 1e-5);
+}
+
+TEST(MillProgram, AFlatArcBetweenEndsThatAreRoundedKeepsToTheBound) {
+  // Both ends are rounded to one side by 0.7 um, and the arc rises 0.49 um to the other: no line will do.
+  const Point from{0.0004999, 0.0004999}, along{0.014, -0.014};
+  const double chord = norm(along), height = 0.00049, radius = chord * chord / (8 * height) + height / 2;
+  const Point middle = from + 0.5 * along, out = (1 / chord) * geom::perpendicular(along);
+  PocketPath path;
+  path.moves.push_back({PathMove::Kind::rapid, from, 5});
+  path.moves.push_back({PathMove::Kind::plunge, from, 0});
+  path.moves.push_back(
+      {PathMove::Kind::cut, from + along, 0, EdgeKind::arc_cw, middle - (radius - height) * out});
+  for (const nc::Dialect& post : nc::posts()) {
+    ProgramOptions options;
+    options.post = post;
+    const auto moves = verify::read_moves({"p.ngc", program_of(path, options)}, 0);
+    ASSERT_TRUE(moves) << moves.error().message;
+    EXPECT_LE(farthest(spots_of(path), path_of(*moves)), kWritingError) << post.name;
+  }
 }
 
 TEST(MillProgram, FewerMotionsAreTheSamePath) {
