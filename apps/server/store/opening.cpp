@@ -261,7 +261,7 @@ Result<void> Store::note_damage() {
   return {};
 }
 
-void Store::make_reserve() const noexcept {
+void Store::make_reserve() const {
   const int file = ::open((path_ + "-reserve").c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
   if (file < 0) return;
   // Without room for all of it there is no reserve; a part of it would only be in the way.

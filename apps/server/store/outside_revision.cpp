@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <string_view>
 #include <utility>
 
@@ -75,11 +76,15 @@ Result<OutsideRevision> OutsideRevision::open(const std::string& store_path) {
 }
 
 void OutsideRevision::keep(const Kept& kept) const noexcept {
-  const std::string line = line_of(kept);
-  if (::pwrite(file_, line.data(), line.size(), 0) == static_cast<ssize_t>(line.size())) ::fdatasync(file_);
+  try {
+    const std::string line = line_of(kept);
+    if (::pwrite(file_, line.data(), line.size(), 0) == static_cast<ssize_t>(line.size())) ::fdatasync(file_);
+  } catch (const std::bad_alloc&) {
+    // The revision kept outside lags behind the store, as it does when the power goes here.
+  }
 }
 
-void flush_folder_of(const std::string& path) noexcept {
+void flush_folder_of(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file < 0) return;

@@ -38,6 +38,6 @@ class OutsideRevision {
 };
 
 /// Makes the folder of a file flush its names to the disk.
-void flush_folder_of(const std::string& path) noexcept;
+void flush_folder_of(const std::string& path);
 
 }  // namespace lekalo::server

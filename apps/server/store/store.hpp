@@ -195,7 +195,7 @@ class Store {
   [[nodiscard]] Result<void> copy_photos(LayoutId from, LayoutId to);
   [[nodiscard]] Result<void> check_layout(LayoutId id, StoreCheck& check, std::unique_lock<std::mutex>& turn);
   [[nodiscard]] Result<void> check_photos(LayoutId id, StoreCheck& check) const;
-  void make_reserve() const noexcept;
+  void make_reserve() const;
 
   std::string path_;
   StoreUse use_;
