@@ -335,7 +335,7 @@ bool Workspace::is_clear(std::span<const Placement> placements) const {
   ids.reserve(placements.size());
   for (const Placement& placement : placements) ids.push_back(placement.id);
   const Lifted lifted(*this, ids);
-  // What is put in here is taken out again also when somebody stops this.
+  // The placements put in here are taken out again also when somebody stops this.
   struct Laid {
     const Workspace& workspace;
     std::span<const Placement> placements;

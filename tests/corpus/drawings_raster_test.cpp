@@ -34,8 +34,6 @@ using cases::Json;
 
 /// Drawings that the rasters show otherwise, or that the others cannot read, and why.
 const std::map<std::string, std::string> kOtherwise{
-    {"boxes/RoyalGame.svg",
-     "24 cracks of 0.2 mm are holes in two of five equal flowers and set aside in the others"},
     {"drawings/side.dxf", "ezdxf refuses an LWPOLYLINE without its subclass"},
     {"dxf/array-rotated.dxf", "ezdxf refuses an INSERT of scale 0 along z"},
     {"dxf/arrayed-holes.dxf", "ezdxf refuses an INSERT of scale 0 along z"},

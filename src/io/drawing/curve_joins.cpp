@@ -13,7 +13,8 @@ namespace {
 
 using geom::Point;
 
-/// Of the join tolerance: points that lie in a row, each near the next, are no place where curves meet.
+/// Points in a row, each near the next, that lead farther than so many join tolerances are no place where
+/// curves meet.
 constexpr double kWidestPlace = 4;
 
 struct End {
