@@ -38,6 +38,7 @@ function(lekalo_module NAME)
   if(fmt::fmt IN_LIST ARG_PRIVATE)  # g++ takes the headers with the definitions they were made with
     lekalo_use_precompiled(lekalo_${NAME} lekalo_headers)
   endif()
+  lekalo_unite(lekalo_${NAME} 9 ${sources})
   set_property(GLOBAL APPEND PROPERTY LEKALO_MODULES lekalo_${NAME})
 
   set(arrows "module ${NAME}")

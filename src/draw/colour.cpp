@@ -32,6 +32,11 @@ Colour scale_colour(int step) {
   return {between(a.red, b.red, share), between(a.green, b.green, share), between(a.blue, b.blue, share)};
 }
 
+Colour colour_of_status(std::string_view status) {
+  if (status == "optimal") return kGood;
+  return status == "infeasible" ? kOutside : kDoubt;
+}
+
 int scale_step(double value, double low, double high) {
   if (!(value > low)) return 0;
   if (!(value < high)) return kColourSteps - 1;

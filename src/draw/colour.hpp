@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "scene.hpp"
 
 namespace lekalo::draw {
@@ -16,6 +18,9 @@ inline constexpr int kColourSteps = 64;
 /// printer; the hue runs from warm to cold. The colours lie between nine colours of equal steps in OKLCh
 /// (lightness 0.76 to 0.32, hue 62 to -88 degrees).
 [[nodiscard]] Colour scale_colour(int step);
+
+/// Returns the colour behind the status of a result.
+[[nodiscard]] Colour colour_of_status(std::string_view status);
 
 /// Returns the step for a value, clamped to the range.
 [[nodiscard]] int scale_step(double value, double low, double high);

@@ -31,10 +31,9 @@ using layout::Placement;
 using layout::StockKind;
 using layout::Violation;
 
-constexpr Rect kPage{0, 0, 297, 210};
-constexpr Rect kDrawing{8, 17, 281, 128};
+constexpr Rect kLayoutDrawing{8, 17, 281, 128};
 constexpr double kTables = 152;  ///< where the tables begin
-constexpr std::size_t kMostMarks = 99;
+constexpr std::size_t kMostViolations = 99;
 /// The chords of arcs of marks, mm.
 constexpr double kMarkSag = 0.05, kMarkStep = 50;
 
@@ -75,11 +74,11 @@ std::vector<Ring> hatch(const Rect& box, double step) {
   return lines;
 }
 
-class Composer {
+class LayoutComposer {
  public:
-  explicit Composer(const LayoutPicture& picture)
+  explicit LayoutComposer(const LayoutPicture& picture)
       : picture_(picture), document_(picture.document), sheet_(scene_.items) {
-    scene_.width = kPage.width, scene_.height = kPage.height;
+    scene_.width = kLayoutPage.width, scene_.height = kLayoutPage.height;
     for (const Violation& v : picture.violations) bad_.insert(v.a), bad_.insert(v.b);
     for (const Placement& placement : document_.placements)
       on_sheet_[{placement.stock, placement.copy}].push_back(&placement);
@@ -90,7 +89,7 @@ class Composer {
     scene_.description =
         fmt::format("{} placed, {}, density {:.2f} %", counted(document_.placements.size(), "part"),
                     counted(picture_.violations.size(), "violation"), 100 * picture_.completeness.density);
-    scene_.items.push_back(PathItem{{kPage.ring()}, true, filled(kPaper), {"page", ""}});
+    scene_.items.push_back(PathItem{{kLayoutPage.ring()}, true, filled(kPaper), {"page", ""}});
     sheet_.text(8, 11, 190, picture_.name, {.size = 4.6, .bold = true, .kind = "title"});
     const bool valid = picture_.violations.empty();
     sheet_.text(289, 11, 90, valid ? "no violations" : counted(picture_.violations.size(), "violation"),
@@ -151,17 +150,17 @@ class Composer {
       double scale = 1e300;
       for (const Framed& one : framed) {
         const Point size = one.box.high - one.box.low;
-        scale = std::min({scale, (kDrawing.width / static_cast<double>(c) - 4) / size.x,
-                          (kDrawing.height / static_cast<double>(rows) - 7) / size.y});
+        scale = std::min({scale, (kLayoutDrawing.width / static_cast<double>(c) - 4) / size.x,
+                          (kLayoutDrawing.height / static_cast<double>(rows) - 7) / size.y});
       }
       if (scale > best) best = scale, columns = c;
     }
     const std::size_t rows = (count + columns - 1) / columns;
-    const double width = kDrawing.width / static_cast<double>(columns),
-                 height = kDrawing.height / static_cast<double>(rows);
+    const double width = kLayoutDrawing.width / static_cast<double>(columns),
+                 height = kLayoutDrawing.height / static_cast<double>(rows);
     for (std::size_t i = 0; i < count; ++i) {
-      const Rect cell{kDrawing.x + width * static_cast<double>(i % columns),
-                      kDrawing.y + height * static_cast<double>(i / columns), width, height};
+      const Rect cell{kLayoutDrawing.x + width * static_cast<double>(i % columns),
+                      kLayoutDrawing.y + height * static_cast<double>(i / columns), width, height};
       draw_sheet(framed[i], cell);
     }
   }
@@ -203,7 +202,7 @@ class Composer {
     for (const layout::SheetUse& use : picture_.completeness.sheets)
       if (use.sheet == framed.sheet) draw_remnant(use, view, shown);
     scene_.items.push_back(ClipEnd{});
-    for (std::size_t i = 0; i < std::min(picture_.violations.size(), kMostMarks); ++i) {
+    for (std::size_t i = 0; i < std::min(picture_.violations.size(), kMostViolations); ++i) {
       const Violation& v = picture_.violations[i];
       if (v.stock == framed.sheet.stock && v.copy == framed.sheet.copy) draw_mark(i + 1, v, view);
     }
@@ -419,12 +418,12 @@ class Composer {
 
 }  // namespace
 
-std::string layout_svg(const LayoutPicture& picture) { return scene_svg(Composer(picture).compose()); }
+std::string layout_svg(const LayoutPicture& picture) { return scene_svg(LayoutComposer(picture).compose()); }
 Result<std::string> layout_png(const LayoutPicture& picture, int width_px) {
-  return scene_png(Composer(picture).compose(), width_px);
+  return scene_png(LayoutComposer(picture).compose(), width_px);
 }
 Result<std::string> layout_pdf(const LayoutPicture& picture) {
-  return scene_pdf(Composer(picture).compose(), layout_tables(picture));
+  return scene_pdf(LayoutComposer(picture).compose(), layout_tables(picture));
 }
 
 }  // namespace lekalo::draw

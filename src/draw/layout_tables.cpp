@@ -12,7 +12,6 @@ namespace {
 
 using geom::Point;
 
-constexpr Rect kPage{0, 0, 297, 210};
 constexpr Rect kColumn{12, 20, 273, 178};
 constexpr double kRow = 4.2;
 constexpr double kTableGap = 7;
@@ -140,8 +139,8 @@ class Pages {
  private:
   void begin_page() {
     Scene& page = pages_.emplace_back();
-    page.width = kPage.width, page.height = kPage.height;
-    page.items.push_back(PathItem{{kPage.ring()}, true, filled(kPaper), {"page", ""}});
+    page.width = kLayoutPage.width, page.height = kLayoutPage.height;
+    page.items.push_back(PathItem{{kLayoutPage.ring()}, true, filled(kPaper), {"page", ""}});
     Sheet(page.items).text(kColumn.x, 13, 200, name_, {.size = 4.2, .bold = true, .kind = "title"});
     y_ = kColumn.y;
   }

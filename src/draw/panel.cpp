@@ -25,12 +25,6 @@ Rect rectangle_around_text(double x, double baseline, double width, double size)
   return {x, baseline - size, width, 1.45 * size};
 }
 
-Colour colour_of_status(const std::string& status) {
-  if (status == "optimal") return kGood;
-  if (status == "infeasible") return kOutside;
-  return kDoubt;
-}
-
 class Panel {
  public:
   Panel(const LocatePicture& picture, const PictureOfRings& rings, const Located& shapes, const Rect& room,

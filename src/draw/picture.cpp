@@ -23,8 +23,8 @@ namespace {
 using geom::Point;
 using geom::Ring;
 
-constexpr Rect kDrawing{5, 5, 168, 142};
-constexpr Rect kPanel{180, 7, 64, 146};
+constexpr Rect kRingDrawing{5, 5, 168, 142};
+constexpr Rect kRingPanel{180, 7, 64, 146};
 constexpr double kLabelRoom = 12;  ///< around the shapes in the drawing
 constexpr double kLabelSize = 2.8;
 constexpr std::size_t kMostLabels = 12;  ///< contacts beyond that are drawn without numbers
@@ -52,13 +52,13 @@ class RingComposer {
     main_drawing();
     scale_bar();
     const bool start_shown = rings_.draw_start && start_in_main_;
-    const double text_end = draw_panel(picture_, rings_, shapes_, kPanel, scene_.items);
-    const double bottom = kPanel.bottom() - kInsetCaption - 1;
+    const double text_end = draw_panel(picture_, rings_, shapes_, kRingPanel, scene_.items);
+    const double bottom = kRingPanel.bottom() - kInsetCaption - 1;
     const double side = std::min(kInsetSide, bottom - text_end - 3);
-    Rect inset{kPanel.x, bottom - side, side, side};
+    Rect inset{kRingPanel.x, bottom - side, side, side};
     if (thinnest_scale_ > 0) {
       magnified(inset);
-      inset.x = kPanel.x + kPanel.width / 2 + 1;
+      inset.x = kRingPanel.x + kRingPanel.width / 2 + 1;
     }
     if (rings_.draw_start && !start_shown) overview(inset);
     return std::move(scene_);
@@ -66,7 +66,7 @@ class RingComposer {
 
  private:
   void choose_view() {
-    const Rect room = kDrawing.grown(-kLabelRoom);
+    const Rect room = kRingDrawing.grown(-kLabelRoom);
     const geom::Box box = joined(geom::bounds(shapes_.blank), geom::bounds(shapes_.part));
     view_ = fitted(box, room);
     const View with_start = fitted(joined(box, geom::bounds(shapes_.start)), room);
@@ -88,14 +88,14 @@ class RingComposer {
   }
 
   void main_drawing() {
-    draw_shapes(shapes_, view_, kDrawing, scene_.items);
-    Obstacles obstacles{{on_paper(shapes_.blank, view_, kDrawing), on_paper(shapes_.part, view_, kDrawing)},
-                        {}};
+    draw_shapes(shapes_, view_, kRingDrawing, scene_.items);
+    Obstacles obstacles{
+        {on_paper(shapes_.blank, view_, kRingDrawing), on_paper(shapes_.part, view_, kRingDrawing)}, {}};
     if (rings_.draw_start && start_in_main_) {
-      draw_start(shapes_, view_, kDrawing, scene_.items);
-      obstacles.lines.push_back(on_paper(shapes_.start, view_, kDrawing));
+      draw_start(shapes_, view_, kRingDrawing, scene_.items);
+      obstacles.lines.push_back(on_paper(shapes_.start, view_, kRingDrawing));
     }
-    draw_contacts(rings_, contacts_, view_, kDrawing, scene_.items);
+    draw_contacts(rings_, contacts_, view_, kRingDrawing, scene_.items);
     if (thinnest_scale_ > 0) {
       const Point at = view_(shapes_.samples[shapes_.thinnest].at);
       scene_.items.push_back(
@@ -118,7 +118,7 @@ class RingComposer {
       labels.push_back(
           {sticks_out ? vertex : foot, outward, contact_label(rings_, rings_.contacts[line.index])});
     }
-    place_labels(labels, kLabelSize, obstacles, kDrawing, scene_.items);
+    place_labels(labels, kLabelSize, obstacles, kRingDrawing, scene_.items);
   }
   [[nodiscard]] Point middle_of_blank() const {
     const geom::Box box = geom::bounds(shapes_.blank);
@@ -127,7 +127,7 @@ class RingComposer {
 
   void scale_bar() {
     const double length = round_length(40 / view_.scale), on_page = length * view_.scale;
-    const double x = kDrawing.x + 3, y = kPage.bottom() - 6;
+    const double x = kRingDrawing.x + 3, y = kPage.bottom() - 6;
     scene_.items.push_back(PathItem{{{{x, y - 1.2}, {x, y}, {x + on_page, y}, {x + on_page, y - 1.2}}},
                                     false,
                                     stroked(kInk, 0.35),
@@ -143,7 +143,7 @@ class RingComposer {
 
   void frame(const Rect& inset, const std::string& caption) {
     scene_.items.push_back(PathItem{{inset.ring()}, true, stroked(kFaint, 0.25), {"inset", ""}});
-    const double room = kPanel.width / 2 - 1.5;
+    const double room = kRingPanel.width / 2 - 1.5;
     scene_.items.push_back(TextItem{{inset.x, inset.bottom() + kInsetCaption + 1},
                                     caption,
                                     io::fitting_size(caption, kInsetCaption, room),

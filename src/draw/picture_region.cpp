@@ -21,11 +21,11 @@ namespace {
 using geom::Point;
 using geom::Ring;
 
-constexpr Rect kDrawing{6, 6, 168, 142};
-constexpr Rect kPanel{182, 8, 62, 144};
-constexpr double kSag = 0.01;        ///< of an arc's chord, mm of paper
+constexpr Rect kRegionDrawing{6, 6, 168, 142};
+constexpr Rect kRegionPanel{182, 8, 62, 144};
+constexpr double kRegionSag = 0.01;  ///< of an arc's chord, mm of paper
 constexpr double kSampleStep = 0.5;  ///< along the part's outline, mm of paper
-constexpr double kBand = 1.3;        ///< width of the coloured outline, mm of paper
+constexpr double kRegionBand = 1.3;  ///< width of the coloured outline, mm of paper
 
 class RegionComposer {
  public:
@@ -53,7 +53,7 @@ class RegionComposer {
     geom::Box box = blank_.bounds();
     const double rough = norm(box.high - box.low) / 200;
     for (const Ring& ring : placed_rings(rough, 4 * rough)) box = joined(box, geom::bounds(ring));
-    view_ = fitted(box, kDrawing);
+    view_ = fitted(box, kRegionDrawing);
   }
 
   [[nodiscard]] std::vector<Ring> placed_rings(double sag, double step) const {
@@ -65,7 +65,7 @@ class RegionComposer {
 
   /// Allowance along the placed outline.
   void measure() {
-    outline_ = placed_rings(kSag / view_.scale, kSampleStep / view_.scale);
+    outline_ = placed_rings(kRegionSag / view_.scale, kSampleStep / view_.scale);
     for (const Ring& ring : outline_) {
       std::vector<double>& values = allowance_.emplace_back();
       for (const Point& p : ring) {
@@ -87,7 +87,7 @@ class RegionComposer {
   void draw_blank() {
     const Paint paint = with_fill(stroked_round(kBlankLine, 0.3), kBlankFill);
     std::vector<Ring> lines;
-    for (const Ring& ring : region_rings(regions_.blank, kSag / view_.scale, 1e300))
+    for (const Ring& ring : region_rings(regions_.blank, kRegionSag / view_.scale, 1e300))
       lines.push_back(paper(ring));
     scene_.items.push_back(PathItem{std::move(lines), true, paint, {"blank", "blank"}});
   }
@@ -106,10 +106,11 @@ class RegionComposer {
           ++k;
           stretch.push_back(view_(outline_[r][k % n]));
         } while (k < n && step_of(r, k) == colour);
-        scene_.items.push_back(PathItem{{std::move(stretch)},
-                                        false,
-                                        stroked_round(colour < 0 ? kOutside : scale_colour(colour), kBand),
-                                        {colour < 0 ? "outside" : "allowance", ""}});
+        scene_.items.push_back(
+            PathItem{{std::move(stretch)},
+                     false,
+                     stroked_round(colour < 0 ? kOutside : scale_colour(colour), kRegionBand),
+                     {colour < 0 ? "outside" : "allowance", ""}});
       }
     }
   }
@@ -132,10 +133,11 @@ class RegionComposer {
     }
   }
 
-  void text(const std::string& words, double size, Colour colour, bool bold = false, double x = kPanel.x) {
+  void text(const std::string& words, double size, Colour colour, bool bold = false,
+            double x = kRegionPanel.x) {
     scene_.items.push_back(TextItem{{x, y_},
                                     io::clean_text(words),
-                                    io::fitting_size(words, size, kPanel.right() - x),
+                                    io::fitting_size(words, size, kRegionPanel.right() - x),
                                     Anchor::start,
                                     colour,
                                     bold,
@@ -144,7 +146,7 @@ class RegionComposer {
   void line(const std::string& name, const std::string& value) {
     text(name, 3, kGrey);
     scene_.items.push_back(TextItem{
-        {kPanel.right(), y_}, value, io::fitting_size(value, 3.2, 36), Anchor::end, kInk, false, {}});
+        {kRegionPanel.right(), y_}, value, io::fitting_size(value, 3.2, 36), Anchor::end, kInk, false, {}});
     y_ += 5;
   }
 
@@ -153,9 +155,9 @@ class RegionComposer {
     const int decimals = decimals_for(norm(blank_.bounds().high - blank_.bounds().low));
     text("Placement", 5, kInk, true);
     y_ += 6;
-    text(io::shortened(io::file_name(picture_.part_name), kPanel.width / 3) + " in", 3, kGrey);
+    text(io::shortened(io::file_name(picture_.part_name), kRegionPanel.width / 3) + " in", 3, kGrey);
     y_ += 4.2;
-    text(io::shortened(io::file_name(picture_.blank_name), kPanel.width / 3), 3, kGrey);
+    text(io::shortened(io::file_name(picture_.blank_name), kRegionPanel.width / 3), 3, kGrey);
     y_ += 7;
     text(picture_.status, 4, picture_.status == "optimal" ? kGood : kDoubt, true);
     y_ += 7;
@@ -174,7 +176,7 @@ class RegionComposer {
     if (picture_.shortfall > 0) line("missing", decimal(picture_.shortfall, decimals, Rounding::up) + " mm");
     y_ += 6;
     draw_scale();
-    y_ = kPanel.bottom() - 10;
+    y_ = kRegionPanel.bottom() - 10;
     text("grey: blank; coloured line: the part's outline,", 2.6, kGrey);
     y_ += 3.6;
     text("in the colour of the material over it; ring: contact", 2.6, kGrey);
@@ -186,7 +188,7 @@ class RegionComposer {
     const double height = 42;
     for (int k = 0; k < kColourSteps; ++k) {
       const double top = y_ + height * (kColourSteps - 1 - k) / kColourSteps;
-      const Rect bar{kPanel.x, top, 6, height / kColourSteps + 0.05};
+      const Rect bar{kRegionPanel.x, top, 6, height / kColourSteps + 0.05};
       scene_.items.push_back(PathItem{{bar.ring()}, true, filled(scale_colour(k)), {"scale", ""}});
     }
     constexpr int kTicks = 4;
@@ -194,12 +196,12 @@ class RegionComposer {
       const double value = scale_low_ + (high_ - scale_low_) * k / kTicks;
       const double at = y_ + height * (kTicks - k) / kTicks;
       scene_.items.push_back(TextItem{
-          {kPanel.x + 8, at + 1}, fmt::format("{:.3f}", value), 2.8, Anchor::start, kInk, false, {}});
+          {kRegionPanel.x + 8, at + 1}, fmt::format("{:.3f}", value), 2.8, Anchor::start, kInk, false, {}});
     }
     if (low_ < 0) {
-      const Rect bar{kPanel.x, y_ + height + 2, 6, 3};
+      const Rect bar{kRegionPanel.x, y_ + height + 2, 6, 3};
       scene_.items.push_back(PathItem{{bar.ring()}, true, filled(kOutside), {"scale", ""}});
-      scene_.items.push_back(TextItem{{kPanel.x + 8, y_ + height + 4.6},
+      scene_.items.push_back(TextItem{{kRegionPanel.x + 8, y_ + height + 4.6},
                                       fmt::format("sticks out, up to {:.3f}", -low_),
                                       2.8,
                                       Anchor::start,
@@ -218,7 +220,7 @@ class RegionComposer {
   std::vector<Ring> outline_;                   ///< of the placed part, blank frame
   std::vector<std::vector<double>> allowance_;  ///< at its points
   double low_ = 1e300, high_ = -1e300, scale_low_ = 0;
-  double y_ = kPanel.y + 3;
+  double y_ = kRegionPanel.y + 3;
   Scene scene_;
 };
 

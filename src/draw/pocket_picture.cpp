@@ -19,9 +19,9 @@ namespace {
 using geom::Point;
 using geom::Ring;
 
-constexpr Rect kPage{0, 0, 250, 160};
-constexpr Rect kDrawing{6, 8, 172, 138};
-constexpr Rect kPanel{186, 8, 58, 144};
+constexpr Rect kPocketPage{0, 0, 250, 160};
+constexpr Rect kPocketDrawing{6, 8, 172, 138};
+constexpr Rect kPocketPanel{186, 8, 58, 144};
 constexpr Colour kEntry{32, 122, 76}, kAir{150, 158, 168};
 constexpr double kAirDegrees = 3, kMostDegrees = 180;
 constexpr int kBands = 12;  // of engagement, each of one colour
@@ -38,19 +38,19 @@ int look_of(const PocketStretch& s) {
   return std::min(kBands - 1, static_cast<int>(s.engagement_deg / (kMostDegrees / kBands)));
 }
 
-class Composer {
+class PocketComposer {
  public:
-  explicit Composer(const PocketPicture& picture) : picture_(picture) {
-    scene_.width = kPage.width, scene_.height = kPage.height;
+  explicit PocketComposer(const PocketPicture& picture) : picture_(picture) {
+    scene_.width = kPocketPage.width, scene_.height = kPocketPage.height;
     geom::Box box = geom::bounds(picture.pockets.front().outer);
     for (const geom::Region& pocket : picture.pockets) box = joined(box, geom::bounds(pocket.outer));
-    view_ = fitted(box, kDrawing.grown(-2));
+    view_ = fitted(box, kPocketDrawing.grown(-2));
   }
 
   Scene compose() && {
     scene_.title = "lekalo pocket: " + picture_.name;
     scene_.description = fmt::format("tool {:g} mm", picture_.tool_diameter);
-    add(PathItem{{kPage.ring()}, true, filled(kPaper), {"page", ""}});
+    add(PathItem{{kPocketPage.ring()}, true, filled(kPaper), {"page", ""}});
     Paint material = filled(kBlankFill);
     material.stroke = kBlankLine, material.width = 0.35;
     add(PathItem{paper_rings(picture_.pockets), true, material, {"pocket", "the pocket"}});
@@ -78,7 +78,7 @@ class Composer {
   [[nodiscard]] std::vector<Ring> paper_rings(const std::vector<geom::Region>& regions) const {
     std::vector<Ring> rings;
     for (const Ring& ring : region_rings(regions, 0.02 / view_.scale, 5 / view_.scale))
-      rings.push_back(on_paper(ring, view_, kDrawing));
+      rings.push_back(on_paper(ring, view_, kPocketDrawing));
     return rings;
   }
 
@@ -142,15 +142,15 @@ class Composer {
     add(PathItem{rings, true, filled(kOutside, 0.25), {"unreachable", "the tool does not fit in here"}});
     add(ClipBegin{rings});
     std::vector<Ring> lines;
-    for (double x = kDrawing.x - kDrawing.height; x < kDrawing.right(); x += 1.2)
-      lines.push_back({{x, kDrawing.bottom()}, {x + kDrawing.height, kDrawing.y}});
+    for (double x = kPocketDrawing.x - kPocketDrawing.height; x < kPocketDrawing.right(); x += 1.2)
+      lines.push_back({{x, kPocketDrawing.bottom()}, {x + kPocketDrawing.height, kPocketDrawing.y}});
     add(PathItem{std::move(lines), false, stroked_round(kOutside, 0.2), {"hatch", ""}});
     add(ClipEnd{});
   }
 
   void scale_bar() {
     const double length = round_length(40 / view_.scale), on_page = length * view_.scale;
-    const double x = kDrawing.x + 3, y = kPage.bottom() - 6;
+    const double x = kPocketDrawing.x + 3, y = kPocketPage.bottom() - 6;
     add(PathItem{{{{x, y - 1.2}, {x, y}, {x + on_page, y}, {x + on_page, y - 1.2}}},
                  false,
                  stroked_round(kInk, 0.35),
@@ -159,31 +159,34 @@ class Composer {
   }
 
   void draw_panel() {
-    double y = kPanel.y + 3.5;
-    const std::string name = io::shortened(picture_.name, kPanel.width / 3.8);
-    text(kPanel.x, y, name, 3.8, Anchor::start, kInk, true);
-    text(kPanel.x, y += 5, fmt::format("tool {:g} mm", picture_.tool_diameter), 3);
+    double y = kPocketPanel.y + 3.5;
+    const std::string name = io::shortened(picture_.name, kPocketPanel.width / 3.8);
+    text(kPocketPanel.x, y, name, 3.8, Anchor::start, kInk, true);
+    text(kPocketPanel.x, y += 5, fmt::format("tool {:g} mm", picture_.tool_diameter), 3);
     y += 4;
     for (const auto& [what, value] : picture_.figures) {
-      text(kPanel.x, y += 5, what, 2.8, Anchor::start, kGrey);
-      text(kPanel.right(), y, value, io::fitting_size(value, 2.8, 0.62 * kPanel.width), Anchor::end);
+      text(kPocketPanel.x, y += 5, what, 2.8, Anchor::start, kGrey);
+      text(kPocketPanel.right(), y, value, io::fitting_size(value, 2.8, 0.62 * kPocketPanel.width),
+           Anchor::end);
     }
     y += 8;
-    text(kPanel.x, y, "engagement of the rim", 2.8);
-    const double width = kPanel.width / kBands;
+    text(kPocketPanel.x, y, "engagement of the rim", 2.8);
+    const double width = kPocketPanel.width / kBands;
     for (int band = 0; band < kBands; ++band) {
-      const Rect box{kPanel.x + band * width, y + 1.5, width, 4};
+      const Rect box{kPocketPanel.x + band * width, y + 1.5, width, 4};
       add(PathItem{{box.ring()}, true, filled(band_colour(band)), {"scale", ""}});
     }
     for (int degrees = 0; degrees <= 180; degrees += 45)
-      text(kPanel.x + kPanel.width * degrees / kMostDegrees, y + 8.6, fmt::format("{}°", degrees), 2.5,
+      text(kPocketPanel.x + kPocketPanel.width * degrees / kMostDegrees, y + 8.6, fmt::format("{}°", degrees),
+           2.5,
            degrees == 0     ? Anchor::start
            : degrees == 180 ? Anchor::end
                             : Anchor::middle);
     y += 13;
     const auto key = [&](Colour colour, const char* words, double line) {
-      add(PathItem{{{{kPanel.x, y}, {kPanel.x + 6, y}}}, false, stroked_round(colour, line), {"key", ""}});
-      text(kPanel.x + 8, y + 0.9, words, 2.6);
+      add(PathItem{
+          {{{kPocketPanel.x, y}, {kPocketPanel.x + 6, y}}}, false, stroked_round(colour, line), {"key", ""}});
+      text(kPocketPanel.x + 8, y + 0.9, words, 2.6);
       y += 4.4;
     };
     key(kAir, "less than 3°: through air", 0.25);
@@ -205,10 +208,10 @@ std::string json_points(const Ring& ring) {
 
 }  // namespace
 
-std::string pocket_svg(const PocketPicture& picture) { return scene_svg(Composer(picture).compose()); }
+std::string pocket_svg(const PocketPicture& picture) { return scene_svg(PocketComposer(picture).compose()); }
 
 Result<std::string> pocket_png(const PocketPicture& picture, int width_px) {
-  return scene_png(Composer(picture).compose(), width_px);
+  return scene_png(PocketComposer(picture).compose(), width_px);
 }
 
 std::string pocket_animation(const PocketPicture& picture) {

@@ -17,7 +17,7 @@ namespace {
 
 using geom::Point;
 
-constexpr double kSamplesAround = 2000;
+constexpr double kReportSamples = 2000;
 constexpr double kTolerance = 1e-4;  ///< mm, of the extremes
 /// The same for parts so small that 1e-4 mm shows.
 constexpr double kToleranceOfSize = 1e-6;
@@ -196,7 +196,7 @@ Result<Report> make_report(const io::LocateDocument& document, ReportShapes shap
   if (document.demands)
     report.margin = document.demands->margin, report.margin_bound = document.demands->margin_bound;
   const double size = size_of(report.shapes.part);
-  report.step = round_length(length_of(report.shapes.part) / kSamplesAround);
+  report.step = round_length(length_of(report.shapes.part) / kReportSamples);
   report.tolerance = std::max(std::min(kTolerance, kToleranceOfSize * size), kLargestOfSize * size);
   LEKALO_TRY(report.edges, locate::edge_allowances(report.shapes.part, report.shapes.blank, pose_of(report),
                                                    report.step, report.tolerance));

@@ -14,12 +14,12 @@ namespace {
 using geom::Point;
 using geom::Ring;
 
-constexpr double kBand = 1.5;      ///< width of the coloured band inside the outline, mm of paper
-constexpr double kThinBand = 0.9;  ///< of the coloured line on parts that have no room for the band
-constexpr double kSag = 0.01;      ///< of an arc's chord, mm of paper
+constexpr double kReportBand = 1.5;      ///< width of the coloured band inside the outline, mm of paper
+constexpr double kThinReportBand = 0.9;  ///< of the coloured line on parts that have no room for the band
+constexpr double kReportSag = 0.01;      ///< of an arc's chord, mm of paper
 constexpr double kRoomSide = 16, kRoomTop = 8;  ///< around the shapes, for labels
 constexpr double kStrip = 8;                    ///< for scale bar and legend, at the bottom of the frame
-constexpr std::size_t kMostMarks = 12;          ///< contacts with a letter
+constexpr std::size_t kMostContactMarks = 12;   ///< contacts with a letter
 constexpr Colour kMissingFill{250, 190, 196};
 
 enum Level : int { kSticksOut = -2, kTooThin = -1 };  ///< else a step of the colour scale
@@ -40,11 +40,11 @@ class Drawing {
     const locate::Placement& p = report.document.placement;
     pose_ = geom::BlankFromPart::from_angle(p.theta, {p.x, p.y}, report.document.mirrored);
     choose_view();
-    for (Ring& ring : region_rings(report.shapes.part, kSag / view_.scale, 1e300)) {
+    for (Ring& ring : region_rings(report.shapes.part, kReportSag / view_.scale, 1e300)) {
       std::transform(ring.begin(), ring.end(), ring.begin(), pose_);
       part_.push_back(on_paper(ring, view_, frame_));
     }
-    for (const Ring& ring : region_rings(report.shapes.blank, kSag / view_.scale, 1e300))
+    for (const Ring& ring : region_rings(report.shapes.blank, kReportSag / view_.scale, 1e300))
       blank_.push_back(on_paper(ring, view_, frame_));
   }
 
@@ -67,7 +67,7 @@ class Drawing {
   [[nodiscard]] bool is_thin() const {
     double length = 0;
     for (const locate::EdgeAllowance& edge : report_.edges) length += edge.length;
-    return !(2 * geom::area(report_.shapes.part) / length * view_.scale > 2 * kBand);
+    return !(2 * geom::area(report_.shapes.part) / length * view_.scale > 2 * kReportBand);
   }
 
   void shapes() {
@@ -79,7 +79,7 @@ class Drawing {
     items_.push_back(ClipBegin{blank_});
     items_.push_back(PathItem{part_, true, filled(kPaper), {"part", "part at the result"}});
     items_.push_back(ClipEnd{});
-    bands(thin ? kThinBand : 2 * kBand);
+    bands(thin ? kThinReportBand : 2 * kReportBand);
     if (!thin) {
       // The half of the band outside the part is painted over. (A clip along the part for every piece of the
       // band would say the outline hundreds of times in a PDF.)
@@ -136,11 +136,11 @@ class Drawing {
   void band(std::size_t first, std::size_t last, double width) {
     const std::vector<Stop> around = stops(first, last);
     const auto next = [&](std::size_t k) { return k + 1 == around.size() ? 0 : k + 1; };
-    struct Piece {
+    struct BandPiece {
       Ring line;
       int level;
     };
-    std::vector<Piece> pieces;
+    std::vector<BandPiece> pieces;
     for (std::size_t k = 0; k < around.size(); ++k) {
       if (pieces.empty() || pieces.back().level != around[k].level)
         pieces.push_back({{around[k].at}, around[k].level});
@@ -153,7 +153,7 @@ class Drawing {
       const double length = norm(along);
       if (length > 0) pieces[k].line.push_back(begin + std::min(1.0, kInto / length) * along);
     }
-    for (Piece& piece : pieces) {
+    for (BandPiece& piece : pieces) {
       const bool out = piece.level == kSticksOut;
       if (out)
         items_.push_back(
@@ -207,7 +207,7 @@ class Drawing {
            length_text(place.depth, std::max(3, look_.table_decimals - 1), Rounding::up) + " missing",
            "missing-label", kOutside, true});
     }
-    for (std::size_t k = 0; k < std::min(report_.contacts.size(), kMostMarks); ++k) {
+    for (std::size_t k = 0; k < std::min(report_.contacts.size(), kMostContactMarks); ++k) {
       const Point a = view_(pose_(report_.contacts[k].part)), b = view_(report_.contacts[k].blank);
       const Point out = norm(b - a) > 1e-6 ? b - a : away_from_middle(b);
       labels.push_back({b, out, contact_letter(k), "contact-label", kInk, true});

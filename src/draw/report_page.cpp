@@ -4,23 +4,19 @@
 
 #include <algorithm>
 
+#include "colour.hpp"
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/text/words.hpp"
 
 namespace lekalo::draw {
 namespace {
 
-constexpr Rect kBody{12, 10, 186, 277};
+constexpr Rect kPageBody{12, 10, 186, 277};
 constexpr double kBetween = 5;
-constexpr Rect kLeft{kBody.x, 0, 0.5 * (kBody.width - kBetween), 0};
-constexpr Rect kRight{kBody.x + kLeft.width + kBetween, 0, kLeft.width, 0};
+constexpr Rect kLeft{kPageBody.x, 0, 0.5 * (kPageBody.width - kBetween), 0};
+constexpr Rect kRight{kPageBody.x + kLeft.width + kBetween, 0, kLeft.width, 0};
 constexpr double kFooter = 4;
 constexpr double kLeastDrawing = 70, kUsualDrawing = 92, kMostDrawing = 150;  ///< heights, mm
-
-Colour colour_of_status(const std::string& status) {
-  if (status == "optimal") return kGood;
-  return status == "infeasible" ? kOutside : kDoubt;
-}
 
 class Page {
  public:
@@ -35,11 +31,11 @@ class Page {
     scene_.items.push_back(PathItem{{kReportPage.ring()}, true, filled(kPaper), {"page", ""}});
     Sheet sheet(scene_.items);
     const double top = header(sheet);
-    const double bottom = kBody.bottom() - kFooter;
+    const double bottom = kPageBody.bottom() - kFooter;
     choose_rows(bottom - top);
     const double below = height_below();
     const double height = std::min(most_drawing(), bottom - top - below);
-    draw_placement(report_, look_, {kBody.x, top, kBody.width, height}, sheet);
+    draw_placement(report_, look_, {kPageBody.x, top, kPageBody.width, height}, sheet);
     sections(top + height + 3, sheet);
     footer(sheet);
     return std::move(scene_);
@@ -55,16 +51,17 @@ class Page {
   double header(Sheet& sheet) const {
     const std::string& status = report_.document.status;
     const double badge = 3.4 * kReportBoldWider * io::text_width(status) + 5;
-    const double left = kBody.right() - badge;
-    sheet.path(Rect{left, kBody.y, badge, 6.4}.ring(), true, filled(colour_of_status(status)), "status-box");
-    sheet.text(left + badge / 2, kBody.y + 4.5, badge - 4, status,
+    const double left = kPageBody.right() - badge;
+    sheet.path(Rect{left, kPageBody.y, badge, 6.4}.ring(), true, filled(colour_of_status(status)),
+               "status-box");
+    sheet.text(left + badge / 2, kPageBody.y + 4.5, badge - 4, status,
                {.size = 3.4, .colour = kPaper, .anchor = Anchor::middle, .bold = true, .kind = "status"});
-    const double room = left - kBody.x - 4;
-    sheet.text(kBody.x, kBody.y + 4.8, room, "Placement of " + name("part"),
+    const double room = left - kPageBody.x - 4;
+    sheet.text(kPageBody.x, kPageBody.y + 4.8, room, "Placement of " + name("part"),
                {.size = 5, .bold = true, .kind = "title"});
-    sheet.text(kBody.x, kBody.y + 9.6, kBody.width, "in the blank " + name("blank"),
+    sheet.text(kPageBody.x, kPageBody.y + 9.6, kPageBody.width, "in the blank " + name("blank"),
                {.size = 3.4, .colour = kGrey, .kind = "subtitle"});
-    return kBody.y + 12;
+    return kPageBody.y + 12;
   }
 
   /// Draws everything below the drawing, and returns where it ends.
@@ -73,9 +70,9 @@ class Page {
         draw_proof(report_, kLeft, draw_numbers(report_, look_, kLeft, top, sheet) + 1.5, sheet);
     const double right = draw_contacts(
         report_, look_, kRight, draw_histogram(report_, look_, kRight, top, sheet) + 1.5, contacts_, sheet);
-    double y = draw_features(report_, look_, kBody, std::max(left, right) + 1.5, rows_, sheet) + 1.5;
-    y = draw_inputs(report_, kBody, y, sheet) + 1.5;
-    return draw_notes(report_, kBody, y, lines_, sheet);
+    double y = draw_features(report_, look_, kPageBody, std::max(left, right) + 1.5, rows_, sheet) + 1.5;
+    y = draw_inputs(report_, kPageBody, y, sheet) + 1.5;
+    return draw_notes(report_, kPageBody, y, lines_, sheet);
   }
   [[nodiscard]] double height_below() const {
     std::vector<Item> items;
@@ -83,7 +80,7 @@ class Page {
     return sections(0, scratch) + 3;
   }
   [[nodiscard]] double most_drawing() const {
-    return std::clamp(placement_height(report_, kBody.width), kLeastDrawing, kMostDrawing);
+    return std::clamp(placement_height(report_, kPageBody.width), kLeastDrawing, kMostDrawing);
   }
   /// Keeps as much of the lists as leaves the drawing its usual height.
   void choose_rows(double room) {
@@ -97,9 +94,9 @@ class Page {
 
   void footer(Sheet& sheet) const {
     const io::LocateDocument& d = report_.document;
-    sheet.text(kBody.x, kBody.bottom(), kBody.width / 2, std::string("lekalo ") + kVersion,
+    sheet.text(kPageBody.x, kPageBody.bottom(), kPageBody.width / 2, std::string("lekalo ") + kVersion,
                {.size = kReportSmall, .colour = kGrey, .kind = "version"});
-    sheet.text(kBody.right(), kBody.bottom(), kBody.width / 2,
+    sheet.text(kPageBody.right(), kPageBody.bottom(), kPageBody.width / 2,
                fmt::format("method {}, seed {}, work {}", d.method, d.seed, d.work),
                {.size = kReportSmall, .colour = kGrey, .anchor = Anchor::end, .kind = "method"});
   }

@@ -19,9 +19,9 @@ struct Column {
   bool number = true;
 };
 
-class Table {
+class ReportTable {
  public:
-  Table(std::vector<Column> columns, const Rect& column, Sheet& sheet)
+  ReportTable(std::vector<Column> columns, const Rect& column, Sheet& sheet)
       : columns_(std::move(columns)), room_(column), sheet_(sheet) {
     double sum = 0;
     for (const Column& one : columns_) sum += one.share;
@@ -114,13 +114,13 @@ double draw_contacts(const Report& report, const ReportLook& look, const Rect& c
                      std::size_t most_rows, Sheet& sheet) {
   if (report.contacts.empty()) return top;
   double y = sheet.heading(column, top, "Contacts, mm: where the part is nearest");
-  Table table({{"", 0.5, false},
-               {report.contacts_at_vertices ? "part vertex" : "part edge", 2},
-               {"blank edge", 2},
-               {"distance", 2},
-               {"x in blank", 2.1},
-               {"y", 1.9}},
-              column, sheet);
+  ReportTable table({{"", 0.5, false},
+                     {report.contacts_at_vertices ? "part vertex" : "part edge", 2},
+                     {"blank edge", 2},
+                     {"distance", 2},
+                     {"x in blank", 2.1},
+                     {"y", 1.9}},
+                    column, sheet);
   y = table.titles(y);
   const std::size_t shown = std::min(report.contacts.size(), most_rows);
   for (std::size_t k = 0; k < shown; ++k) {
@@ -152,7 +152,7 @@ double draw_features(const Report& report, const ReportLook& look, const Rect& c
                               {"minimum", 1.7},      {"mean", 1.7}, {"maximum", 1.7}};
   if (demands) columns.insert(columns.end(), {{"demanded", 1.4}, {"target", 1.4}, {"at most", 1.4}});
   columns.push_back({"", 2.2});
-  Table table(columns, column, sheet);
+  ReportTable table(columns, column, sheet);
   y = table.titles(y);
   // If not all find room, those that lack something are kept first and then the thinnest. The rows that are
   // kept stay in their own order.

@@ -13,9 +13,9 @@
 namespace lekalo::field {
 namespace {
 
-constexpr std::size_t kSmall = 8;    // nodes along a tile
-constexpr std::size_t kFew = 2;      // segments that need no further division
-constexpr std::size_t kBlock = 256;  // nodes looked at together
+constexpr std::size_t kSmallTile = 8;    // nodes along a tile
+constexpr std::size_t kFewSegments = 2;  // segments that need no further division
+constexpr std::size_t kBlock = 256;      // nodes looked at together
 using Numbers = std::vector<std::uint32_t>;
 
 /// A segment seen from a tile's middle, in single precision.
@@ -156,9 +156,9 @@ struct Distance {
 };
 
 template <class Kind>
-class Sampler {
+class TileSampler {
  public:
-  Sampler(const Kind& kind, const ContourModel& model, FieldGrid& grid)
+  TileSampler(const Kind& kind, const ContourModel& model, FieldGrid& grid)
       : kind_(kind), model_(model), grid_(grid), signs_(model, grid.frame) {
     all_.resize(model.segments().size());
     for (std::size_t i = 0; i < all_.size(); ++i) all_[i] = static_cast<std::uint32_t>(i);
@@ -192,7 +192,7 @@ class Sampler {
     kept.clear();
     for (std::size_t i = 0; i < numbers.size(); ++i)
       if (space.lows[i] <= limit) kept.push_back(numbers[i]);
-    if (kept.size() <= kFew || (tile.columns <= kSmall && tile.rows <= kSmall))
+    if (kept.size() <= kFewSegments || (tile.columns <= kSmallTile && tile.rows <= kSmallTile))
       return fill(tile, middle, kept, space);
     each_quarter(tile, [&](const Tile& part) { divide(part, kept, depth + 1, space); });
   }
@@ -263,7 +263,7 @@ class Sampler {
 
 template <class Kind>
 void sample_tiles(const Kind& kind, const ContourModel& model, FieldGrid& grid, unsigned threads) {
-  const Sampler<Kind> sampler(kind, model, grid);
+  const TileSampler<Kind> sampler(kind, model, grid);
   each_top_tile(grid.frame, threads, [&](const Tile& tile) { sampler.top_tile(tile); });
 }
 

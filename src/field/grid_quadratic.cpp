@@ -19,13 +19,13 @@ namespace {
 
 using geom::Point;
 
-constexpr std::size_t kSmall = 16;  // nodes along a tile
-constexpr std::size_t kFew = 7;     // parts of a tree that needs no further division
-constexpr std::size_t kBlock = 128;
+constexpr std::size_t kSmallQuadraticTile = 16;  // nodes along a tile
+constexpr std::size_t kFewParts = 7;             // parts of a tree that needs no further division
+constexpr std::size_t kQuadraticBlock = 128;
 constexpr std::size_t kDeepest = 24;  // a balanced tree over a million segments, and some
 
 // Polynomials may take this share of the stated errors, a part of it for each halving of tiles from kTop to
-// kSmall.
+// kSmallQuadraticTile.
 constexpr double kValueShare = 0.5 * kQuadraticGridError, kGradientShare = 0.5 * kQuadraticGridGradientError;
 constexpr double kHalvings = 5;
 
@@ -213,7 +213,7 @@ struct Step {
 };
 
 struct Jets {
-  std::array<float, kBlock> value, dx, dy;
+  std::array<float, kQuadraticBlock> value, dx, dy;
 };
 
 /// At (x, y) from the segment's middle: sqrt(f^2 + g^2), with g = over / 2.
@@ -291,9 +291,9 @@ LEKALO_WIDE void join(Jets& __restrict a, const Jets& __restrict b, std::size_t 
   }
 }
 
-class Sampler {
+class QuadraticSampler {
  public:
-  Sampler(const ContourModel& model, FieldGrid& grid)
+  QuadraticSampler(const ContourModel& model, FieldGrid& grid)
       : model_(model), grid_(grid), signs_(model, grid.frame) {
     add_all(0, model.segments().size());
   }
@@ -308,7 +308,7 @@ class Sampler {
     std::array<Tree, 8> kept;  ///< one a depth of division
     std::vector<Bounds> bounds;
     std::vector<Step> steps;
-    std::array<float, kBlock> x, y, sign;
+    std::array<float, kQuadraticBlock> x, y, sign;
     std::array<Jets, kDeepest> stack;
   };
 
@@ -417,7 +417,8 @@ class Sampler {
     Tree& kept = space.kept[depth];
     kept.parts.clear(), kept.models.clear();
     keep(tree, tree.parts.size() - 1, 1, distance, middle, radius, bounds, kept);
-    if (kept.parts.size() <= kFew || (tile.columns <= kSmall && tile.rows <= kSmall))
+    if (kept.parts.size() <= kFewParts ||
+        (tile.columns <= kSmallQuadraticTile && tile.rows <= kSmallQuadraticTile))
       return fill(tile, middle, kept, space);
     each_quarter(tile, [&](const Tile& part) { divide(part, kept, distance, depth + 1, space); });
   }
@@ -470,11 +471,12 @@ class Sampler {
     // Nearer to a segment than this, single precision would not tell the side.
     const auto close = static_cast<float>(2e-3 * off + 1e-4 * std::min(longest, off));
     const Jets& result = space.stack[0];
-    const std::size_t rows_at_once = std::max<std::size_t>(1, kBlock / tile.columns);
+    const std::size_t rows_at_once = std::max<std::size_t>(1, kQuadraticBlock / tile.columns);
     for (std::size_t j = 0; j < tile.rows; j += rows_at_once)
-      for (std::size_t first = 0; first < tile.columns; first += kBlock) {
+      for (std::size_t first = 0; first < tile.columns; first += kQuadraticBlock) {
         ask(16);
-        const std::size_t columns = std::min(kBlock, tile.columns - first), column = tile.column + first;
+        const std::size_t columns = std::min(kQuadraticBlock, tile.columns - first),
+                          column = tile.column + first;
         const std::size_t rows = std::min(rows_at_once, tile.rows - j);
         for (std::size_t r = 0; r < rows; ++r) {
           const std::size_t row = tile.row + j + r;
@@ -508,7 +510,7 @@ class Sampler {
 }  // namespace
 
 void sample_quadratic(const ContourModel& model, unsigned threads, FieldGrid& grid) {
-  const Sampler sampler(model, grid);
+  const QuadraticSampler sampler(model, grid);
   each_top_tile(grid.frame, threads, [&](const Tile& tile) { sampler.top_tile(tile); });
 }
 

@@ -45,10 +45,10 @@ Loads loads_outside_entries(std::vector<verify::EngagementSample> samples, const
   return loads_of(samples, of);
 }
 
-class Judge {
+class PocketJudge {
  public:
-  Judge(const PocketJob& job, const PocketGround& ground, const std::vector<verify::EarlierProgram>& before,
-        const PhaseListener& phases)
+  PocketJudge(const PocketJob& job, const PocketGround& ground,
+              const std::vector<verify::EarlierProgram>& before, const PhaseListener& phases)
       : job_(job),
         o_(job.options),
         ground_(ground),
@@ -197,7 +197,7 @@ verify::SimulateOptions machining_of(const PocketOptions& options) {
 Result<JudgedProgram> judged_program(mill::PocketPath path, const PocketJob& job, const PocketGround& ground,
                                      const std::vector<verify::EarlierProgram>& before,
                                      const PhaseListener& phases) {
-  return Judge(job, ground, before, phases).run(std::move(path));
+  return PocketJudge(job, ground, before, phases).run(std::move(path));
 }
 
 }  // namespace lekalo::jobs

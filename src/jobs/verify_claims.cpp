@@ -24,9 +24,9 @@ std::string status_of(const ClaimReport& report) {
 }
 
 /// Judges one file, and keeps what it was judged by.
-class Judge {
+class ClaimJudge {
  public:
-  Judge(const File& result, const Beside& beside, const FileFinder& find)
+  ClaimJudge(const File& result, const Beside& beside, const FileFinder& find)
       : result_(result), beside_(beside), find_(find) {}
 
   Result<VerifiedClaims> judged() {
@@ -181,7 +181,7 @@ class Judge {
 }  // namespace
 
 Result<VerifiedClaims> verify_claims(const File& result, const Beside& beside, const FileFinder& find) {
-  return Judge(result, beside, find).judged();
+  return ClaimJudge(result, beside, find).judged();
 }
 
 }  // namespace lekalo::jobs

@@ -215,11 +215,11 @@ std::vector<std::int64_t> most_valuable_kits(const Document& document,
       const std::size_t a = first_of(supply.takers.front().first), b = first_of(kit);
       before[std::max(a, b)] = std::min(a, b);
     }
-  struct Group {
+  struct KitGroup {
     std::vector<std::size_t> kits;
     std::vector<Supply> supplies;
   };
-  std::map<std::size_t, Group> groups;
+  std::map<std::size_t, KitGroup> groups;
   for (Supply& supply : supplies) groups[first_of(supply.takers.front().first)].supplies.push_back(supply);
   for (std::size_t k = 0; k < before.size(); ++k)
     if (const auto group = groups.find(first_of(k)); group != groups.end()) group->second.kits.push_back(k);

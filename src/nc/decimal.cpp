@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include "letters.hpp"
 
 namespace lekalo::nc {
 namespace {
@@ -11,8 +12,6 @@ constexpr Wide power_of_ten(int exponent) noexcept {
   for (int k = 0; k < exponent; ++k) power *= 10;
   return power;
 }
-
-bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 
 }  // namespace
 

@@ -9,19 +9,17 @@
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/double_of_text.hpp"
 #include "lekalo/geom/trig.hpp"
+#include "letters.hpp"
 
 namespace lekalo::nc {
 namespace {
 
 constexpr double kDegree = kPi / 180;
-constexpr int kDeepest = 50;
+constexpr int kDeepestExpression = 50;
 constexpr double kLargestAngle = 36'000;  // degrees
 
 constexpr std::array<std::string_view, 10> kFunctions{"SIN",  "COS",  "TAN", "ATAN", "ASIN",
                                                       "ACOS", "SQRT", "ABS", "FIX",  "FUP"};
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-char to_upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 }  // namespace
 
@@ -82,7 +80,7 @@ std::string ExpressionReader::any_key() {
 }
 
 double ExpressionReader::factor() {
-  if (++depth_ > kDeepest) return fail("an expression is nested too deeply");
+  if (++depth_ > kDeepestExpression) return fail("an expression is nested too deeply");
   double result = 0;
   const char c = peek();
   if (c == '-' || c == '+') {

@@ -5,15 +5,14 @@
 #include <optional>
 
 #include "lekalo/base/stop.hpp"
+#include "letters.hpp"
 
 namespace lekalo::nc {
 namespace {
 
 bool is_blank(char c) noexcept { return c == ' ' || c == '\t'; }
-bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 bool is_control(char c) noexcept { return (static_cast<unsigned char>(c) < 32 && c != '\t') || c == 127; }
 bool is_ascii(char c) noexcept { return static_cast<unsigned char>(c) < 128; }
-char to_upper(char c) noexcept { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 bool is_letter(char c) noexcept { return to_upper(c) >= 'A' && to_upper(c) <= 'Z'; }
 bool in_number(char c) noexcept { return is_digit(c) || c == '.' || c == '+' || c == '-'; }
 

@@ -11,17 +11,17 @@
 #include "lekalo/base/nc_names.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/nc/program.hpp"
+#include "letters.hpp"
 
 namespace lekalo::nc {
 namespace {
 
 using Fault = std::optional<std::string>;
 
-constexpr std::size_t kDeepest = 10, kMostBytes = 10'000'000;
+constexpr std::size_t kDeepestCall = 10, kMostBytes = 10'000'000;
 constexpr double kMostRepeats = 9999;
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-char to_upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 /// A line without its end, and its code: capitals without comments and blanks.
 struct Line {
@@ -40,14 +40,14 @@ std::size_t comment_end(std::string_view text, std::size_t at) {
   return text.size();
 }
 
-std::string code_of(std::string_view text) {
+std::string code_without_comments(std::string_view text) {
   std::string code;
   for (std::size_t at = 0; at < text.size();) {
     if (text[at] == '(' || text[at] == ';') {
       at = comment_end(text, at);
       continue;
     }
-    if (!is_blank(text[at])) code += to_upper(text[at]);
+    if (!is_space(text[at])) code += to_upper(text[at]);
     ++at;
   }
   return code;
@@ -61,7 +61,7 @@ std::vector<Line> lines_of(std::string_view text) {
     std::size_t end = newline == std::string_view::npos ? text.size() : newline;
     if (end > begin && end < next && text[end - 1] == '\r') --end;
     const std::string_view line = text.substr(begin, end - begin);
-    lines.push_back({line, text.substr(end, next - end), code_of(line)});
+    lines.push_back({line, text.substr(end, next - end), code_without_comments(line)});
     begin = next;
   }
   return lines;
@@ -321,7 +321,7 @@ class Unfolder {
   }
 
   Fault write_out(const Line& line, Subprogram body, double repeats, std::size_t index) {
-    if (++depth_ > kDeepest) return "subprograms call each other more than ten deep";
+    if (++depth_ > kDeepestCall) return "subprograms call each other more than ten deep";
     emit_as_comment(line, index);
     ++result_.calls;
     const std::size_t back = here_;
@@ -371,7 +371,7 @@ class Unfolder {
 
 }  // namespace
 
-bool is_folded_line(std::string_view line) { return is_folded(code_of(line)); }
+bool is_folded_line(std::string_view line) { return is_folded(code_without_comments(line)); }
 
 tl::expected<Unfolded, LineFault> unfold(std::string_view text) {
   Unfolder unfolder(text);

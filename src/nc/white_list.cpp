@@ -211,20 +211,20 @@ Control guess_control(const Program& program, const std::vector<int>& allowed_m,
 }
 
 tl::unexpected<Error> refusal_of_all(const std::string& name, std::vector<LineFault> faults) {
-  struct Group {
+  struct SameFaults {
     std::string reason, lines;
     std::size_t count = 0;
   };
   std::ranges::stable_sort(faults, {}, &LineFault::line);
-  std::vector<Group> groups;
+  std::vector<SameFaults> groups;
   for (const LineFault& fault : faults) {
-    auto group = std::ranges::find(groups, fault.reason, &Group::reason);
+    auto group = std::ranges::find(groups, fault.reason, &SameFaults::reason);
     if (group == groups.end()) group = groups.insert(groups.end(), {fault.reason, "", 0});
     group->lines += fmt::format("{}{}", group->count++ == 0 ? "" : ", ", fault.line);
   }
   if (faults.size() == 1) return refusal(name, faults.front().line, faults.front().reason);
   std::string sentence = fmt::format("{} words cannot be rewritten: ", faults.size());
-  for (const Group& group : groups)
+  for (const SameFaults& group : groups)
     sentence += fmt::format("{}line{} {}: {}", &group == &groups.front() ? "" : " / ",
                             group.count == 1 ? "" : "s", group.lines, group.reason);
   return refusal(name, faults.front().line, sentence);

@@ -41,8 +41,6 @@ std::vector<Edge> edges_near(const GridRegion& region, GridPoint shift, const Gr
   return edges;
 }
 
-GridBox moved(GridBox box, GridPoint by) noexcept { return {box.low + by, box.high + by}; }
-
 /// The directions that lead into the material at a point of the boundary: counter-clockwise from `first` to
 /// `last`, both along the boundary.
 struct Sector {
@@ -95,7 +93,7 @@ bool material_meets(const Edge& a, const Edge& b, bool outside_of_a) noexcept {
 /// Says whether two closed outlines have such a point.
 /// \param outside_of_a  a's material is what lies outside it
 bool boundaries_mix(const GridRegion& a, const GridRegion& b, GridPoint shift, bool outside_of_a) {
-  const GridBox box_a = bounds(a), box_b = moved(bounds(b), shift);
+  const GridBox box_a = bounds(a), box_b = geom::moved(bounds(b), shift);
   if (!boxes_meet(box_a, box_b)) return false;
   const std::vector<Edge> near = edges_near(b, shift, box_a);
   if (near.empty()) return false;
@@ -159,12 +157,10 @@ Foot foot(GridPoint p, const Edge& edge) noexcept {
            static_cast<double>(edge.from.y) + share * static_cast<double>(along_edge.y)}};
 }
 
-Point in_mm(Point steps) noexcept { return geom::kGridStep * steps; }
-
 }  // namespace
 
 bool interiors_meet(const GridRegion& a, const GridRegion& b, GridPoint shift) {
-  const GridBox box_a = bounds(a), box_b = moved(bounds(b), shift);
+  const GridBox box_a = bounds(a), box_b = geom::moved(bounds(b), shift);
   if (box_a.low.x >= box_b.high.x || box_b.low.x >= box_a.high.x || box_a.low.y >= box_b.high.y ||
       box_b.low.y >= box_a.high.y)
     return false;
@@ -174,7 +170,7 @@ bool interiors_meet(const GridRegion& a, const GridRegion& b, GridPoint shift) {
 }
 
 bool lies_within(const GridRegion& container, const GridRegion& b, GridPoint shift) {
-  const GridBox outer = bounds(container), box = moved(bounds(b), shift);
+  const GridBox outer = bounds(container), box = geom::moved(bounds(b), shift);
   if (box.low.x < outer.low.x || box.high.x > outer.high.x || box.low.y < outer.low.y ||
       box.high.y > outer.high.y)
     return false;
@@ -188,7 +184,7 @@ bool lies_within(const GridRegion& container, const GridRegion& b, GridPoint shi
 
 bool edges_nearer_than(const GridRegion& a, const GridRegion& b, std::int64_t gap, GridPoint shift) {
   if (gap <= 0) return false;
-  const GridBox box_a = bounds(a), box_b = moved(bounds(b), shift);
+  const GridBox box_a = bounds(a), box_b = geom::moved(bounds(b), shift);
   if (!boxes_meet(box_a, box_b, gap)) return false;
   const std::vector<Edge> near = edges_near(b, shift, box_a, gap);
   if (near.empty()) return false;
@@ -212,7 +208,7 @@ bool edges_nearer_than(const GridRegion& a, const GridRegion& b, std::int64_t ga
 EdgeDistance edge_distance(const GridRegion& a, const GridRegion& b, GridPoint shift) {
   EdgeDistance best;
   double squared = std::numeric_limits<double>::infinity();
-  const GridBox box_b = moved(bounds(b), shift);
+  const GridBox box_b = geom::moved(bounds(b), shift);
   const std::vector<Edge> others = edges_near(b, shift, box_b);
   const auto beyond = [&](const GridBox& p, const GridBox& q) {
     const double dx =
@@ -224,7 +220,7 @@ EdgeDistance edge_distance(const GridRegion& a, const GridRegion& b, GridPoint s
   const auto consider = [&](const Foot& at, GridPoint p, bool p_on_a) {
     if (!(at.squared < squared)) return;
     squared = at.squared;
-    const Point end = geom::mm_from_grid(p), on_edge = in_mm(at.at);
+    const Point end = geom::mm_from_grid(p), on_edge = geom::mm_from_steps(at.at);
     best = p_on_a ? EdgeDistance{0, end, on_edge} : EdgeDistance{0, on_edge, end};
   };
   for (const Edge& edge : edges_near(a, {}, bounds(a))) {

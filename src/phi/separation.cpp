@@ -32,8 +32,6 @@ Point halved(Point by) noexcept {
 }
 Point opposite_turn(Point by) noexcept { return {by.x, -by.y}; }
 
-GridBox moved(GridBox box, GridPoint by) noexcept { return {box.low + by, box.high + by}; }
-
 /// Returns the shift along one axis that moves a box least out of another.
 GridPoint box_shift_out(const GridBox& a, const GridBox& b) noexcept {
   const std::array<GridPoint, 4> shifts{
@@ -143,8 +141,6 @@ std::optional<GridPoint> proved(const std::vector<SlideOut::Stop>& stops, Frees&
   return std::nullopt;
 }
 
-Point in_mm(Point steps) noexcept { return geom::kGridStep * steps; }
-
 Separation made(GridPoint shift, Point at_mm) noexcept {
   const Point v = geom::mm_from_grid(shift);
   const double length = norm(v);
@@ -171,7 +167,7 @@ Point edge_place(const GridRegion& a, const GridRegion& b, GridPoint b_shift) {
 Point place_shown(const GridRegion& a, const GridRegion& b, GridPoint b_shift,
                   const std::optional<Point>& place) {
   if (!place) return edge_place(a, b, b_shift);
-  const Point at = geom::mm_from_grid(a.points[0]) + in_mm(*place);
+  const Point at = geom::mm_from_grid(a.points[0]) + geom::mm_from_steps(*place);
   const GridPoint nearest{geom::grid_from_mm(at.x), geom::grid_from_mm(at.y)};
   const bool in_both = locate_point(a, nearest) != geom::PointLocation::outside &&
                        locate_point(b, nearest - b_shift) != geom::PointLocation::outside;
@@ -181,7 +177,7 @@ Point place_shown(const GridRegion& a, const GridRegion& b, GridPoint b_shift,
 }  // namespace
 
 Separation separate(const GridRegion& a, const GridRegion& b, GridPoint b_shift) {
-  const GridPoint box_shift = box_shift_out(bounds(a), moved(bounds(b), b_shift));
+  const GridPoint box_shift = box_shift_out(bounds(a), geom::moved(bounds(b), b_shift));
   SlideOut slide(a, b, b_shift, false);
   const auto place = slide.place_in_common();
   if (place) slide.probe_at(*place);
@@ -207,7 +203,8 @@ std::optional<Separation> bring_inside(const GridRegion& container, const GridRe
   Search search(slide, std::numeric_limits<double>::infinity());
   // No shift is shorter than the one that brings the box in.
   const GridPoint by_box = box_shift_in(box, outer);
-  const Point at = place ? geom::mm_from_grid(a.points[0]) + in_mm(*place) : sticking_out(container, a).at;
+  const Point at =
+      place ? geom::mm_from_grid(a.points[0]) + geom::mm_from_steps(*place) : sticking_out(container, a).at;
   if (lies_within(container, a, by_box)) return made(by_box, at);
   try_direction(search, by_box);
   search.fan();

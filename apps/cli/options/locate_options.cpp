@@ -12,8 +12,8 @@ namespace {
 
 using Method = jobs::LocateMethod;
 
-constexpr std::array kMethods{Word<Method>{"certified", Method::certified},
-                              Word<Method>{"ipopt", Method::ipopt}, Word<Method>{"icp", Method::icp}};
+constexpr std::array kLocateMethods{Word<Method>{"certified", Method::certified},
+                                    Word<Method>{"ipopt", Method::ipopt}, Word<Method>{"icp", Method::icp}};
 constexpr std::array kStartRules{
     Word<locate::StartRule>{"random", locate::StartRule::random},
     Word<locate::StartRule>{"centroids", locate::StartRule::centroids},
@@ -96,7 +96,7 @@ void read_search(const LocateWords& words, WordReader& read, LocateOptions& o) {
               "a whole number from 2 to 100", o.job.trade_off);
   read.number("--min-allowance", words.min_allowance, 0.0, kLargestLength, "a length in mm of 0 or more",
               o.job.min_allowance);
-  read.choice("--method", words.method, kMethods, o.job.method);
+  read.choice("--method", words.method, kLocateMethods, o.job.method);
   read.number("--starts", words.starts, 1, 1'000'000, "a whole number from 1 to 1000000", o.job.starts);
   read.choice("--start-rule", words.start_rule, kStartRules, o.job.start_rule);
   constexpr auto kLargest = std::numeric_limits<std::uint64_t>::max();
@@ -315,7 +315,7 @@ void add_search_options(Form& form, LocateWords& w) {
   add("--give-up", w.give_up, "MM", "What the second criterion may take off the smallest allowance [0]");
   add("--trade-off", w.trade_off, "N", "Also N points of the curve of smallest against largest allowance");
   add("--alternatives", w.alternatives, "MM", "Also list other placements that lose at most this");
-  add("--method", w.method, list_of(kMethods, "|"),
+  add("--method", w.method, list_of(kLocateMethods, "|"),
       "certified proves its result; ipopt and icp are there for comparison [certified]");
   add("--starts", w.starts, "N", "Starts of --method ipopt [10]");
   add("--start-rule", w.start_rule, list_of(kStartRules, "|"), "Where --method ipopt starts [random]");

@@ -18,9 +18,9 @@ constexpr std::array kCoolants{Word<mill::Coolant>{"off", mill::Coolant::off},
 constexpr std::array kDirections{Word<mill::Direction>{"any", mill::Direction::any},
                                  Word<mill::Direction>{"climb", mill::Direction::climb},
                                  Word<mill::Direction>{"conventional", mill::Direction::conventional}};
-constexpr std::array kMethods{Word<mill::Method>{"fronts", mill::Method::fronts},
-                              Word<mill::Method>{"floz-linear", mill::Method::floz_linear},
-                              Word<mill::Method>{"floz-quadratic", mill::Method::floz_quadratic}};
+constexpr std::array kPocketMethods{Word<mill::Method>{"fronts", mill::Method::fronts},
+                                    Word<mill::Method>{"floz-linear", mill::Method::floz_linear},
+                                    Word<mill::Method>{"floz-quadratic", mill::Method::floz_quadratic}};
 constexpr std::array kWorkOffsets{Word<int>{"G54", 1}, Word<int>{"G55", 2}, Word<int>{"G56", 3},
                                   Word<int>{"G57", 4}, Word<int>{"G58", 5}, Word<int>{"G59", 6}};
 
@@ -97,7 +97,7 @@ Result<Command> to_pocket(const PocketWords& w) {
   double degrees = o.path.ramp_angle / kDegree;
   read.number("--ramp-angle", w.ramp_angle, 0.1, 45.0, "an angle from 0.1 to 45 degrees", degrees);
   if (!w.ramp_angle.empty()) o.path.ramp_angle = degrees * kDegree;
-  read.choice("--method", w.method, kMethods, o.path.method);
+  read.choice("--method", w.method, kPocketMethods, o.path.method);
   read.number("--sampling", w.sampling, 1e-3, 1e4, "a length from 0.001 to 10000 mm", o.path.sampling);
   read.number("--trace-step", w.trace_step, 1e-3, 1e4, "a length from 0.001 to 10000 mm", o.path.trace_step);
   read.require(o.path.method == mill::Method::fronts || (w.rest.empty() && w.after.empty()),

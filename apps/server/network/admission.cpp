@@ -8,8 +8,6 @@ namespace {
 
 namespace http = boost::beast::http;
 
-std::string_view view(boost::beast::string_view text) { return {text.data(), text.size()}; }
-
 /// Says whether somebody follows a link to the page: nothing but the page's own files comes of it.
 bool opens_page(const http::request<http::string_body>& request, const Target& target) {
   return (request.method() == http::verb::get || request.method() == http::verb::head) &&

@@ -3,12 +3,17 @@
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <string>
+#include <string_view>
 #include <tl/expected.hpp>
 
 #include "access.hpp"
 #include "messages.hpp"
 
 namespace lekalo::server {
+
+[[nodiscard]] inline std::string_view view(boost::beast::string_view text) {
+  return {text.data(), text.size()};
+}
 
 /// A request that is not answered: the status and the sentence that it gets.
 struct Declined {

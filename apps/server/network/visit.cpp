@@ -54,8 +54,6 @@ std::string peer_of(const asio::ip::address& address) {
   return asio::ip::make_address_v6(bytes).to_string();
 }
 
-std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
-
 /// One HTTP connection, until it ends or becomes a Talk.
 class Visit : public std::enable_shared_from_this<Visit> {
  public:

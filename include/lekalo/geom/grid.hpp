@@ -54,6 +54,9 @@ struct GridPoint {
   return {mm_from_grid(p.x), mm_from_grid(p.y)};
 }
 
+/// Returns a place between the points of the grid, in steps, in mm.
+[[nodiscard]] constexpr Point mm_from_steps(Point steps) noexcept { return kGridStep * steps; }
+
 /// Returns +1 where a, b, c turn left, -1 right, 0 on one line: exact. Coordinates may be up to 4 kGridLimit.
 [[nodiscard]] inline int turn(GridPoint a, GridPoint b, GridPoint c) noexcept {
   // The differences are exact doubles; each product rounds once, and so does their difference.

@@ -21,6 +21,9 @@ struct GridBox {
 [[nodiscard]] inline GridBox box_of(GridPoint a, GridPoint b) noexcept {
   return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
 }
+[[nodiscard]] constexpr GridBox moved(GridBox box, GridPoint by) noexcept {
+  return {box.low + by, box.high + by};
+}
 /// True if the boxes, borders included, have a point in common or come as near as `margin` in x and in y.
 [[nodiscard]] inline bool boxes_meet(const GridBox& a, const GridBox& b, std::int64_t margin = 0) noexcept {
   return a.low.x - margin <= b.high.x && b.low.x - margin <= a.high.x && a.low.y - margin <= b.high.y &&

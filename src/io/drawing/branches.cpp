@@ -38,23 +38,23 @@ std::vector<std::vector<std::uint32_t>> clusters_of(const std::vector<BranchChai
   return clusters;
 }
 
-struct LooseEnd {
+struct BranchEnd {
   geom::Point at;
   std::uint32_t curve = 0;
 };
 
 /// Pairs of loose ends of a cluster that are no further apart than `gap`.
-std::vector<std::pair<LooseEnd, LooseEnd>> gaps_of(const std::vector<BranchChain>& chains,
-                                                   const std::vector<std::uint32_t>& cluster, double gap) {
-  std::vector<LooseEnd> ends;
+std::vector<std::pair<BranchEnd, BranchEnd>> gaps_of(const std::vector<BranchChain>& chains,
+                                                     const std::vector<std::uint32_t>& cluster, double gap) {
+  std::vector<BranchEnd> ends;
   std::vector<geom::Box> boxes;
   for (const std::uint32_t i : cluster) {
     const BranchChain& chain = chains[i];
     if (chain.begin == kNoNode) ends.push_back({chain.edges.front().from, chain.curves.front()});
     if (chain.end == kNoNode) ends.push_back({chain.edges.back().to, chain.curves.back()});
   }
-  for (const LooseEnd& end : ends) boxes.push_back(geom::grown({end.at, end.at}, gap / 2));
-  std::vector<std::pair<LooseEnd, LooseEnd>> gaps;
+  for (const BranchEnd& end : ends) boxes.push_back(geom::grown({end.at, end.at}, gap / 2));
+  std::vector<std::pair<BranchEnd, BranchEnd>> gaps;
   geom::BoxTree(std::move(boxes)).visit_pairs_while([&](std::uint32_t i, std::uint32_t j) {
     if (norm(ends[i].at - ends[j].at) <= gap) gaps.emplace_back(ends[i], ends[j]);
     // Many are a fan, and no gaps.

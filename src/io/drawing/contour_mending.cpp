@@ -42,7 +42,7 @@ bool turns_back(const Edge& in, const Edge& out) {
 }
 
 /// The loops that come too near to something are found this many times; after that all are cut off.
-constexpr int kMostRounds = 4;
+constexpr int kMostMendings = 4;
 constexpr std::size_t kNoLoop = static_cast<std::size_t>(-1);
 
 /// The right-hand side of the way through a corner, where the material is not.
@@ -80,7 +80,7 @@ class Mender {
       narrow_.clear();
       auto made = attempt();
       if (made && narrow_.empty()) return made;
-      if (narrow_.empty() || round >= kMostRounds)
+      if (narrow_.empty() || round >= kMostMendings)
         for (std::size_t i = 0; i < kind_.size(); ++i)
           if (kind_[i] == Kind::joined) narrow_.push_back(i);
       if (narrow_.empty()) return std::nullopt;

@@ -15,7 +15,7 @@ using geom::Edge;
 using geom::Point;
 
 /// Parts of a contour are halved until they are this share of the reach long.
-constexpr double kFinest = 1.0 / 64;
+constexpr double kFinestOfReach = 1.0 / 64;
 /// The reach is no less than this, mm, or halving would not end.
 constexpr double kLeastReach = 1e-6;
 
@@ -62,7 +62,7 @@ PlacedContour::Sides PlacedContour::sides_of(const PlacedContour& other, double 
       });
       if (beyond) continue;
     }
-    if (halves.half_length <= kFinest * reach) continue;
+    if (halves.half_length <= kFinestOfReach * reach) continue;
     open.push_back(halves.first);
     open.push_back(halves.second);
   }

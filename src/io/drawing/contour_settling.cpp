@@ -22,7 +22,7 @@ using geom::Contour;
 using geom::Point;
 
 /// Mending may bring contours to meet that did not. After this many rounds they are set aside instead.
-constexpr int kMostRounds = 6;
+constexpr int kMostSettlings = 6;
 /// Steps that may be spent on how contours lie to each other, at least, and how many more for each edge. Real
 /// drawings take a few for each edge that lies along another, and long curves some dozens.
 constexpr std::size_t kLeastRelationWork = 10'000, kRelationWorkOfEdge = 500;
@@ -61,7 +61,7 @@ class Settling {
   std::optional<Settled> run() {
     for (int round = 0;; ++round) {
       // From the last round on contours only go, so that the rounds end.
-      const bool last = round >= kMostRounds;
+      const bool last = round >= kMostSettlings;
       if (!find_meetings()) return std::nullopt;
       if (!last && mend_groups(groups_that_meet())) continue;
       relate();

@@ -97,7 +97,7 @@ BernsteinRatio beyond_circle(const Bezier& piece, Point origin, Point centre) {
 }
 
 /// A candidate arc of at most a quarter turn, origin at its beginning.
-struct Candidate {
+struct ArcCandidate {
   Edge arc;
   Point centre;          ///< from the arc's beginning
   double radius = 0;     ///< at its beginning
@@ -106,14 +106,14 @@ struct Candidate {
 };
 
 /// The arc through three points, if it is one of at most a quarter turn and not nearly a line.
-std::optional<Candidate> arc_through(Point from, Point middle, Point to) {
+std::optional<ArcCandidate> arc_through(Point from, Point middle, Point to) {
   const Point m = middle - from, q = to - from;
   const double turn = cross(m, q), chord = norm(q);
   if (turn == 0 || !std::isfinite(turn)) return std::nullopt;
   const Point ideal =
       (1 / (2 * turn)) * Point{dot(m, m) * q.y - dot(q, q) * m.y, dot(q, q) * m.x - dot(m, m) * q.x};
   if (!(norm(ideal) <= kLargestRadiusInChords * chord)) return std::nullopt;
-  Candidate made;
+  ArcCandidate made;
   const bool left = turn > 0;
   made.arc = {left ? EdgeKind::arc_ccw : EdgeKind::arc_cw, from, to, from + ideal};
   made.centre = made.arc.centre - from;
@@ -126,7 +126,7 @@ std::optional<Candidate> arc_through(Point from, Point middle, Point to) {
 }
 
 /// A bound on the distance of the piece from the arc and back, if it is proven to be within `limit`.
-std::optional<double> distance_bound(const Candidate& arc, const Bezier& piece, double limit) {
+std::optional<double> distance_bound(const ArcCandidate& arc, const Bezier& piece, double limit) {
   const Point bisector = arc.first + arc.last;
   double aside = 0;  // poles outside the wedge between the arc's ends
   for (std::size_t i = 0; i <= piece.degree; ++i) {

@@ -20,7 +20,7 @@ using geom::Edge;
 using geom::EdgeKind;
 using geom::Point;
 
-bool is_line(const Edge& edge) { return edge.kind == EdgeKind::line; }
+bool is_straight(const Edge& edge) { return edge.kind == EdgeKind::line; }
 
 /// Bound on how far the points of arc b are from arc a, if that is at most `limit`.
 std::optional<double> arc_on_arc(const Curve& b, const Curve& a, double limit) {
@@ -61,8 +61,9 @@ std::optional<double> line_on_line(const Edge& b, const Curve& a, double limit) 
 }
 
 std::optional<double> edge_on_edge(const Edge& b, const Edge& a, double limit) {
-  if (is_line(a) != is_line(b)) return std::nullopt;
-  return is_line(a) ? line_on_line(b, make_curve(a), limit) : arc_on_arc(make_curve(b), make_curve(a), limit);
+  if (is_straight(a) != is_straight(b)) return std::nullopt;
+  return is_straight(a) ? line_on_line(b, make_curve(a), limit)
+                        : arc_on_arc(make_curve(b), make_curve(a), limit);
 }
 
 /// Bound on the distance of two edges that run the same way, both ways round, if it is at most `limit`.

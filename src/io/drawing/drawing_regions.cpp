@@ -39,7 +39,7 @@ using geom::Edge;
 using geom::Point;
 
 /// Rounds a sum of a few terms up.
-constexpr double kUp = 1 + 0x1p-48;
+constexpr double kSumsUp = 1 + 0x1p-48;
 /// The most rounds of joining again after something was dropped or cut. Every round needs a new reason, so
 /// that more than a few mean a drawing in which everything lies on everything.
 constexpr int kMostRounds = 8;
@@ -58,7 +58,7 @@ struct Worked {
   double curve_error = 0, moved = 0, repaired = 0, coordinate_error = 0;
   bool taken = false;   ///< on a layer that counts, and more than a point
   bool closed = false;  ///< a contour by itself
-  [[nodiscard]] double total() const { return (curve_error + moved + repaired + coordinate_error) * kUp; }
+  [[nodiscard]] double total() const { return (curve_error + moved + repaired + coordinate_error) * kSumsUp; }
 };
 
 /// A curve of a chain, and whether the chain goes along it backwards.
@@ -149,7 +149,7 @@ class Assembly {
       Worked& curve = worked_[i];
       curve.edges = std::move(made->edges);
       curve.curve_error = made->curve_error;
-      curve.coordinate_error = (drawn.error + made->rounding) * kUp;
+      curve.coordinate_error = (drawn.error + made->rounding) * kSumsUp;
       curve.taken = !curve.edges.empty();
       if (!curve.taken) {
         result_.specks.push_back(i);
@@ -371,7 +371,7 @@ class Assembly {
       worked_[curve].moved = std::max(worked_[curve].moved, by);
     };
     const auto bridge = [&](Point from, Point to, std::uint32_t curve, bool at_front) {
-      moved(curve, norm(to - from) * kUp);
+      moved(curve, norm(to - from) * kSumsUp);
       const Edge line{geom::EdgeKind::line, from, to, {}};
       branch.edges.insert(at_front ? branch.edges.begin() : branch.edges.end(), line);
       branch.curves.insert(at_front ? branch.curves.begin() : branch.curves.end(), curve);
@@ -788,7 +788,7 @@ class Assembly {
         }
       }
       for (const MovedCurve& one : group.moved)
-        worked_[one.curve].repaired = std::max(worked_[one.curve].repaired, one.moved * kUp);
+        worked_[one.curve].repaired = std::max(worked_[one.curve].repaired, one.moved * kSumsUp);
       for (LooseContour& contour : group.contours) contours_.push_back(std::move(contour));
       left.insert(left.end(), group.left.begin(), group.left.end());
     }
@@ -899,8 +899,8 @@ class Assembly {
   /// Draws a line across a gap that is a mend. Its points are no further than half of it from the curves.
   void bridge(LooseContour& contour, Point to) {
     const Point from = contour.edges.back().to;
-    const double gap = norm(to - from) * kUp;
-    if (!(gap > options_.join_tolerance * kUp) || options_.strict) return;
+    const double gap = norm(to - from) * kSumsUp;
+    if (!(gap > options_.join_tolerance * kSumsUp) || options_.strict) return;
     const std::uint32_t curve = contour.curves.back();
     contour.edges.push_back({geom::EdgeKind::line, from, to, {}});
     contour.curves.push_back(curve);
@@ -955,7 +955,7 @@ class Assembly {
     auto settled = settled_contours(contours_, origins, {options_.join_tolerance, options_.repair});
     if (!settled) return nest_as_they_are();
     for (const MovedCurve& one : settled->moved)
-      worked_[one.curve].repaired = std::max(worked_[one.curve].repaired, one.moved * kUp);
+      worked_[one.curve].repaired = std::max(worked_[one.curve].repaired, one.moved * kSumsUp);
     add_marks(settled->marks);
     for (AsideContour& one : settled->aside) set_aside(std::move(one));
     result_.duplicates.insert(result_.duplicates.end(), settled->dropped.begin(), settled->dropped.end());
@@ -1134,7 +1134,7 @@ class Assembly {
       // A copy of something that was left out is no part of the outlines.
       if (!worked_[one.on].taken) continue;
       Worked copy = worked_[one.curve];
-      copy.moved = (one.distance + worked_[one.on].moved) * kUp;
+      copy.moved = (one.distance + worked_[one.on].moved) * kSumsUp;
       count(copy);
     }
   }

@@ -22,9 +22,9 @@ using geom::EdgeKind;
 using geom::Point;
 
 /// Covers the rounding of the few sums and products here.
-constexpr double kUp = 1 + 0x1p-40;
+constexpr double kArcsUp = 1 + 0x1p-40;
 
-double largest(Point p) { return std::max(std::abs(p.x), std::abs(p.y)); }
+double largest_coordinate(Point p) { return std::max(std::abs(p.x), std::abs(p.y)); }
 
 bool is_arc(const Edge& edge) { return edge.kind != EdgeKind::line; }
 bool is_circle(const Edge& edge) { return is_arc(edge) && edge.from == edge.to; }
@@ -43,7 +43,8 @@ bool is_sound(const Edge& arc) {
 }
 
 double size_of(const Edge& arc) {
-  return std::max({largest(arc.from), largest(arc.to), largest(arc.centre), geom::arc_radius(arc)});
+  return std::max({largest_coordinate(arc.from), largest_coordinate(arc.to), largest_coordinate(arc.centre),
+                   geom::arc_radius(arc)});
 }
 
 DoubleDouble bulge_of(const Edge& edge) {
@@ -69,7 +70,7 @@ std::optional<BoundedShape> restored_circle(const std::vector<Edge>& pieces, Poi
   const Edge circle{read.kind, start, start, read.centre};
   const double apart = std::abs(geom::arc_radius(circle) - geom::arc_radius(read));
   if (!(apart <= kWrittenArcError * size_of(circle))) return std::nullopt;
-  return BoundedShape{circle, (error + apart + 4 * kUnitRoundoff * size_of(circle)) * kUp};
+  return BoundedShape{circle, (error + apart + 4 * kUnitRoundoff * size_of(circle)) * kArcsUp};
 }
 
 /// Returns the arc in the place of these curves, with the distance to them added to their error, or nothing
@@ -103,11 +104,11 @@ std::optional<BoundedShape> restored(const ExactArc& exact, const BoundedShape* 
     const double step = pieces.size() > 1 ? std::abs(geom::arc_radius(part) - geom::arc_radius(arc)) : 0;
     apart = {std::max(apart.level, one.level), std::max(apart.radii, one.radii + step)};
   }
-  const double sum = (apart.level + apart.radii) * kUp;
+  const double sum = (apart.level + apart.radii) * kArcsUp;
   if (!(std::abs(sweep - geom::arc_sweep(arc)) < 1) || !(apart.level <= kWrittenArcError * size_of(arc)) ||
       !(apart.radii <= kWrittenArcError * size_of(arc) + 4 * difference_of_radii(arc)) || !std::isfinite(sum))
     return std::nullopt;
-  return BoundedShape{arc, (error + sum) * kUp};
+  return BoundedShape{arc, (error + sum) * kArcsUp};
 }
 
 std::string_view next_word(std::string_view& text) {

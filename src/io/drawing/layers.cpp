@@ -10,7 +10,7 @@ namespace lekalo::io {
 namespace {
 
 /// Layers named in a message; a drawing may have thousands.
-constexpr std::size_t kMostNamed = 12;
+constexpr std::size_t kMostLayersNamed = 12;
 
 char folded(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -24,9 +24,9 @@ std::string joined(const std::string& a, const std::string& b) {
 
 std::string names_of(const std::vector<Layer>& layers) {
   std::string text;
-  for (std::size_t i = 0; i < layers.size() && i < kMostNamed; ++i)
+  for (std::size_t i = 0; i < layers.size() && i < kMostLayersNamed; ++i)
     text += (i > 0 ? ", " : "") + excerpt(layer_word(layers, i));
-  if (layers.size() > kMostNamed) text += fmt::format(" and {} more", layers.size() - kMostNamed);
+  if (layers.size() > kMostLayersNamed) text += fmt::format(" and {} more", layers.size() - kMostLayersNamed);
   return text;
 }
 
@@ -79,11 +79,11 @@ Result<LayerChoice> choose_layers(const Drawing& drawing, const DrawingOptions& 
     const Layer& layer = drawing.layers[i];
     const bool wanted = options.take.empty() ? !layer.hidden : is_among(layer, options.take);
     choice.taken.push_back(wanted && !is_among(layer, options.leave));
-    if (choice.taken.back() || ++named > kMostNamed) continue;
+    if (choice.taken.back() || ++named > kMostLayersNamed) continue;
     left += fmt::format("{}{} ({} curves{})", left.empty() ? "" : ", ",
                         excerpt(layer_word(drawing.layers, i)), curves[i], layer.hidden ? ", hidden" : "");
   }
-  if (named > kMostNamed) left += fmt::format(" and {} more", named - kMostNamed);
+  if (named > kMostLayersNamed) left += fmt::format(" and {} more", named - kMostLayersNamed);
   if (named > 0) choice.notices.push_back("layers left out: " + left);
   return choice;
 }

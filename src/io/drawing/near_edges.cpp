@@ -14,7 +14,7 @@ using geom::EdgeKind;
 using geom::Point;
 
 /// Parts of an edge are halved until they are this share of the limit long.
-constexpr double kFinest = 1.0 / 1024;
+constexpr double kFinestOfLimit = 1.0 / 1024;
 
 std::vector<Box> boxes_of(const std::vector<Curve>& curves) {
   std::vector<Box> boxes;
@@ -144,8 +144,8 @@ std::optional<double> NearEdges::farthest(const Edge& edge, double limit, std::s
       if (const auto along = farthest_along(part, curves_[i])) bound = std::min(bound, *along);
     });
     if (bound <= largest) continue;
-    const bool fine = halves.half_length <= limit * kFinest || !(halves.half_length > 0);
-    if (bound <= *middle + limit * kFinest || fine) {
+    const bool fine = halves.half_length <= limit * kFinestOfLimit || !(halves.half_length > 0);
+    if (bound <= *middle + limit * kFinestOfLimit || fine) {
       if (!(bound <= limit)) return std::nullopt;
       largest = std::max(largest, bound);
       continue;

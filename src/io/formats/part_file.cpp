@@ -88,7 +88,7 @@ std::string name_of(const Drawing& drawing, const DrawingFormat& format, const D
   return layer + ", " + own;
 }
 
-std::string place_of(const geom::Contour& line) {
+std::string first_point_of(const geom::Contour& line) {
   return fmt::format("({:.6g}, {:.6g}) mm", line.front().from.x, line.front().from.y);
 }
 
@@ -123,7 +123,7 @@ void take_parts(const Drawing& drawing, const DrawingFormat& format, DrawnRegion
     }
     made.set_aside.push_back(fmt::format("{}: the line of {} {} on layer {} from {} on lies on no part",
                                          drawing.name, line.size(), line.size() == 1 ? "edge" : "edges",
-                                         excerpt(layer), place_of(line)));
+                                         excerpt(layer), first_point_of(line)));
   };
   const RegionsAround around(engraved.regions);
   for (const Engraved::Line& line : engraved.lines)
@@ -222,7 +222,8 @@ void drop_specks(geom::Region& region, const std::string& name, double chord_tol
     const auto alone =
         detail::outline_of_curves({geom::reversed(hole), {}}, geom::ChordSide::shrink, chord_tolerance);
     if (!alone)
-      set_aside.push_back(fmt::format("{}: the hole at {}: {}", name, place_of(hole), alone.error().message));
+      set_aside.push_back(
+          fmt::format("{}: the hole at {}: {}", name, first_point_of(hole), alone.error().message));
     return !alone;
   });
 }
@@ -298,7 +299,7 @@ Result<PartsFile> read_parts(std::string_view bytes, const std::string& name, co
     }
     if (!outline) {
       const std::string why = fmt::format("{}: part {} at {}: {}", name, excerpt(part.id),
-                                          place_of(one.region.outer), outline.error().message);
+                                          first_point_of(one.region.outer), outline.error().message);
       if (options.drawing.strict || drawn->parts.size() == 1) return failure(ErrorCode::bad_input, why);
       drawn->set_aside.push_back(why);
       continue;

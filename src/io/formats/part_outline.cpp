@@ -76,7 +76,7 @@ std::optional<geom::Region> filled(const geom::Region& lines) {
   return region;
 }
 
-std::vector<Edge> edges_of(const geom::Region& region) {
+std::vector<Edge> all_edges(const geom::Region& region) {
   std::vector<Edge> edges(region.outer.begin(), region.outer.end());
   for (const Contour& hole : region.holes) edges.insert(edges.end(), hole.begin(), hole.end());
   return edges;
@@ -84,7 +84,7 @@ std::vector<Edge> edges_of(const geom::Region& region) {
 
 /// Returns a bound on how far two regions' outlines are from each other; nothing beyond `most`.
 std::optional<double> distance_between(const geom::Region& a, const geom::Region& b, double most) {
-  const std::vector<Edge> of_a = edges_of(a), of_b = edges_of(b);
+  const std::vector<Edge> of_a = all_edges(a), of_b = all_edges(b);
   const NearEdges near_a(of_a), near_b(of_b);
   double loss = 0;
   std::size_t work = kMostWork;

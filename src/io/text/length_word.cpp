@@ -23,7 +23,7 @@ constexpr std::array kUnitsOfLength{Unit{"mm", 1},
                                     Unit{"ft", 12 * kMillimetresPerInch},
                                     Unit{"'", 12 * kMillimetresPerInch}};
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_spaces(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
   return text;
@@ -44,14 +44,14 @@ bool is_digits(std::string_view text) {
 /// "1/8" and "1 1/2", whose parts are whole numbers.
 std::optional<double> fraction_of(std::string_view text) {
   const std::size_t slash = text.find('/');
-  std::string_view above = trimmed(text.substr(0, slash));
-  const std::string_view below = trimmed(text.substr(slash + 1));
+  std::string_view above = without_spaces(text.substr(0, slash));
+  const std::string_view below = without_spaces(text.substr(slash + 1));
   double whole = 0;
   if (const std::size_t blank = above.find(' '); blank != std::string_view::npos) {
     const std::string_view before = above.substr(0, blank);
     if (!is_digits(before)) return std::nullopt;
     whole = *number_of(before);
-    above = trimmed(above.substr(blank));
+    above = without_spaces(above.substr(blank));
   }
   if (!is_digits(above) || !is_digits(below) || *number_of(below) == 0) return std::nullopt;
   return whole + *number_of(above) / *number_of(below);
@@ -60,12 +60,12 @@ std::optional<double> fraction_of(std::string_view text) {
 }  // namespace
 
 std::optional<double> length_of(std::string_view word) {
-  word = trimmed(word);
+  word = without_spaces(word);
   double mm = 1;
   for (const Unit& unit : kUnitsOfLength) {
     if (word.size() <= unit.name.size() || word.substr(word.size() - unit.name.size()) != unit.name) continue;
     mm = unit.mm;
-    word = trimmed(word.substr(0, word.size() - unit.name.size()));
+    word = without_spaces(word.substr(0, word.size() - unit.name.size()));
     break;
   }
   const auto number = word.find('/') == std::string_view::npos ? number_of(word) : fraction_of(word);

@@ -20,7 +20,6 @@ using geom::DoubleDouble;
 using geom::Point;
 using geom::Ring;
 
-constexpr double kUnit = 0x1p-53;
 /// Alternatives take at most this many programs, and at most this many are listed.
 constexpr std::uint64_t kAlternativesWork = 200'000;
 constexpr std::size_t kMostAlternatives = 64;

@@ -9,8 +9,6 @@ namespace {
 
 using geom::Point;
 
-constexpr double kUnit = 0x1p-53;
-
 struct Line {
   Point from, to;
 };

@@ -6,6 +6,9 @@
 
 namespace lekalo::locate {
 
+/// A rounding costs no more than this, relatively.
+inline constexpr double kUnit = 0x1p-53;
+
 /// The uncertainty with which doubles know the shapes of a problem. Statements that must hold for the exact
 /// shapes count it in.
 struct Uncertainty {

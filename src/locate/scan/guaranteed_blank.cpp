@@ -33,8 +33,6 @@ constexpr double kStepInGuards = 8;
 /// the Booleans and of the check.
 constexpr double kMargin = 0x1p-36;
 
-std::string place(Point p) { return fmt::format("({:.4g}, {:.4g})", p.x, p.y); }
-
 tl::unexpected<Error> bad(std::string sentence) { return failure(ErrorCode::bad_input, std::move(sentence)); }
 
 Result<void> check_options(const ScanOptions& o) {
@@ -126,7 +124,7 @@ class Maker {
       const std::string where = fmt::format(
           "the outline through the points in file order meets itself: the edges that begin at {} and "
           "{} cross or touch",
-          place(a), place(b));
+          place_of(a), place_of(b));
       if (options_.order == PointOrder::given)
         return bad(where + "; read the points as points in no order, or leave out the faulty ones");
       made_.notices.push_back(where + "; the points are taken as points in no order");
@@ -188,7 +186,7 @@ class Maker {
       return bad(
           fmt::format("the contours cannot be told from each other near {}: outlines through neighbouring "
                       "points meet there; give the points in order, or a smaller step",
-                      place(points_[loops_[c->loop_a][c->edge_a]])));
+                      place_of(points_[loops_[c->loop_a][c->edge_a]])));
     }
     attach(sorted, spread);
     return {};
@@ -295,7 +293,7 @@ class Maker {
     }
     return bad(
         fmt::format("the outlines run too close to themselves to be cut apart by rounded numbers; near {}",
-                    place(points_[loops_.front().front()])));
+                    place_of(points_[loops_.front().front()])));
   }
 
   void measure_loss() {

@@ -23,8 +23,6 @@ constexpr std::size_t kMostLooseEnds = 512;
 /// The choice of a loose end is a guess when another one is less than this times as far.
 constexpr double kClearlyNearer = 1.25;
 
-std::string place(Point p) { return fmt::format("({:.4g}, {:.4g})", p.x, p.y); }
-
 double distance(Point a, Point b) { return norm(a - b); }
 
 std::vector<std::uint32_t> spread_points(const geom::Ring& points, const std::vector<std::uint32_t>& sorted,
@@ -77,7 +75,7 @@ class Links {
                   "near {} the neighbours of a point cannot be told: walls, corners or noise there are "
                   "finer than {:.3g} mm; give the points in order along the contour, a smaller --step, "
                   "or the probe's true uncertainty",
-                  place(at(i)), link));
+                  place_of(at(i)), link));
         }
         links_[i][degree++] = j;
       }
@@ -94,7 +92,7 @@ class Links {
       return failure(ErrorCode::bad_input,
                      fmt::format("the points form no closed contours: {} loose ends, one near {}; is --step "
                                  "smaller than the spacing of the points?",
-                                 ends.size(), place(at(ends.front()))));
+                                 ends.size(), place_of(at(ends.front()))));
     }
     while (!ends.empty()) {
       LEKALO_CHECK(join_nearest(ends));
@@ -133,7 +131,7 @@ class Links {
     return failure(ErrorCode::bad_input,
                    fmt::format("the point at {} belongs to no closed contour; measure there again, or leave "
                                "out points that stand alone with --drop-outliers",
-                               place(at(i))));
+                               place_of(at(i))));
   }
 
   /// Returns the end of the chain that begins at `start`, going along links.
@@ -165,7 +163,7 @@ class Links {
             ErrorCode::bad_input,
             fmt::format("the contour is not measured near {}, and how it goes on there is not clear: "
                         "loose ends at {} and {}; measure there, or give the points in order",
-                        place(at(a)), place(at(b)), place(at(c))));
+                        place_of(at(a)), place_of(at(b)), place_of(at(c))));
       }
     }
     for (const auto& [i, j] : {std::pair(a, b), std::pair(b, a)}) {
@@ -181,6 +179,8 @@ class Links {
 };
 
 }  // namespace
+
+std::string place_of(Point p) { return fmt::format("({:.4g}, {:.4g})", p.x, p.y); }
 
 double median_nearest(const geom::Ring& points, const std::vector<std::uint32_t>& sorted) {
   // Cells are about as wide as the spacing of the points, if they lie along an outline around all but the

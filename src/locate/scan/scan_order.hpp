@@ -19,6 +19,9 @@ using Loop = std::vector<std::uint32_t>;
 /// Returns the points that have no other within `reach`, ascending.
 [[nodiscard]] std::vector<std::uint32_t> lonely_points(const geom::Ring& points, double reach);
 
+/// Returns a point as messages name it, mm.
+[[nodiscard]] std::string place_of(geom::Point p);
+
 /// Step 1 of docs/design/scan.md for points without order: returns loops through some of the points, at least
 /// `spread` apart from each other, such that every other point lies within `spread` of one of them. Two are
 /// neighbours if they are at most `link` apart and no third is nearer to both than they are to each other

@@ -19,10 +19,10 @@ using geom::Point;
 using geom::Region;
 using geom::RegionIndex;
 
-constexpr double kHeld = 1.032;           // of the angle of a straight pass
-constexpr double kLeastLoop = 0.03;       // of the tool's radius: below it the tool goes straight
-constexpr double kLeastInCorner = 0.006;  // of the tool's radius
-constexpr double kRoom = 0.9;             // of the tool's radius: from there on fronts go on
+constexpr double kHeldInCorridor = 1.032;  // of the angle of a straight pass
+constexpr double kLeastLoop = 0.03;        // of the tool's radius: below it the tool goes straight
+constexpr double kLeastInCorner = 0.006;   // of the tool's radius
+constexpr double kRoom = 0.9;              // of the tool's radius: from there on fronts go on
 constexpr double kOffWall =
     0.003;                      // of the tool's radius, at most a tenth of a loop's: left to the wall's pass
 constexpr double kTaper = 0.6;  // a loop that much smaller than the last goes into a corner
@@ -54,7 +54,7 @@ class Walker {
         cut_(cut),
         r_(law.tool_radius),
         step_(law.step),
-        held_(kHeld * law.angle / kDegree) {
+        held_(kHeldInCorridor * law.angle / kDegree) {
     for (const Front& front : done)
       if (front.slot)
         for (const Edge& edge : front.edges) discs_.push_back({edge.to, 0});

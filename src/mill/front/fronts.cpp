@@ -36,8 +36,8 @@ constexpr double kLeastShare = 0.3;
 
 // Step 5 of docs/design/pocket.md, as shares of the angle of a straight pass: what a layer is to hold, what a
 // part of its length may reach, and what counts as far too much.
-constexpr double kHeld = 1.02, kPeak = 1.185, kFarBeyond = 1.287;
-constexpr double kBeyond = 0.07;    // of the length: how much of it may pass kHeld
+constexpr double kHeldByFront = 1.02, kPeak = 1.185, kFarBeyond = 1.287;
+constexpr double kBeyond = 0.07;    // of the length: how much of it may pass kHeldByFront
 constexpr double kLookEvery = 0.2;  // of the tool's radius
 constexpr int kMostTrials = 6;
 /// A pass leaves a wall on an arc that begins and ends at most this share of the step from where it would
@@ -314,7 +314,7 @@ class Grower {
     for (const Front& front : fronts)
       for (const bool back : {false, true}) {
         const Load load = load_of(pass_along(front, back, bounds_, before, step_), back, before, r_,
-                                  kHeld * degrees_, kLookEvery * r_);
+                                  kHeldByFront * degrees_, kLookEvery * r_);
         length += load.length, beyond += load.beyond;
         largest = std::max(largest, load.largest);
       }

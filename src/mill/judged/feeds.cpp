@@ -16,7 +16,7 @@ namespace {
 using geom::EdgeKind;
 using geom::Point;
 
-constexpr double kAround = 1;  // mm of path before and after a load
+constexpr double kAroundLoad = 1;  // mm of path before and after a load
 
 struct MovePart {
   std::size_t move = 0;
@@ -51,18 +51,19 @@ double stepped(double feed, const std::array<double, 6>& steps) {
   return best;
 }
 
-/// Gives each part the least feed of the path within kAround of it, as far as the motion is not interrupted.
+/// Gives each part the least feed of the path within kAroundLoad of it, as far as the motion is not
+/// interrupted.
 void look_around(std::vector<MovePart>& parts) {
   std::vector<double> least(parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
     ask();
     double feed = parts[i].feed, way = 0;
-    for (std::size_t k = i + 1; k < parts.size() && parts[k].joined && way < kAround; ++k) {
+    for (std::size_t k = i + 1; k < parts.size() && parts[k].joined && way < kAroundLoad; ++k) {
       feed = std::min(feed, parts[k].feed);
       way += parts[k].length;
     }
     way = 0;
-    for (std::size_t k = i; k > 0 && parts[k].joined && way < kAround; --k) {
+    for (std::size_t k = i; k > 0 && parts[k].joined && way < kAroundLoad; --k) {
       feed = std::min(feed, parts[k - 1].feed);
       way += parts[k - 1].length;
     }
@@ -71,7 +72,7 @@ void look_around(std::vector<MovePart>& parts) {
   for (std::size_t i = 0; i < parts.size(); ++i) parts[i].feed = least[i];
 }
 
-PathMove part_of(const PathMove& move, Point from, double from_z, double share) {
+PathMove part_of_move(const PathMove& move, Point from, double from_z, double share) {
   PathMove part = move;
   if (share >= 1) return part;
   part.z = from_z + share * (move.z - from_z);
@@ -126,7 +127,7 @@ PocketPath with_feeds(const PocketPath& path, const std::vector<std::vector<Move
       const bool changes =
           next + 1 == parts.size() || parts[next + 1].move != i || parts[next + 1].feed != parts[next].feed;
       if (!changes) continue;
-      PathMove shorter = part_of(move, from, from_z, parts[next].end);
+      PathMove shorter = part_of_move(move, from, from_z, parts[next].end);
       shorter.feed = parts[next].feed;
       result.moves.push_back(shorter);
     }
@@ -156,9 +157,10 @@ PocketPath with_cutting_links_slow(const PocketPath& path, const std::vector<std
     }
     const Point from = path.moves[i - 1].to;
     const double from_z = path.moves[i - 1].z;
-    if (begin > kAround) result.moves.push_back(part_of(move, from, from_z, (begin - kAround) / whole));
-    const bool ends = end + kAround < whole;
-    result.moves.push_back(part_of(move, from, from_z, ends ? (end + kAround) / whole : 1));
+    if (begin > kAroundLoad)
+      result.moves.push_back(part_of_move(move, from, from_z, (begin - kAroundLoad) / whole));
+    const bool ends = end + kAroundLoad < whole;
+    result.moves.push_back(part_of_move(move, from, from_z, ends ? (end + kAroundLoad) / whole : 1));
     result.moves.back().kind = PathMove::Kind::cut;
     if (ends) result.moves.push_back(move);
   }

@@ -17,11 +17,11 @@ using geom::Edge;
 using geom::Point;
 using Kind = PathMove::Kind;
 
-constexpr double kLasting = 0.15;  // mm: the checker looks every 0.05 mm for what lasts over 0.2
-constexpr double kAround = 1;      // of the tool's radius, before and after what is too hot
-constexpr double kLongest = 4;     // of the tool's radius, of one ramp
+constexpr double kLastingMm = 0.15;  // mm: the checker looks every 0.05 mm for what lasts over 0.2
+constexpr double kAroundHot = 1;     // of the tool's radius, before and after what is too hot
+constexpr double kLongest = 4;       // of the tool's radius, of one ramp
 constexpr double kLeastDrop = 0.02, kMostDrop = 0.1;  // of the tool's diameter, of one way down
-constexpr double kNothing = 1e-6;                     // mm
+constexpr double kNoLength = 1e-6;                    // mm
 constexpr double kBelowTop = 0.01;  // of a level: at its top the tool would be out of the stock
 
 struct Stretch {
@@ -62,9 +62,9 @@ class Ramping {
     const double begin = way_.begin_of(first), end = way_.end_of(last);
     Stretch now;
     const auto finish = [&] {
-      if (now.end - now.begin >= kLasting) {
-        now.begin = std::max(begin, now.begin - kAround * radius_);
-        now.end = std::min(end, now.end + kAround * radius_);
+      if (now.end - now.begin >= kLastingMm) {
+        now.begin = std::max(begin, now.begin - kAroundHot * radius_);
+        now.end = std::min(end, now.end + kAroundHot * radius_);
         if (!hot.empty() && now.begin <= hot.back().end)
           hot.back().end = now.end, hot.back().largest = std::max(hot.back().largest, now.largest);
         else
@@ -120,7 +120,7 @@ class Ramping {
     for (std::size_t i = first; i <= last; ++i) {
       const double from = way_.begin_of(i), whole = way_.end_of(i) - from;
       const double a = std::max(0.0, (begin - from) / whole), b = std::min(1.0, (end - from) / whole);
-      if (!((b - a) * whole > kNothing)) continue;
+      if (!((b - a) * whole > kNoLength)) continue;
       Part part{way_.moves()[i], part_of(way_.edge_of(i), a, b), (b - a) * whole};
       part.move.to = part.edge.to;
       parts.push_back(part);

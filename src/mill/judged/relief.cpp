@@ -21,7 +21,7 @@ using geom::Point;
 
 namespace {
 
-constexpr double kLasting = 0.1;     // mm of more than is held that are worth a pass
+constexpr double kWorthPass = 0.1;   // mm of more than is held that are worth a pass
 constexpr double kTogether = 0.5;    // of the tool's radius: hot stretches so near are one
 constexpr double kRamp = 1;          // of the tool's radius: on the way from the path to the pass beside it
 constexpr double kShortRamp = 0.08;  // of a ramp: where there is less way the pass begins beside the path
@@ -32,7 +32,7 @@ constexpr double kCusp = 0.5;        // cosine of the turn between two moves at 
 constexpr double kDepths[] = {1, 1.6, 0.6, 0.3};
 constexpr double kMostDepth = 0.95;  // of the tool's radius
 constexpr double kBetter = 0.7;      // of the excess before: what a pass has to bring
-constexpr double kNothing = 0.05;    // degrees times mm
+constexpr double kNoExcess = 0.05;   // degrees times mm
 constexpr double kOutside = 1e-3;    // mm: arcs in place of the path's points may reach so far into a wall
 
 /// Rises from 0 to 1 without corners.
@@ -112,7 +112,7 @@ void Relief::find_sites(const std::vector<std::vector<MoveLoad>>& loads) {
     Site site;
     double hot = 0, left = 0, right = 0;
     const auto finish = [&] {
-      if (hot >= kLasting) {
+      if (hot >= kWorthPass) {
         site.run = {first, last};
         site.side = left > right ? 1 : -1;
         site.begin = std::max(run_begin, site.hot_begin - kRamp * radius_);
@@ -151,7 +151,7 @@ void Relief::judge_trials(const std::vector<std::vector<MoveLoad>>& loads) {
       site.excess = excess;
     }
     site.tried.clear();
-    site.settled = site.excess <= kNothing;
+    site.settled = site.excess <= kNoExcess;
   }
 }
 

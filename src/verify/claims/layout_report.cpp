@@ -18,7 +18,6 @@ namespace {
 
 /// Sums of doubles over a million parts are nearer than this to the exact figure.
 constexpr double kSumRounding = 1e-12;
-constexpr double kStep = 0x1p-20;  // mm
 
 /// Twice the area inside an outline, in square steps; below 2^123.
 Wide twice_area(const GridOutline& outline) {

@@ -10,7 +10,6 @@ namespace lekalo::verify {
 namespace {
 
 /// Curves are written as doubles; half a step of the grid is more than their reading can move.
-constexpr double kStep = 0x1p-20;
 
 /// The loops in their order, each from its least point on: a file may begin and turn them otherwise.
 std::vector<GridLoop> loops_of(const GridOutline& outline) {

@@ -7,6 +7,9 @@
 
 namespace lekalo::verify {
 
+/// The step of the grid on which layouts lie, mm.
+inline constexpr double kStep = 0x1p-20;
+
 /// Says in sentences what a layout has otherwise than the one that it was made from. Placements may be there,
 /// gone or moved, but locked ones of `given` are there and where they were. Texts for people are not
 /// compared. Cost: O(bytes of both). \param given  may have outlines that are drawn and have no polygon yet

@@ -16,7 +16,7 @@ namespace {
 constexpr double kDrawn = 2e-6;
 /// Half a plotter unit in x and in y.
 constexpr double kPlotted = 0.0178;
-constexpr std::array<const char*, 6> kLayers{"CUT", "SHEET", "DEFECT", "ZONE", "AREA", "MARK"};
+constexpr std::array<const char*, 6> kLayersOfLines{"CUT", "SHEET", "DEFECT", "ZONE", "AREA", "MARK"};
 
 Result<std::vector<DrawnLine>> read_export(const Document& document, Kind kind) {
   if (kind == Kind::dxf) return read_dxf(document);
@@ -49,7 +49,7 @@ class ExportCheck {
 
   ClaimReport checked(const std::vector<PlacedSheet>& sheets, const std::vector<std::string>& only) {
     std::size_t outlines = 0;
-    for (const char* layer : kLayers) {
+    for (const char* layer : kLayersOfLines) {
       const bool asked = only.empty() || std::find(only.begin(), only.end(), layer) != only.end();
       if (layer == std::string_view("MARK"))
         compare_marks(sheets, asked);
@@ -57,7 +57,7 @@ class ExportCheck {
         outlines += compare(layer, asked);
     }
     for (const DrawnLine& line : file_)
-      if (std::find(kLayers.begin(), kLayers.end(), line.layer) == kLayers.end())
+      if (std::find(kLayersOfLines.begin(), kLayersOfLines.end(), line.layer) == kLayersOfLines.end())
         report_.findings.push_back(fmt::format("something is drawn on a layer \"{}\"", line.layer));
     report_.notes.push_back(fmt::format("{} outlines were compared both ways, within {} mm", outlines,
                                         likeness_.places + likeness_.chords));

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kUnit = 0.025;  // mm
 /// By pen, from 1.
-constexpr std::array<const char*, 7> kLayers{"CUT", "MARK", "LABEL", "SHEET", "DEFECT", "ZONE", "AREA"};
+constexpr std::array<const char*, 7> kLayersOfPens{"CUT", "MARK", "LABEL", "SHEET", "DEFECT", "ZONE", "AREA"};
 
 class HpglReader {
  public:
@@ -68,7 +68,7 @@ class HpglReader {
   }
 
   void draw(const std::vector<Place>& places) {
-    DrawnLine line{kLayers[static_cast<std::size_t>(pen_ - 1)], {}, false};
+    DrawnLine line{kLayersOfPens[static_cast<std::size_t>(pen_ - 1)], {}, false};
     const Place begin = at_;
     for (const Place place : places) {
       line.edges.push_back(line_between(at_, place));

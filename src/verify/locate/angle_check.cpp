@@ -19,9 +19,6 @@
 namespace lekalo::verify {
 namespace {
 
-/// Derived fields are computed in doubles by whoever writes them. This relative tolerance covers a few
-/// roundings of the numbers they come from. Nothing that is proved rests on it.
-constexpr double kDerivedTolerance = 1e-15;
 /// The field theta_deg is there for people to read, so this relative tolerance suffices for it.
 constexpr double kDegreesTolerance = 1e-14;
 /// A contact may be farther than the closest pair by 10^-this of the blank's size and a roundoff.

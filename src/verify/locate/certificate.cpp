@@ -6,11 +6,11 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// At most this many findings are about single intervals, because a certificate may hold a million of them.
 constexpr std::size_t kMostComplaints = 20;
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "document.hpp"
 #include "verify/number/interval.hpp"
 #include "verify/read/fields.hpp"
 #include "verify/read/text_rows.hpp"
@@ -17,8 +18,6 @@ namespace {
 constexpr double kTurn = 6.283185307179586;
 /// More pairs of points than these are not looked at.
 constexpr double kMostPairs = 1e8;
-/// Derived numbers may be off by a few roundings of those they come from.
-constexpr double kDerivedTolerance = 1e-15;
 
 class ComparisonCheck {
  public:

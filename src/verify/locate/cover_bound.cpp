@@ -5,13 +5,11 @@
 #include <limits>
 
 #include "verify/number/interval.hpp"
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Span plus(Span a, double by) { return a + just(by); }
 double magnitude(Span a) { return absolute(a).high; }
 
 }  // namespace

@@ -6,13 +6,13 @@
 #include "grown_ball.hpp"
 #include "lekalo/base/limits.hpp"
 #include "verify/number/interval.hpp"
+#include "verify/number/span.hpp"
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
 
 namespace lekalo::verify {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A leaf whose bound is not good enough over the whole cell is halved, and halved again, at most this often.
 constexpr int kMostHalvings = 18;
 /// After this many leaves that prove too little the certificate has failed, and the other leaves are only
@@ -29,8 +29,6 @@ Span radians(const Decimal& degrees) {
   const Interval angle = Interval(degrees, wide) * Interval::pi(wide) / Interval(Integer(180), wide);
   return {angle.low_double(), angle.high_double()};
 }
-
-Span plus(Span a, double by) { return a + just(by); }
 
 }  // namespace
 

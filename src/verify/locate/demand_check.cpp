@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "document.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "verify/number/interval.hpp"
+#include "verify/number/span.hpp"
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
 #include "verify/shape/stretch.hpp"
@@ -11,7 +13,6 @@
 namespace lekalo::verify {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A claim counts as not confirmed when it takes more pieces of outlines than this.
 constexpr std::size_t kMostPieces = 200'000;
 
@@ -19,9 +20,6 @@ bool is_positive(Span value) { return value.low > 0; }
 
 bool above(const Decimal& a, const Decimal& b) { return compare(a, b) > 0; }
 
-/// Whoever writes the result makes sums in doubles. Numbers that must be equal may differ by this much,
-/// relatively. Nothing that is proved rests on it.
-constexpr double kDerivedTolerance = 1e-15;
 bool differ(const Decimal& written, const Decimal& derived, const Decimal& from) {
   const double size = std::abs(approximate(from)) + std::abs(approximate(derived));
   return !(std::abs(approximate(written - derived)) <= kDerivedTolerance * size);

@@ -15,6 +15,10 @@
 
 namespace lekalo::verify {
 
+/// Derived fields are computed in doubles by whoever writes them. This relative tolerance covers a few
+/// roundings of the numbers they come from. Nothing that is proved rests on it.
+inline constexpr double kDerivedTolerance = 1e-15;
+
 /// The fields of a result of `lekalo locate` that a checker can hold against the files.
 
 struct WrittenInput {

@@ -4,15 +4,15 @@
 #include <array>
 #include <limits>
 
+#include "verify/number/span.hpp"
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/stretch.hpp"
 
 namespace lekalo::verify {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// One ball is looked at in at most this many pieces of sides.
-constexpr std::size_t kMostPieces = 256;
+constexpr std::size_t kMostBallPieces = 256;
 /// A ball that is too large by no more than this, relatively, is made smaller at once.
 constexpr double kTouching = 1e-13;
 /// A piece is narrow enough when every corner's direction is off their mean by an angle with a cosine above
@@ -132,7 +132,7 @@ double grown_ball(const Shape& part, const std::vector<double>& growth, const Ve
       });
     }
     if (covered) continue;
-    if (looked >= kMostPieces) {
+    if (looked >= kMostBallPieces) {
       least = through;
       continue;
     }

@@ -10,6 +10,8 @@
 
 namespace lekalo::verify {
 
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// Returns the next larger double, bit for bit as std::nextafter(value, infinity) does; NaN and infinity
 /// stay. The checker steps twice for each operation on spans, and calls of the library were a third of its
 /// time.
@@ -42,6 +44,7 @@ struct Span {
 }
 
 [[nodiscard]] inline Span operator+(Span a, Span b) { return outwards(a.low + b.low, a.high + b.high); }
+[[nodiscard]] inline Span plus(Span a, double by) { return a + just(by); }
 [[nodiscard]] inline Span operator-(Span a, Span b) { return outwards(a.low - b.high, a.high - b.low); }
 [[nodiscard]] inline Span operator-(Span a) { return {-a.high, -a.low}; }
 [[nodiscard]] inline Span operator*(Span a, Span b) {
@@ -50,14 +53,12 @@ struct Span {
   // The product of 0 and infinity may be any number here. The comparison is written so that NaN fails it,
   // because min and max would drop the NaN.
   if (!(all - all == 0)) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     return {-kInfinity, kInfinity};
   }
   return outwards(std::min(std::min(ll, lh), std::min(hl, hh)), std::max(std::max(ll, lh), std::max(hl, hh)));
 }
 /// Nothing is known of a quotient whose divisor may be 0 or less.
 [[nodiscard]] inline Span operator/(Span a, Span b) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (!(b.low > 0)) return {-kInfinity, kInfinity};
   return outwards(a.low / (a.low < 0 ? b.low : b.high), a.high / (a.high < 0 ? b.high : b.low));
 }

@@ -15,12 +15,6 @@ namespace {
 constexpr double kKeepsCircles = 0x1p-36;
 constexpr double kMostStrokes = 20'000;
 
-Side line_between(const Vec& from, const Vec& to) {
-  Side side;
-  side.from = from, side.to = to;
-  return side;
-}
-
 Vec direction_of_degrees(const Fraction& degrees) {
   const Turn turn = turn_by_degrees(degrees);
   return {{turn.cosine.low_double(), turn.cosine.high_double()},
@@ -120,7 +114,7 @@ Affine operator*(const Affine& after, const Affine& before) {
 
 void CurveMaker::line(const Affine& map, const Vec& from, const Vec& to) {
   const Vec a = map(from), b = map(to);
-  if (surely_apart(a, b)) curve_.pieces.push_back({line_between(a, b), 0});
+  if (surely_apart(a, b)) curve_.pieces.push_back({side_between(a, b), 0});
 }
 
 void CurveMaker::arc(const Affine& map, const DrawnArc& arc) {
@@ -162,7 +156,7 @@ void CurveMaker::strokes(const Affine& map, const DrawnArc& arc) {
     // h^2 / 8 of the half diameters.
     const double turn = 1.5708 * length(piece.first - piece.last).high;
     if (piece.sweep == Sweep::less && turn * turn * reach <= 8 * off_) {
-      curve_.pieces.push_back({line_between(on_circle(piece.first), on_circle(piece.last)), off_});
+      curve_.pieces.push_back({side_between(on_circle(piece.first), on_circle(piece.last)), off_});
       continue;
     }
     const std::array<Side, 2> two = halves(piece);
@@ -208,7 +202,7 @@ void CurveMaker::ellipse(const Affine& map, const Vec& centre, const Vec& u, con
   for (double k = 0; k <= count; ++k) {
     const Vec d = direction_of_degrees(from_deg + (to_deg - from_deg) * Fraction(k) / Fraction(count));
     const Vec next = middle + along * d.x + across * d.y;
-    if (k > 0) curve_.pieces.push_back({line_between(at, next), off_});
+    if (k > 0) curve_.pieces.push_back({side_between(at, next), off_});
     at = next;
   }
 }
@@ -232,7 +226,7 @@ void CurveMaker::cubic(const Affine& map, const std::array<Vec, 4>& given) {
     const double share = to - from;
     const double off_line = std::min(off_its_chord(part), step_up(bend * share * share));
     if (off_line <= off_) {
-      if (surely_apart(part[0], part[3])) curve_.pieces.push_back({line_between(part[0], part[3]), off_line});
+      if (surely_apart(part[0], part[3])) curve_.pieces.push_back({side_between(part[0], part[3]), off_line});
       continue;
     }
     if (const std::optional<CurvePiece> along = arc_along(part); along && along->off <= off_) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lekalo/base/units.hpp"
@@ -44,6 +45,12 @@ struct ReadDrawing {
   std::set<std::string> not_read;
   bool says_unit = false;
 };
+
+/// A drawing with more curves than this is not read.
+inline constexpr std::size_t kMostCurves = 2'000'000;
+
+/// Returns a name in capitals: DXF tells no names apart that differ in nothing else.
+[[nodiscard]] std::string key_of(std::string_view name);
 
 /// Makes curves of one layer from their numbers and a map.
 class CurveMaker {

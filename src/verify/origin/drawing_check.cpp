@@ -8,14 +8,7 @@
 namespace lekalo::verify {
 namespace {
 
-constexpr std::size_t kMostWork = 10'000'000;
-
-std::string key_of(std::string_view name) {
-  std::string key(name);
-  for (char& c : key)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return key;
-}
+constexpr std::size_t kMostDrawingWork = 10'000'000;
 
 std::string text_of(const Vec& p) { return fmt::format("({}, {})", p.x.low, p.y.low); }
 
@@ -56,7 +49,7 @@ class DrawingCheck {
   void check_loose(CurvePieces& shown, const std::vector<Side>& sides) {
     const double reach = std::max(reach_, written_.loose_error);
     for (const Side& side : sides) {
-      const auto far = shown.first_not_within({{side, 0, 0}}, reach, work_, kMostWork);
+      const auto far = shown.first_not_within({{side, 0, 0}}, reach, work_, kMostDrawingWork);
       if (!far) continue;
       for (const Vec& p : points_of(side))
         if (shown.surely_away(p, reach)) {
@@ -74,7 +67,7 @@ class DrawingCheck {
   }
 
   void check_curve(const DrawnCurve& curve) {
-    const auto far = outline_.first_not_within(curve.pieces, reach_, work_, kMostWork);
+    const auto far = outline_.first_not_within(curve.pieces, reach_, work_, kMostDrawingWork);
     if (!far || was_set_aside(curve)) return;
     for (const CurvePiece& piece : curve.pieces)
       for (const Vec& p : points_of(piece.side))
@@ -99,7 +92,7 @@ class DrawingCheck {
   void check_outline(CurvePieces& shown, const std::vector<std::string>& layers) {
     for (const Side& side : used_.sides) {
       if (side.written || verdict_.layers.empty()) verdict_.layers.emplace_back();
-      const auto far = shown.first_not_within({{side, 0, 0}}, reach_, work_, kMostWork);
+      const auto far = shown.first_not_within({{side, 0, 0}}, reach_, work_, kMostDrawingWork);
       shown.each_near(points_of(side).back(), reach_,
                       [&](std::size_t k) { verdict_.layers.back().insert(layers[k]); });
       if (!far) continue;

@@ -12,8 +12,7 @@
 namespace lekalo::verify {
 namespace {
 
-constexpr int kDeepest = 32;
-constexpr std::size_t kMostCurves = 2'000'000;
+constexpr int kDeepestBlock = 32;
 
 struct Pair {
   int code = 0;
@@ -34,13 +33,6 @@ struct LayerState {
 };
 
 /// Names compare without the case of A to Z.
-std::string key_of(std::string_view name) {
-  std::string key(name);
-  for (char& c : key)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return key;
-}
-
 /// Millimetres in a unit of $INSUNITS.
 std::optional<Decimal> unit_of(long code) {
   static const std::array<Decimal, 17> kUnits{{{0, 0},
@@ -446,7 +438,7 @@ class DxfReader {
   void insert(const Entity& entity, const Affine& map, const std::string& layer, bool frozen, int depth) {
     const auto found = blocks_.find(key_of(text(entity, 2)));
     if (found == blocks_.end()) return;
-    if (depth == kDeepest) return complain("its blocks are nested too deep");
+    if (depth == kDeepestBlock) return complain("its blocks are nested too deep");
     const Block& block = found->second;
     const auto at = point(entity, 10, 20);
     if (!at) return complain("an INSERT lacks a number");
@@ -486,6 +478,13 @@ class DxfReader {
 };
 
 }  // namespace
+
+std::string key_of(std::string_view name) {
+  std::string key(name);
+  for (char& c : key)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return key;
+}
 
 Result<ReadDrawing> read_dxf_drawing(const Document& document, LengthUnit unit, double off) {
   return DxfReader(document, unit, off).read();

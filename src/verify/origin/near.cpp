@@ -38,7 +38,7 @@ std::optional<Vec> CurvePieces::first_not_within(const std::vector<CurvePiece>& 
     int depth = 0;
   };
   // A part of a curve of 1 m is shorter than any tolerance after so many halvings.
-  constexpr int kDeepest = 60;
+  constexpr int kDeepestHalving = 60;
   for (const CurvePiece& whole : pieces) {
     std::vector<CurvePiece> parts;
     add_short(whole, parts);
@@ -59,7 +59,7 @@ std::optional<Vec> CurvePieces::first_not_within(const std::vector<CurvePiece>& 
         within = off.high <= reach + other.more;
       });
       if (within) continue;
-      if (top.depth == kDeepest || work > most_work) return piece.from;
+      if (top.depth == kDeepestHalving || work > most_work) return piece.from;
       for (const Side& half : halves(piece)) open.push_back({{half, top.piece.off, 0}, top.depth + 1});
     }
   }

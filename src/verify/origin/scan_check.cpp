@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "verify/number/span.hpp"
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
 
 namespace lekalo::verify {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// One edge of an outline through measured points.
 struct ScanEdge {
@@ -17,17 +16,11 @@ struct ScanEdge {
   /// The points that were measured beside it.
   std::vector<std::size_t> beside;
 };
-using Outline = std::vector<ScanEdge>;
+using ScanOutline = std::vector<ScanEdge>;
 
 double middle(Span value) { return 0.5 * value.low + 0.5 * value.high; }
 bool equal(const Vec& p, const Vec& q) {
   return p.x.low == q.x.low && p.x.high == q.x.high && p.y.low == q.y.low && p.y.high == q.y.high;
-}
-
-Side line_between(const Vec& from, const Vec& to) {
-  Side side;
-  side.from = from, side.to = to;
-  return side;
 }
 
 class ScanCheck {
@@ -61,7 +54,7 @@ class ScanCheck {
       if (loop.empty() || !equal(points_[loop.back()], points_[k])) loop.push_back(k);
     while (loop.size() > 1 && equal(points_[loop.front()], points_[loop.back()])) loop.pop_back();
     if (loop.size() < 3) return complain("a contour of the scan has fewer than three points");
-    Outline outline;
+    ScanOutline outline;
     for (std::size_t i = 0; i < loop.size(); ++i)
       outline.push_back({loop[i], loop[(i + 1) % loop.size()], {}});
     outlines_.push_back(std::move(outline));
@@ -115,14 +108,14 @@ class ScanCheck {
         if (apart < least || (apart == least && j < nearest)) least = apart, nearest = j;
       });
       if (!(least <= spread)) return complain(fmt::format("point {} is at no outline through the points", k));
-      Outline& outline = outlines_[place[nearest].first];
+      ScanOutline& outline = outlines_[place[nearest].first];
       const std::size_t at = place[nearest].second, before = (at + outline.size() - 1) % outline.size();
       const bool back = from_edge(k, outline[before]) < from_edge(k, outline[at]);
       outline[back ? before : at].beside.push_back(k);
     }
   }
   [[nodiscard]] double from_edge(std::size_t k, const ScanEdge& edge) const {
-    return middle(distance(points_[k], line_between(points_[edge.from], points_[edge.to])));
+    return middle(distance(points_[k], side_between(points_[edge.from], points_[edge.to])));
   }
 
   /// The reach of an edge: what is farther from it, and inside the outlines, is material. `dip` holds for
@@ -182,20 +175,20 @@ class ScanCheck {
   }
 
   void check_outlines() {
-    for (const Outline& outline : outlines_) {
+    for (const ScanOutline& outline : outlines_) {
       for (const ScanEdge& edge : outline) {
         const Reach reach = reach_of(edge);
         if (!is_within_loss(points_[edge.from]))
           return complain(
               fmt::format("the blank is farther than the loss of {} mm from the point at ({}, {})",
                           scan_.loss.high, middle(points_[edge.from].x), middle(points_[edge.from].y)));
-        const bool away = keeps_away(line_between(points_[edge.from], points_[edge.to]), reach.edge);
+        const bool away = keeps_away(side_between(points_[edge.from], points_[edge.to]), reach.edge);
         bool apart = true;
         // The hull of the edge and the points beside it is bounded by segments between some two of them.
         const std::vector<std::size_t> hull = hull_of(edge);
         for (std::size_t i = 0; apart && i < hull.size(); ++i)
           for (std::size_t j = i + 1; apart && j < hull.size(); ++j)
-            apart = keeps_away(line_between(points_[hull[i]], points_[hull[j]]), reach.beside);
+            apart = keeps_away(side_between(points_[hull[i]], points_[hull[j]]), reach.beside);
         if (!apart && verdict_.open.empty())
           verdict_.open = fmt::format("the blank comes near to points measured beside the edge at ({}, {})",
                                       middle(points_[edge.from].x), middle(points_[edge.from].y));
@@ -259,7 +252,7 @@ class ScanCheck {
   /// Says whether an odd number of outlines runs around p; nothing where a corner is level with it.
   [[nodiscard]] std::optional<bool> is_odd(const Vec& p) const {
     bool odd = false;
-    for (const Outline& outline : outlines_)
+    for (const ScanOutline& outline : outlines_)
       for (const ScanEdge& edge : outline) {
         const Vec &a = points_[edge.from], &b = points_[edge.to];
         const auto above = [&](const Vec& q) -> std::optional<bool> {
@@ -283,7 +276,7 @@ class ScanCheck {
   const std::vector<std::size_t>& starts_;
   const Shape& blank_;
   std::vector<bool> kept_;
-  std::vector<Outline> outlines_;
+  std::vector<ScanOutline> outlines_;
   ScanVerdict verdict_;
 };
 

@@ -13,8 +13,7 @@
 namespace lekalo::verify {
 namespace {
 
-constexpr int kDeepest = 32;
-constexpr std::size_t kMostCurves = 2'000'000;
+constexpr int kDeepestGroup = 32;
 
 Span enclosed(const Fraction& value) {
   const double near = cut_to_double(value);
@@ -217,7 +216,7 @@ class SvgReader {
 
   void draw(const XmlElement& element, Around around, int depth) {
     if (!complaint_.empty()) return;
-    if (depth > kDeepest) return not_read("groups nested too deep");
+    if (depth > kDeepestGroup) return not_read("groups nested too deep");
     if (drawing_.curves.size() > kMostCurves) return complain("it has too many curves");
     const std::string& name = element.name;
     const bool group = name == "g" || name == "a";

@@ -20,7 +20,7 @@ struct Map {
 
 Span directly(const Interval& value) { return {value.low_double(), value.high_double()}; }
 
-Vec direction_of_degrees(const Fraction& degrees) {
+Vec unit_vector_at(const Fraction& degrees) {
   const Turn turn = turn_by_degrees(degrees);
   return {directly(turn.cosine), directly(turn.sine)};
 }
@@ -169,7 +169,7 @@ class TreeReader {
       m.shift = point(fields, "by");
     } else if (word == "rotate") {
       only(value, path, {"by_deg", "about", "shape"});
-      const Vec turn = direction_of_degrees(to_fraction(fields.number("by_deg")));
+      const Vec turn = unit_vector_at(to_fraction(fields.number("by_deg")));
       m.cosine = turn.x, m.sine = turn.y;
       keep(map, point_or_origin(fields, "about"));
     } else if (word == "scale") {
@@ -301,15 +301,14 @@ class TreeReader {
     const auto count = static_cast<unsigned long>(sides);
     Span around;
     if (has(fields, "across_flats")) {
-      around = length(fields, "across_flats") * just(0.5) /
-               direction_of_degrees(Fraction(180) / Fraction(count)).x;
+      around = length(fields, "across_flats") * just(0.5) / unit_vector_at(Fraction(180) / Fraction(count)).x;
     } else {
       around = length(fields, "radius");
     }
     const Fraction first = has(fields, "corner_deg") ? to_fraction(fields.number("corner_deg")) : Fraction(0);
     std::vector<Vec> corners;
     for (unsigned long k = 0; k < count; ++k)
-      corners.push_back(centre + direction_of_degrees(first + Fraction(360 * k) / Fraction(count)) * around);
+      corners.push_back(centre + unit_vector_at(first + Fraction(360 * k) / Fraction(count)) * around);
     outline.ring(corners);
   }
 

@@ -14,6 +14,7 @@
 #include "lekalo/base/parallel.hpp"
 #include "near.hpp"
 #include "tree_value.hpp"
+#include "verify/number/span.hpp"
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
 #include "verify/shape/stretch.hpp"
@@ -21,9 +22,8 @@
 namespace lekalo::verify {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Beyond so many looks at sides nothing more is shown.
-constexpr std::size_t kMostWork = 20'000'000;
+constexpr std::size_t kMostTreeWork = 20'000'000;
 /// Beside corners nothing is shown of stretches as short as this share of the reach; but of so many in a row
 /// something must be.
 constexpr double kShort = 0.5;
@@ -554,7 +554,7 @@ class TreeCheck {
       const std::size_t done = walks_[0].work() + walks_[1].work();
       share_out(walks_.size(), kUsualThreads, [&](std::size_t w) {
         // The looks of the other walk until they wait for each other are left out.
-        const std::size_t most = kMostWork - std::min(kMostWork, done - walks_[w].work());
+        const std::size_t most = kMostTreeWork - std::min(kMostTreeWork, done - walks_[w].work());
         for (std::size_t i = begin + w; i < end; i += walks_.size())
           found[i - begin] = look(walks_[w], i, most);
       });

@@ -8,7 +8,7 @@
 namespace lekalo::verify {
 namespace {
 
-constexpr std::size_t kDeepest = 600;
+constexpr std::size_t kDeepestElement = 600;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
@@ -47,7 +47,7 @@ class XmlReader {
       } else {
         ++at_;
         open.emplace_back();
-        if (open.size() > kDeepest) return std::nullopt;
+        if (open.size() > kDeepestElement) return std::nullopt;
         const bool empty = read_tag(open.back());
         if (!good_) return std::nullopt;
         if (!empty) continue;

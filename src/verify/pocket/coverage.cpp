@@ -11,7 +11,6 @@ namespace {
 
 /// Squares are not divided below this side.
 constexpr double kLeaf = 0.004;  // mm
-constexpr double kSameLevel = 1e-6;
 /// Uncut spots are reported from this width on.
 constexpr double kTold = 0.02;  // mm
 

@@ -9,6 +9,9 @@
 
 namespace lekalo::verify {
 
+/// Depths that differ by no more are one.
+inline constexpr double kSameLevel = 1e-6;  // mm
+
 /// A short piece of the path with the tool below the stock's upper face.
 struct Cut {
   /// A plunge has a stroke of no length.
@@ -38,8 +41,8 @@ struct CutPath {
 [[nodiscard]] Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool_radius,
                                        double longest, const std::string& name);
 
-/// Says of each cut whether it runs on the level just where one before it has run as deep, with a tool as wide:
-/// such a cut changes nothing.
+/// Says of each cut whether it runs on the level just where one before it has run as deep, with a tool as
+/// wide: such a cut changes nothing.
 [[nodiscard]] std::vector<bool> repeated(const std::vector<Cut>& cuts);
 
 /// The area of material that the path takes off at one depth while it moves level.

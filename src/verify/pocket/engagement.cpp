@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kAirDegrees = 3, kLasting = 0.2;
 /// No machine tells depths apart that differ by less than this.
-constexpr double kSameLevel = 1e-6;  // mm of Z
 /// A stroke of a ramp that is shorter than this changes no written digit of Z.
 constexpr double kTooShortToSink = 0.01;  // mm
 constexpr double kLayerError = 1e-3;      // mm

@@ -46,7 +46,7 @@ double largest_of(const std::vector<Move>& moves) {
 }
 
 /// A line in capitals without comments.
-std::string code_of(std::string_view line) {
+std::string code_without_comments(std::string_view line) {
   std::string code;
   int depth = 0;
   for (const char c : line) {
@@ -98,7 +98,7 @@ class FrameReader {
     while (!text.empty()) {
       const std::size_t end = std::min(text.find('\n'), text.size());
       const std::string_view line = text.substr(0, end);
-      take(line, code_of(line));
+      take(line, code_without_comments(line));
       framed_.in_force.push_back(turned_ && framed_.x.has_value());
       text.remove_prefix(std::min(end + 1, text.size()));
     }

@@ -14,7 +14,7 @@ namespace lekalo::verify {
 namespace {
 
 constexpr double kLargest = 1e6;
-constexpr int kDeepest = 40;
+constexpr int kDeepestExpression = 40;
 
 /// Reads by precedence: a level binds closer than the one before it.
 class Reader {
@@ -89,7 +89,7 @@ class Reader {
   }
 
   double nested() {
-    if (++depth_ > kDeepest) return complain("an expression is nested too deeply");
+    if (++depth_ > kDeepestExpression) return complain("an expression is nested too deeply");
     const double value = one();
     --depth_;
     return value;
@@ -116,7 +116,7 @@ class Reader {
   }
 
   double in_brackets() {
-    if (++depth_ > kDeepest) return complain("an expression is nested too deeply");
+    if (++depth_ > kDeepestExpression) return complain("an expression is nested too deeply");
     if (!takes('[')) return complain("an expression without brackets");
     const double value = sum();
     if (!takes(']')) return complain("an expression that is not understood");
@@ -126,7 +126,7 @@ class Reader {
 
   double variable() {
     ++at_;
-    if (++depth_ > kDeepest) return complain("an expression is nested too deeply");
+    if (++depth_ > kDeepestExpression) return complain("an expression is nested too deeply");
     const std::string key = name();
     --depth_;
     const auto found = variables_.find(key);

@@ -12,8 +12,8 @@
 namespace lekalo::verify {
 namespace {
 
-constexpr std::size_t kMostLines = 1'000'000, kDeepest = 10;
-constexpr long kMostRepeats = 9999;
+constexpr std::size_t kMostLines = 1'000'000, kDeepestCall = 10;
+constexpr long kMostCalls = 9999;
 
 /// A line in capitals, without blanks, comments and the number of its block.
 struct Code {
@@ -166,7 +166,7 @@ class Flow {
       if (letter == 'L') repeats = digits.size() > 4 || digits.empty() ? 0 : std::stol(digits);
     }
     if (rest.size() != code.size()) return complain("a call beside other words");
-    if (repeats < 1 || repeats > kMostRepeats)
+    if (repeats < 1 || repeats > kMostCalls)
       return complain("a call that is repeated L times is not understood");
     const std::string wanted = number_of(code, 'P');
     if (number_of(code, 'M') == "98") return repeat(bodies_.find(wanted), repeats);
@@ -184,7 +184,7 @@ class Flow {
 
   void repeat(Bodies::const_iterator body, long repeats) {
     if (body == bodies_.end()) return complain("a subprogram that is not in this file");
-    if (++depth_ > kDeepest) return complain("subprograms call each other too deeply");
+    if (++depth_ > kDeepestCall) return complain("subprograms call each other too deeply");
     const auto [first, end] = body->second;
     for (long k = 0; k < repeats; ++k)
       for (std::size_t line = first; line < end && complaint_.empty(); ++line) {

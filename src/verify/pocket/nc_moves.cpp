@@ -27,14 +27,16 @@ using words::kRapid;
 
 constexpr double kFarthest = limits::kLargestProgramCoordinate;  // mm
 constexpr std::array<char, 3> kAxes{'X', 'Y', 'Z'};
-constexpr double kMostRepeats = 10'000;
+constexpr double kMostPecks = 10'000;
 
 bool is_arc(const words::Word* code) {
   return code != nullptr && (code->tenths == kClockwise || code->tenths == kCounterClockwise);
 }
 bool is_cycle(const words::Word* code) { return code != nullptr && code->tenths > kCounterClockwise; }
 bool takes(const words::Word& code, char letter) { return code.takes.find(letter) != std::string_view::npos; }
-bool is_count(double value) { return value >= 1 && value <= kMostRepeats && value == std::floor(value); }
+bool is_number_of_turns(double value) {
+  return value >= 1 && value <= kMostPecks && value == std::floor(value);
+}
 
 class ProgramReader {
  public:
@@ -307,7 +309,7 @@ class ProgramReader {
   void turn(const NcBlock& block, const std::array<double, 3>& from) {
     NcArc arc{plane_, motion_->tenths == kCounterClockwise, from, at_, {}, 1};
     if (const auto p = block['P']) {
-      if (!is_count(*p)) return void(complain("P of an arc is not a number of turns"));
+      if (!is_number_of_turns(*p)) return void(complain("P of an arc is not a number of turns"));
       arc.turns = static_cast<int>(*p);
     }
     if (!find_centre(block, arc)) return;
@@ -352,7 +354,7 @@ class ProgramReader {
     for (const char letter : {'L', 'K'}) {
       if (!block[letter] || (letter == 'K' && control_ == Control::haas)) continue;
       const bool none = control_ != Control::linuxcnc && *block[letter] == 0;
-      if (!is_count(*block[letter]) && !none)
+      if (!is_number_of_turns(*block[letter]) && !none)
         return void(complain(fmt::format("{} of a canned cycle is not a number of holes", letter)));
       repeats = *block[letter];
     }
@@ -435,7 +437,7 @@ class ProgramReader {
     has_cycle_ = true, cycle_incremental_ = incremental_;
     if (!(std::max(std::abs(cycle_.low), std::abs(cycle_.high)) <= kFarthest))
       return complain(fmt::format("Z is farther than {} mm from the origin", kFarthest));
-    if (pecks && !((cycle_.high - cycle_.low) / cycle_.peck <= kMostRepeats))
+    if (pecks && !((cycle_.high - cycle_.low) / cycle_.peck <= kMostPecks))
       return complain("Q of a cycle makes more than 10000 steps");
     return cycle_.high >= cycle_.low || complain("R of a cycle is below its Z");
   }

@@ -5,14 +5,14 @@
 #include <utility>
 
 #include "lekalo/base/stop.hpp"
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 double distance_from(Place low, Place high, Place p) {
-  return length(Place{std::max({0.0, low.x - p.x, p.x - high.x}), std::max({0.0, low.y - p.y, p.y - high.y})});
+  return length(
+      Place{std::max({0.0, low.x - p.x, p.x - high.x}), std::max({0.0, low.y - p.y, p.y - high.y})});
 }
 
 }  // namespace
@@ -131,7 +131,8 @@ double StrokeIndex::nearest(Place p, const std::vector<Stroke>& strokes, const s
     return distance(p, strokes[i]) - (wider.empty() ? 0 : wider[i]);
   };
   if (!squares_.empty())
-    lower(0, middle_, side_, {{-kInfinity, -kInfinity}, {kInfinity, kInfinity}}, p, widest, distance_of, least);
+    lower(0, middle_, side_, {{-kInfinity, -kInfinity}, {kInfinity, kInfinity}}, p, widest, distance_of,
+          least);
   return least;
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 /// The G and M words of profile programs in every dialect, in tenths. Those that stand for a mode which a
 /// program keeps from its first line to its last are only read over.
-constexpr std::array kModes{170, 400, 490, 540, 610, 800, 900, 911, 940};
+constexpr std::array kModesPassedOver{170, 400, 490, 540, 610, 800, 900, 911, 940};
 
 /// The ends of an arc lie on one circle but for the rounding of its words.
 constexpr double kArcRounding = 5e-3;
@@ -117,7 +117,8 @@ class ProfileReader {
         said_.take(*words::word_at('G', code, words::Control::linuxcnc));
       } else if (code == 40) {
         dwell = true;
-      } else if (std::find(kModes.begin(), kModes.end(), code) != kModes.end()) {
+      } else if (std::find(kModesPassedOver.begin(), kModesPassedOver.end(), code) !=
+                 kModesPassedOver.end()) {
         said_.take(*words::word_at('G', code, words::Control::linuxcnc));
       } else {
         complain(fmt::format("lekalo writes no G{:g} into a profile program", 0.1 * code));

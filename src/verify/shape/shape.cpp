@@ -8,11 +8,10 @@
 #include "same_outline.hpp"
 #include "shape_distance.hpp"
 #include "verify/number/interval.hpp"
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Says whether two decimals have the same digits and exponent, which settles most comparisons.
 bool written_alike(const Decimal& a, const Decimal& b) {

@@ -55,6 +55,12 @@ struct Side {
   Vec written_from, written_to;
 };
 
+[[nodiscard]] inline Side side_between(const Vec& from, const Vec& to) {
+  Side side;
+  side.from = from, side.to = to;
+  return side;
+}
+
 /// The decimals of a side in mm, exactly as they stand in the file.
 struct WrittenSide {
   bool arc = false, ccw = true;

@@ -5,11 +5,10 @@
 #include <utility>
 
 #include "lekalo/base/stop.hpp"
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 enum class Sure { no, maybe, yes };
 
@@ -205,7 +204,8 @@ bool carriers_apart(const Side& a, const Side& b) {
   const Vec along = a.to - a.from;
   if (b.arc) {
     const Span height = cross(along, b.centre - a.from);
-    return squared(height).low > ((squared(along.x) + squared(along.y)) * squared(b.radius + just(b.off))).high;
+    return squared(height).low >
+           ((squared(along.x) + squared(along.y)) * squared(b.radius + just(b.off))).high;
   }
   const auto on_one_side = [](const Vec& u, const Vec& v, const Vec& w) {
     const Span from = cross(u, v), to = cross(u, w);

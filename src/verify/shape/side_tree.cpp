@@ -6,13 +6,10 @@
 #include <numeric>
 #include <tuple>
 #include <utility>
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
+namespace {}  // namespace
 
 double gap(const Box& a, const Box& b) {
   const double x =

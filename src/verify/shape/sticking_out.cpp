@@ -9,11 +9,11 @@
 #include "shape_distance.hpp"
 #include "shape_inside.hpp"
 #include "stretch.hpp"
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// At most this many pieces of the outline, and as many squares, are looked at; the enclosure stays as wide
 /// as it is then.
 constexpr std::size_t kMostPieces = 20'000;
