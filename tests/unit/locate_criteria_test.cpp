@@ -29,6 +29,14 @@ std::string box(int width, int height) {
       .dump();
 }
 
+/// A plate with a bore of radius 6, whose middle is 10 from the edge below.
+std::string plate() {
+  Json made = Json::parse(box(100, 40));
+  made["holes"] =
+      Json::parse(R"([[{"arc": {"from": [56, 10], "to": [56, 10], "centre": [50, 10], "ccw": true}}]])");
+  return made.dump();
+}
+
 Result<void> choose_what_is_not_allowed(Choice& choice) {
   const Placement first = choice.pose().at;
   EXPECT_TRUE(choice.allows(first));
@@ -134,6 +142,56 @@ TEST_F(Criteria, TheSmallestLargestAllowanceIsKeptByWhoAsksForIt) {
   Json lie = Json::parse(made->result);
   lie["demands"]["largest"] = 7;
   EXPECT_EQ(verified(lie.dump())->report.verdict, verify::Verdict::refuted);
+}
+
+/// The digits of the bound and of the margin that follows from it once decided whether the checker saw that
+/// it follows.
+TEST_F(Criteria, DemandsThatCannotBeMetAreProvedWhateverTheirDigitsAre) {
+  job_.options.criterion = *locate::criterion_named("even");
+  for (int k = 1; k <= 40; ++k) {
+    job_.options.min_allowance = 5 + 0.0137 * k;
+    const auto made = jobs::locate(job_);
+    ASSERT_TRUE(made) << job_.options.min_allowance << ": " << made.error().message;
+    EXPECT_EQ(made->document.status, "infeasible");
+  }
+}
+
+/// The minimum of 15 about the bore reaches 11 beyond the edge below it.
+TEST_F(Criteria, AMinimumLargerThanTheWallBesideItIsMet) {
+  job_.part.bytes = plate(), job_.blank.bytes = box(120, 60);
+  job_.features = jobs::File{
+      "f.json",
+      R"({"units": "mm", "minimum": 1, "features": [{"name": "bore", "contour": 1, "minimum": 15}]})"};
+  const auto made = jobs::locate(job_);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->document.status, "optimal");
+  EXPECT_NEAR(made->document.demands->margin, 4, 1e-3);
+  EXPECT_NEAR(made->document.placement.y, 15, 1e-3);
+
+  // What is missing counts beyond the wall too, and the checker agrees.
+  for (const char* const minimum : {"40", "100", "3600", "10000", "100000"}) {
+    job_.features->bytes =
+        std::string(
+            R"({"units": "mm", "minimum": 1, "features": [{"name": "bore", "contour": 1, "minimum": )") +
+        minimum + "}]}";
+    const auto missing = jobs::locate(job_);
+    ASSERT_TRUE(missing) << minimum << ": " << missing.error().message;
+    EXPECT_EQ(missing->document.status, "infeasible") << minimum;
+  }
+}
+
+/// A finished feature takes its rim off the part, and what is left bounds no margin by itself.
+TEST_F(Criteria, FinishedFeaturesHaveAProofEvenWhereTheWorkEndsAtOnce) {
+  job_.part.bytes = plate(), job_.blank.bytes = box(120, 60);
+  job_.features = jobs::File{
+      "f.json",
+      R"({"units": "mm", "minimum": 0, "features": [{"name": "bore", "contour": 1, "finished": 1}]})"};
+  RunControl run;
+  run.work_limit = 1;
+  const auto made = jobs::locate(job_, run);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->document.status, "stopped");
+  EXPECT_GE(made->document.demands->margin_bound, 30);
 }
 
 TEST_F(Criteria, TheFirstOfTheListDoesNotGoOnAndAllOthersDo) {

@@ -465,6 +465,21 @@ TEST(VerifyDemands, ThePartThatIsGrownIsAsFarAsItsEdgesReach) {
   EXPECT_NEAR(off(one, 90, 50), std::hypot(30, 10) - 7, 1e-12);
 }
 
+/// A pivot beside a long finished edge once counted as far off as the next edge that grows.
+TEST(VerifyDemands, BehindARimTheGrownPartBeginsAgain) {
+  Tree one = demands();
+  one["features"].push_back(feature("[1]", R"({"finished": 4})"));
+  const auto off = [&](double x, double y, const std::string& part) {
+    return Checked(one, part).check->off_grown_part({just(x), just(y)}, just(2));
+  };
+  const std::string tall = rectangle(40, 0, 60, 100);
+  EXPECT_NEAR(off(61, 50, tall), 5, 1e-10);
+  EXPECT_GE(off(61, 50, tall), 5);
+  EXPECT_NEAR(off(58, 50, tall), 2, 1e-10);
+  // The rim takes all of a thin part but what its other edges grow by.
+  EXPECT_NEAR(off(61, 50, rectangle(57, 0, 60, 100)), 2, 1e-10);
+}
+
 /// What is said of a bound for all placements, with a cap or without.
 std::string bound(const char* changes, bool capped = false) {
   Tree one = demands();

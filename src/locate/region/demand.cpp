@@ -333,10 +333,7 @@ class DemandLocaliser final : public Choice {
     if (free_bound < 0 || !finished_)
       take_proof(*base, 0, false, 0, *first, free_bound < 0 ? free_bound : free_bound / least_scale_);
     if (free_bound < 0) return settle();
-    if (finished_) {  // no point is deeper in the blank than half its width
-      const geom::Box box = clearance_.blank().bounds();
-      result_.margin_bound = 0.5 * std::min(box.high.x - box.low.x, box.high.y - box.low.y) / least_scale_;
-    }
+    if (finished_) result_.margin_bound = widest_margin();
 
     if (!caps_.empty() && left(pose_) < 0) {
       auto with_caps = search(*base, caps_, 0, cap_gap_);
@@ -354,6 +351,25 @@ class DemandLocaliser final : public Choice {
       if (!done) return done;
     }
     return settle();
+  }
+
+  /// No point is deeper in the blank than half its width.
+  [[nodiscard]] double widest_margin() const {
+    const geom::Box box = clearance_.blank().bounds();
+    return 0.5 * std::min(box.high.x - box.low.x, box.high.y - box.low.y) / least_scale_;
+  }
+
+  /// With finished features the first search bounds no margin (docs/design/locate-demands.md, Limits). Where
+  /// no later one did, the widest margin is all that can be said, and the checker wants it proved too.
+  Result<void> prove_widest_margin() {
+    const double widest = widest_margin();
+    auto grown = grown_for(widest);
+    if (!grown) return tl::unexpected(std::move(grown.error()));
+    auto found = search(*grown, {}, 0, options_.gap, 0, 0);
+    if (!found) return tl::unexpected(std::move(found.error()));
+    result_.margin_bound = kInfinity;
+    take_proof(*grown, widest, false, 0, *found, widest + std::max(0.0, found->upper_bound) / least_scale_);
+    return {};
   }
 
   /// Edges with scales: grown for the margin that the best pose has, no pose has more than the next bound.
@@ -394,7 +410,11 @@ class DemandLocaliser final : public Choice {
   }
 
   Result<void> settle() {
-    result_.margin_bound = std::nextafter(result_.margin_bound, kInfinity);
+    if (result_.proof.certificate.empty()) LEKALO_CHECK(prove_widest_margin());
+    // The checker encloses each number as it is written, by its two neighbours at worst, and must still find
+    // this one above the bound that it follows from.
+    for (int step = 0; step < 2; ++step)
+      result_.margin_bound = std::nextafter(result_.margin_bound, kInfinity);
     const double gap = caps_.empty() ? options_.gap : cap_gap_;  // what a bisection is content with
     result_.margin_found = result_.margin, result_.margin_gap = 1.001 * gap;
     const bool closed = result_.margin_bound - result_.margin <= result_.margin_gap;

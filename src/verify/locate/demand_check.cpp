@@ -431,6 +431,29 @@ std::vector<CoverTree::Cap> DemandCheck::caps(Span shift, const std::optional<Sp
   return caps;
 }
 
+namespace {
+
+/// Returns the points on the straight line from p to the side's line or circle, to both sides of it, that are
+/// as far from it as the rim along the side is wide, and further by no more than rounding asks for.
+std::vector<Vec> beyond_rim(const Vec& p, const Side& side, double rim) {
+  constexpr double kPast = 0x1p-40;
+  Vec to_side{just(0), just(0)};
+  if (side.arc) {
+    const Vec from_middle = p - side.centre;
+    if (!(length(from_middle).low > 0)) return {};
+    to_side = unit(from_middle) * side.radius - from_middle;
+  } else {
+    const Vec along = side.to - side.from, d = p - side.from;
+    if (!(dot(along, along).low > 0)) return {};
+    to_side = along * (dot(d, along) / dot(along, along)) - d;
+  }
+  if (!(length(to_side).low > 0)) return {};
+  const Vec past = unit(to_side) * just(rim * (1 + kPast));
+  return {p + to_side + past, p + to_side - past};
+}
+
+}  // namespace
+
 double DemandCheck::off_grown_part(const Vec& p, Span grown_for) const {
   const std::vector<double> by = growth(grown_for);
   // A point counts as off the rims when no finished side is as near to it as its rim is wide.
@@ -447,7 +470,14 @@ double DemandCheck::off_grown_part(const Vec& p, Span grown_for) const {
   if (in && *in && beside_rims(box_of(p), [&](const Side& side) { return distance(p, side); })) return 0;
   double off = kInfinity;
   for (std::size_t k = 0; k < by.size(); ++k) {
-    if (by[k] < 0) continue;
+    if (by[k] < 0) {
+      for (const Vec& q : beyond_rim(p, part_.sides[k], -by[k])) {
+        const std::optional<bool> q_in = holds(part_, q);
+        if (q_in && *q_in && beside_rims(box_of(q), [&](const Side& side) { return distance(q, side); }))
+          off = std::min(off, length(q - p).high);
+      }
+      continue;
+    }
     if (by[k] == 0 &&
         !beside_rims(part_.tree->box(k), [&](const Side& side) { return distance(part_.sides[k], side); }))
       continue;
