@@ -30,6 +30,9 @@ struct BlockWords {
   [[nodiscard]] int code(words::Group group) const;
   [[nodiscard]] bool moves_xy() const { return (*this)['X'] != nullptr || (*this)['Y'] != nullptr; }
   [[nodiscard]] bool has_axis() const { return moves_xy() || (*this)['Z'] != nullptr; }
+  [[nodiscard]] bool has_rotary() const {
+    return (*this)['A'] != nullptr || (*this)['B'] != nullptr || (*this)['C'] != nullptr;
+  }
   [[nodiscard]] bool has_centre() const {
     return (*this)['I'] != nullptr || (*this)['J'] != nullptr || (*this)['K'] != nullptr;
   }

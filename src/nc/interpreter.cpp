@@ -161,7 +161,7 @@ Fault Interpreter::check_dwell(const BlockWords& words) const {
   if (!words.dwells()) return {};
   const bool seconds = words.word(Group::once)->takes.find('X') != std::string_view::npos;
   const bool moves = words['Y'] != nullptr || words['Z'] != nullptr || words.has_centre() ||
-                     (words['X'] != nullptr && !seconds);
+                     words.has_rotary() || (words['X'] != nullptr && !seconds);
   if (moves)
     return "G4 beside axis words: some controls read X as seconds; give the dwell a block of its own";
   return {};

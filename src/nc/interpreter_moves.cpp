@@ -79,6 +79,9 @@ Fault Interpreter::go_to_machine(const BlockWords& words) {
 Fault Interpreter::move(const BlockWords& words) {
   if (!words.has_axis() && !words.has_centre()) {
     if (words['R'] != nullptr && on_arc()) return "R without an end point";
+    // Controls read such a word as a motion, and an arc or a cycle needs more words than that.
+    if (words.has_rotary() && !(on_motion(words::kRapid) || on_motion(words::kFeed)))
+      return "a rotary axis alone while neither G0 nor G1 is active: write G0 before it";
     return {};
   }
   if (modal_.motion == nullptr)

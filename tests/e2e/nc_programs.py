@@ -144,6 +144,9 @@ def own():
     yield Case("blocks that may be skipped", HEAD + "/M8\n" + move + "/ N5 M1\n" + TAIL)
     yield Case("moves that may be skipped", HEAD + "/G0 X5. Y5.\n" + move + TAIL, refused="/")
     yield Case("look-ahead and rotary axes at rest", "O0003\n" + HEAD + "G05.1 Q1\n" + move + "G0 A0. B0.\n" + TAIL)
+    yield Case("a rotary axis alone", HEAD + move + "G0 Z5.\nB0.\nX9. Y8.\nG1 Z-1. F90.\nA0. C0.\nX20.\n" + TAIL,
+               told=("must stand at 0",))
+    yield Case("a rotary axis alone under an arc", HEAD + move + "B0.\n" + TAIL, refused=":10:|write G0 before it")
     yield Case("modes of Haas", HEAD + "G103 P1\nG187 P3 E.01\nM31\nM33\nM88\nM89\nM41\nM19\nG69 G50\n" + move + TAIL,
                "--control", "haas")
     yield Case("polar words", HEAD + "G16\nG0 X10. Y30.\nG15\n" + TAIL, "--control", "fanuc", refused="polar")
@@ -248,7 +251,12 @@ class Drawn:
                             "G64", "G61", "(a (b) c)", "G97 S800", "B0."],
                   "linuxcnc": ["G64 P0.01", "G61", "G61.1", "M48", "M49", "M64 P1", "G97 S900", "G91.1", "(MSG, hi)"],
                   "grbl": ["G61", "M7", "G91.1"]}
-        self.lines.append(self.random.choice(common + 2 * theirs[self.control]))
+        word = self.random.choice(common + 2 * theirs[self.control])
+        self.lines.append(f"G0 {word}" if word in ("A0.", "B0.") and self.on_arc() else word)
+
+    def on_arc(self):
+        """A rotary word alone is read under G0 and G1 only."""
+        return re.findall(r"(?i)G0?([0-3])(?![\d.])", " ".join(self.lines))[-1] in "23"
 
     def distance(self):
         self.steps = not self.steps
@@ -267,7 +275,7 @@ class Drawn:
         self.lines.append("G1 " + self.to(*self.place()))
 
     def home(self):
-        self.lines += [*self.pick(("G53 G0 Z0.",), ("G91 G28 Z0.", "G90"), ("G28 Z15.",), ("G91", "G30 Z0.", "G90"),
+        self.lines += [*self.pick(("G90", "G53 G0 Z0."), ("G91 G28 Z0.", "G90"), ("G28 Z15.",), ("G91", "G30 Z0.", "G90"),
                                   ("G91 G28 Z0.", "G28 X0. Y0.", "G90")), "G90"]
         self.steps = False
         self.lines.append("G0 " + self.to(*self.place()))

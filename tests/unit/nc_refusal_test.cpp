@@ -155,6 +155,9 @@ TEST(NcRefusal, OfWordsOffTheList) {
       {"G0 X0 Y0 A90\n", "1: rotary axis A: only X Y Z programs can be rewritten"},
       {"G0 B1\n", "1: rotary axis B: only X Y Z programs can be rewritten"},
       {"G0 C1\n", "1: rotary axis C: only X Y Z programs can be rewritten"},
+      {"G21\nB0\nG0 X0 Y0\n", "2: a rotary axis alone while neither G0 nor G1 is active: write G0 before it"},
+      {"G0 X0 Y0\nG2 I1\nA0\n",
+       "3: a rotary axis alone while neither G0 nor G1 is active: write G0 before it"},
       {"G0 U1\n", "1: U without G4 in its block"},
       {"G0 W1\n", "1: axis W: only X Y Z programs can be rewritten"},
   });

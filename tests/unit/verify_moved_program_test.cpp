@@ -124,6 +124,17 @@ TEST(VerifyMovedProgram, ARapidUpFromAnUnknownHeightStaysOne) {
   EXPECT_EQ(said(verdict_of(original, other, made, RewriteMode::coordinates, 0.58)).find("fault"), 0U);
 }
 
+TEST(VerifyMovedProgram, ConfirmsARotaryWordThatStandsAlone) {
+  const std::string original = "G21 G90 G17\nG0 X1. Y2. Z5.\nB0.\nG1 X4. F90.\nA0. C0.\nX5.\nM30\n";
+  for (const RewriteMode mode : {RewriteMode::coordinates, RewriteMode::offset, RewriteMode::g68}) {
+    const Moved made = moved(original, mode, 0.58);
+    EXPECT_EQ(said(verdict_of(original, made.text, made, mode, 0.58)), "confirmed") << made.text;
+    std::string other = made.text;
+    other.replace(other.find("\nB0."), 4, "\nG1 B0");
+    EXPECT_EQ(said(verdict_of(original, other, made, mode, 0.58)).find("fault"), 0U) << other;
+  }
+}
+
 TEST(VerifyMovedProgram, ChordsShareTheTimeOfTheirArc) {
   const std::string original =
       "G21 G90 G17\nG0 X1. Y2. Z5.\nG93 G18 G2 X3. Z5. I1. K0. F4.\nG17 G94\nG1 X5. F90.\nM30\n";

@@ -118,8 +118,10 @@ TEST(VerifyNcReader, BlocksThatAreComparedSayWhatTheirMovesDoNot) {
       {"G0 Y1\nG81 Y2 Z-1 R1 F9\n", "p:2: a canned cycle at a place that no block has said"},
       {"G0 X1 Y2 Z3\nG81 X3 Z-1 R1\n", "1:1,2,3>1,2,3R\n2:G81 R1 Z-1 3,2,3>3,2,3R\n"},
       {"G0 X1 Y1\nG1 X2 F9\n", "1:1,1,0>1,1,0R\n2:F9 1,1,0>2,1,0F9\n", Control::haas},
-      {"G0 X1. Y1. Z1.\nG98 G81 X2. Z-1. R1. L2 F9.\n", "1:1,1,1>1,1,1R\n2:G98 G81 F9 L2 R1 Z-1 2,1,1>2,1,1R 2,1,1>2,1,1R\n", Control::fanuc},
-      {"G0 X1. Y1. Z1.\nG98 G83 X2. Z-1. R1. Q1. I1. F9.\n", "1:1,1,1>1,1,1R\n2:G98 G83 F9 I1 Q1 R1 Z-1 2,1,1>2,1,1R\n", Control::haas},
+      {"G0 X1. Y1. Z1.\nG98 G81 X2. Z-1. R1. L2 F9.\n",
+       "1:1,1,1>1,1,1R\n2:G98 G81 F9 L2 R1 Z-1 2,1,1>2,1,1R 2,1,1>2,1,1R\n", Control::fanuc},
+      {"G0 X1. Y1. Z1.\nG98 G83 X2. Z-1. R1. Q1. I1. F9.\n",
+       "1:1,1,1>1,1,1R\n2:G98 G83 F9 I1 Q1 R1 Z-1 2,1,1>2,1,1R\n", Control::haas},
   };
   for (const Case& one : cases) EXPECT_EQ(compared(one.program, one.control), one.says) << one.program;
 }
@@ -240,17 +242,27 @@ TEST(VerifyNcReader, CyclesAreTheMovesThatTheControlMakes) {
       {"G98 G83 X1. Z-1. R2. Q1.5 J1.\n", "p:2: pecks shaped by I, J and K", Control::haas},
       {"G82 G98 X1. Z-1. R2.\n", "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,-1F9 1,0,-1>1,0,5R ", Control::haas},
       {"G84 G98 X1. Z-1. R2.\n", "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,-1F9 1,0,-1>1,0,5F9 ", Control::haas},
-      {"G98 G83 X1 Z-1 R2 Q1.5\nX2\n", "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,0.5F9 1,0,0.5>1,0,2R 1,0,2>1,0,0.754R 1,0,0.754>1,0,-1F9 1,0,-1>1,0,5R 1,0,5>2,0,5R 2,0,5>2,0,2R 2,0,2>2,0,0.5F9 2,0,0.5>2,0,2R 2,0,2>2,0,0.754R 2,0,0.754>2,0,-1F9 2,0,-1>2,0,5R "},
-      {"G98 G82 X1 Z-1 R2 P1\nX2\n", "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,-1F9 1,0,-1>1,0,5R 1,0,5>2,0,5R 2,0,5>2,0,2R 2,0,2>2,0,-1F9 2,0,-1>2,0,5R "},
+      {"G98 G83 X1 Z-1 R2 Q1.5\nX2\n",
+       "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,0.5F9 1,0,0.5>1,0,2R 1,0,2>1,0,0.754R 1,0,0.754>1,0,-1F9 "
+       "1,0,-1>1,0,5R 1,0,5>2,0,5R 2,0,5>2,0,2R 2,0,2>2,0,0.5F9 2,0,0.5>2,0,2R 2,0,2>2,0,0.754R "
+       "2,0,0.754>2,0,-1F9 2,0,-1>2,0,5R "},
+      {"G98 G82 X1 Z-1 R2 P1\nX2\n",
+       "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,-1F9 1,0,-1>1,0,5R 1,0,5>2,0,5R 2,0,5>2,0,2R 2,0,2>2,0,-1F9 "
+       "2,0,-1>2,0,5R "},
       {"G98 G73 X1 Z-1 R2\n", "p:2: G73 without Q in its first block"},
       {"G98 G73 X1 Z-1 R2 Q0\n", "p:2: Q of a cycle is not above 0"},
       {"G98 G89 X1 Z-1 R2\n", "p:2: G89 without P in its first block"},
       {"M3 S9\nG98 G86 X1 Z-1 R2\n", "p:3: G86 without P in its first block"},
       {"G91 G99 G81 X1 Z-3 R-3\nX1 R-2\n", "p:3: Z or R of a cycle changed under G91 and G99"},
       {"G98 G81 X1 Z-1 R7\nX2 R7\n", "p:3: R of a cycle changed above the plane that it began at"},
-      {"G98 G81 X1 Z-1 R5\nX2 R5\n", "0,0,5>1,0,5R 1,0,5>1,0,-1F9 1,0,-1>1,0,5R 1,0,5>2,0,5R 2,0,5>2,0,-1F9 2,0,-1>2,0,5R "},
-      {"G98 G81 X1 Z-1 R2\nX2 R3\n", "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,-1F9 1,0,-1>1,0,5R 1,0,5>2,0,5R 2,0,5>2,0,3R 2,0,3>2,0,-1F9 2,0,-1>2,0,5R "},
-      {"G99 G81 X1 Z-1 R2\nG98 G82 X2 P1 Z-1 R2\n", "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,-1F9 1,0,-1>1,0,2R 1,0,2>2,0,5R 2,0,5>2,0,2R 2,0,2>2,0,-1F9 2,0,-1>2,0,5R "},
+      {"G98 G81 X1 Z-1 R5\nX2 R5\n",
+       "0,0,5>1,0,5R 1,0,5>1,0,-1F9 1,0,-1>1,0,5R 1,0,5>2,0,5R 2,0,5>2,0,-1F9 2,0,-1>2,0,5R "},
+      {"G98 G81 X1 Z-1 R2\nX2 R3\n",
+       "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,-1F9 1,0,-1>1,0,5R 1,0,5>2,0,5R 2,0,5>2,0,3R 2,0,3>2,0,-1F9 "
+       "2,0,-1>2,0,5R "},
+      {"G99 G81 X1 Z-1 R2\nG98 G82 X2 P1 Z-1 R2\n",
+       "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,-1F9 1,0,-1>1,0,2R 1,0,2>2,0,5R 2,0,5>2,0,2R 2,0,2>2,0,-1F9 "
+       "2,0,-1>2,0,5R "},
       {"G81 X1. Z-1. R2.\n", "0,0,5>1,0,5R 1,0,5>1,0,2R 1,0,2>1,0,-1F9 1,0,-1>1,0,5R ", Control::haas},
       {"G98 G81 X1. Z-1. R2. L1.5\n", "p:2: L of a canned cycle is not a number of holes", Control::haas},
   };
@@ -292,7 +304,8 @@ TEST(VerifyNcReader, ArcsHaveTheirCentreAndBothEndsOnTheirCircle) {
       {"G2 X0.000001 I1\n",
        "p:2: an arc of nearly no turn or a full one; give a full turn the same end as start"},
       {"G2 X0.000003 Y0.000003 I1\n", "0,0,5>3e-06,3e-06,5-1,0*1F9 "},
-      {"G2 Y0.000001 I1\n", "p:2: an arc of nearly no turn or a full one; give a full turn the same end as start"},
+      {"G2 Y0.000001 I1\n",
+       "p:2: an arc of nearly no turn or a full one; give a full turn the same end as start"},
       {"G2 X0.0025 I0.00127\n", "p:2: the arc's ends are 0.00127 and 0.00123 mm from its centre"},
       {"G2 X0.0025 I0.00123\n", "p:2: the arc's ends are 0.00123 and 0.00127 mm from its centre"},
   };
@@ -428,6 +441,24 @@ TEST(VerifyNcReader, LinesHaveTheirLettersAndBounds) {
   EXPECT_EQ(judged("{\n"), "p:1: the character \"{\" is not understood");
   EXPECT_EQ(judged("@\n"), "p:1: the character \"@\" is not understood");
   EXPECT_EQ(judged("[\n"), "p:1: the character \"[\" is not understood");
+}
+
+/// A program with `B0.` on a line of its own was rewritten, and then not read.
+TEST(VerifyNcReader, ARotaryWordAloneMovesUnderG0AndG1Only) {
+  const std::string there = "G0 X1 Y1 Z1\n";
+  EXPECT_EQ(judged(there + "B0.\nX2\n"), "1,1,1>2,1,1R ");
+  EXPECT_EQ(judged(there + "G1 X2 F9\nA0 B0 C0 M8\nX3\n"), "1,1,1>2,1,1F9 2,1,1>3,1,1F9 ");
+  EXPECT_EQ(compared(there + "B0.\nG1 B0.\nB0.\nX2\n"),
+            "1:1,1,1>1,1,1R\n2:G0 B0\n3:G1 B0\n4:G1 B0\n5:1,1,1>2,1,1F0\n");
+  EXPECT_EQ(judged(there + "B1\n"), "p:2: B turns the part; programs of X, Y and Z are understood");
+  EXPECT_EQ(judged("B0.\n"), "p:1: no word of the block takes B");
+  EXPECT_EQ(judged(there + "G80\nC0\n"), "p:3: no word of the block takes C");
+  EXPECT_EQ(judged(there + "G80 A0\n"), "p:2: no word of the block takes A");
+  EXPECT_EQ(judged(there + "G2 I5 F9\nB0\n"), "p:3: no word of the block takes B");
+  EXPECT_EQ(judged(there + "G98 G81 Z-1 R1 F9\nB0\n"), "p:3: no word of the block takes B");
+  EXPECT_EQ(judged(there + "G4 P1 B0\n"), "p:2: a dwell beside a motion; give it a block of its own");
+  EXPECT_EQ(judged("G0 X1. Y1. Z1.\nG4 X1. B0\n", Control::fanuc),
+            "p:2: a dwell beside a motion; give it a block of its own");
 }
 
 TEST(VerifyNcReader, ABlockThatMayBeSkippedDoesNothing) {

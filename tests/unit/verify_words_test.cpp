@@ -132,6 +132,26 @@ TEST(VerifyWords, ALetterAloneIsReadOnlyWhereItMovesOrNeedsNoCode) {
   }
 }
 
+/// Else the rewriter writes a program that nobody confirms.
+TEST(VerifyWords, BothReadersTakeARotaryWordInTheSameBlocks) {
+  std::size_t taken = 0, refused = 0;
+  for (const Control control : kControls)
+    for (const char* before :
+         {"", "G1 X12. F90.\n", "G2 I5. F90.\n", "G80\n", "G98 G81 X12. Z-1. R1. F90.\n"})
+      for (const char* block : {"B0.", "A0. C0.", "M8 B0.", "X13. B0.", "G0 B0.", "G1 A0. F90.", "G3 B0.",
+                                "G80 B0.", "G4 P1. B0."}) {
+        const bool cycle = std::string_view(before).find("G81") != std::string_view::npos;
+        if (cycle && (control == Control::grbl || *block == 'X')) continue;
+        const std::string program = kBegin + before + block + "\nM2\n";
+        SCOPED_TRACE(fmt::format("{}: {}", words::word_of(control), program));
+        const bool takes = checker_says(program, control).empty();
+        EXPECT_EQ(rewriter_says(program, control).empty(), takes);
+        ++(takes ? taken : refused);
+      }
+  EXPECT_GT(taken, 40U);
+  EXPECT_GT(refused, 40U);
+}
+
 TEST(VerifyWords, EachControlReadsItsOwnForms) {
   const std::string z_home = kBegin + "G1 Z-1. F99.\nG0 Z5.\nG28 G91 Z0\nG90\nG53 G0 Z0\nM30\n";
   for (const Control control : kControls) EXPECT_EQ(checker_says(z_home, control), "");

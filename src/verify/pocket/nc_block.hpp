@@ -37,6 +37,7 @@ struct NcBlock {
     return false;
   }
   [[nodiscard]] bool has_axis() const { return (*this)['X'] || (*this)['Y'] || (*this)['Z']; }
+  [[nodiscard]] bool has_rotary() const { return (*this)['A'] || (*this)['B'] || (*this)['C']; }
   [[nodiscard]] bool empty() const;
 };
 

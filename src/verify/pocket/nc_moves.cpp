@@ -23,6 +23,7 @@ using words::Control;
 using words::Group;
 using words::kClockwise;
 using words::kCounterClockwise;
+using words::kFeed;
 using words::kRapid;
 
 constexpr double kFarthest = limits::kLargestProgramCoordinate;  // mm
@@ -31,6 +32,9 @@ constexpr double kMostPecks = 10'000;
 
 bool is_arc(const words::Word* code) {
   return code != nullptr && (code->tenths == kClockwise || code->tenths == kCounterClockwise);
+}
+bool is_line(const words::Word* code) {
+  return code != nullptr && (code->tenths == kRapid || code->tenths == kFeed);
 }
 bool is_cycle(const words::Word* code) { return code != nullptr && code->tenths > kCounterClockwise; }
 bool takes(const words::Word& code, char letter) { return code.takes.find(letter) != std::string_view::npos; }
@@ -77,8 +81,9 @@ class ProgramReader {
   bool fits(const NcBlock& block) {
     const words::Word* motion = block.code(Group::motion);
     const words::Word* once = block.code(Group::once);
-    if (once != nullptr && once->tenths == words::kDwell && (motion != nullptr || block.has_axis()) &&
-        !(takes(*once, 'X') && !block['Y'] && !block['Z']))
+    const bool moves = motion != nullptr || block.has_axis() || block.has_rotary();
+    if (once != nullptr && once->tenths == words::kDwell && moves &&
+        !(takes(*once, 'X') && !block['Y'] && !block['Z'] && !block.has_rotary()))
       return complain("a dwell beside a motion; give it a block of its own");
     const bool off = block.code(Group::motion_off) != nullptr;
     if (is_cycle(motion) && !block.has_axis())
@@ -97,7 +102,9 @@ class ProgramReader {
         judged_ && at != std::string::npos && (control_ == Control::haas || control_ == Control::fanuc))
       return complain(fmt::format("{0} has no decimal point, and {1} controls may count it in thousandths",
                                   block.pointless[at], name_of(control_)));
-    const words::Word* carried = motion == nullptr && block.has_axis() && !off ? motion_ : nullptr;
+    // A rotary word alone makes no arc and no hole, so only a line in force takes it.
+    const bool carries = block.has_axis() || (block.has_rotary() && is_line(motion_));
+    const words::Word* carried = motion == nullptr && carries && !off ? motion_ : nullptr;
     for (const char letter : words::kTakenLetters)
       if (block[letter] && !has_one_taker(block, letter, carried)) return false;
     const bool takes_d = words::is_taken('D', control_);
@@ -130,7 +137,8 @@ class ProgramReader {
         rest += name_of(*code) + " ";
     // The words have to say whether it is a rapid where no move is seen, as up from a Z that is not known.
     // A cycle is seen at its places.
-    if (motion_ != nullptr && !moved && block.has_axis() && block.code(Group::once) == nullptr)
+    const bool goes = block.has_axis() || block.has_rotary();
+    if (motion_ != nullptr && !moved && goes && block.code(Group::once) == nullptr)
       rest += name_of(*motion_) + " ";
     for (const int m : block.allowed) rest += fmt::format("M{} ", m);
     const bool turns = is_arc(motion_) && block.code(Group::once) == nullptr;
