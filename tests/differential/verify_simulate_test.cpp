@@ -17,6 +17,9 @@ namespace lekalo::verify {
 namespace {
 
 constexpr double kPi = 3.141592653589793, kRadius = 3, kWidth = 40, kHeight = 30, kStep = 0.02;
+/// Of a path that turns with a radius of 0.3 mm. Lengths and places that differ by less than kTogether are
+/// the same: a program writes 9 decimals.
+constexpr double kBetween = 2e-4, kTogether = 1e-6;
 
 struct Spot {
   double x, y;
@@ -24,7 +27,12 @@ struct Spot {
 
 struct Drawn {
   std::string program;
-  std::vector<Spot> path;  ///< every kStep
+  std::vector<Spot> path;     ///< at most kStep apart, with every corner
+  std::vector<double> along;  ///< for each spot of it, the length of the path up to there
+  void go_on_to(Spot to, double length) {
+    path.push_back(to);
+    along.push_back(length);
+  }
 };
 
 Drawn random_path(Random& random) {
@@ -32,13 +40,15 @@ Drawn random_path(Random& random) {
   const auto rounded = [](double v) { return std::round(v * 1e3) / 1e3; };
   Spot at{rounded(random.uniform(4, kWidth - 4)), rounded(random.uniform(4, kHeight - 4))};
   drawn.program = fmt::format("G21 G90 G17\nG0 X{} Y{} Z5\nG1 Z-1 F300\n", at.x, at.y);
-  drawn.path.push_back(at);
+  drawn.go_on_to(at, 0);
   for (int i = 0; i < 8; ++i) {
+    const double so_far = drawn.along.back();
     if (random.below(2) == 0) {
       const Spot to{rounded(random.uniform(4, kWidth - 4)), rounded(random.uniform(4, kHeight - 4))};
       const double whole = std::hypot(to.x - at.x, to.y - at.y);
       for (double s = kStep; s < whole; s += kStep)
-        drawn.path.push_back({at.x + s / whole * (to.x - at.x), at.y + s / whole * (to.y - at.y)});
+        drawn.go_on_to({at.x + s / whole * (to.x - at.x), at.y + s / whole * (to.y - at.y)}, so_far + s);
+      drawn.go_on_to(to, so_far + whole);
       drawn.program += fmt::format("G1 X{} Y{} F1500\n", to.x, to.y);
       at = to;
     } else {  // any sweep about a centre within 6 mm, small radii among them
@@ -47,10 +57,10 @@ Drawn random_path(Random& random) {
       const bool ccw = random.below(2) == 0;
       const Spot centre{at.x - radius * std::cos(begin), at.y - radius * std::sin(begin)};
       Spot to{};
-      for (double s = 0;; s += kStep) {
-        const double angle = begin + (ccw ? 1 : -1) * std::min(sweep, s / radius);
+      for (double s = kStep;; s += kStep) {
+        const double turn = std::min(sweep, s / radius), angle = begin + (ccw ? turn : -turn);
         to = {centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
-        drawn.path.push_back(to);
+        drawn.go_on_to(to, so_far + turn * radius);
         if (s / radius >= sweep) break;
       }
       drawn.program += fmt::format("G{} X{:.9f} Y{:.9f} I{:.9f} J{:.9f} F1500\n", ccw ? 3 : 2, to.x, to.y,
@@ -83,22 +93,27 @@ TEST(VerifySimulateRaster, EngagementAndCoverageAreThoseOfManyDiscs) {
     for (const EngagementSample& sample : report->samples) {
       done += sample.length;
       if (number++ % 97 != 0) continue;
-      // Rim points that no earlier disc holds. Discs that touch within their step count as holding.
-      while (upto + 1 < drawn.path.size() && static_cast<double>(upto) * kStep < done + 1 &&
-             (apart(drawn.path[upto], sample) > kStep))
-        ++upto;
-      std::vector<Spot> near;
-      for (std::size_t p = 0; p <= upto; ++p)
-        if (apart(drawn.path[p], sample) < 2 * kRadius + kStep) near.push_back(drawn.path[p]);
+      // The discs up to a sample are those up to its length along the path. Its place does not tell: the path
+      // passes close by before a corner that it has yet to cut out.
+      while (upto < drawn.path.size() && drawn.along[upto] < done - kTogether) ++upto;
+      std::vector<std::size_t> near;
+      for (std::size_t p = 0; p < upto; ++p)
+        if (apart(drawn.path[p], sample) < 2 * kRadius + kStep) near.push_back(p);
       int open_low = 0, open_high = 0;
       constexpr int kRim = 360;
       for (int k = 0; k < kRim; ++k) {
         const double angle = 2 * kPi * (k + 0.5) / kRim;
         const Spot rim{sample.x + kRadius * std::cos(angle), sample.y + kRadius * std::sin(angle)};
-        double least = 1e9;
-        for (const Spot& p : near) least = std::min(least, std::hypot(rim.x - p.x, rim.y - p.y));
-        open_low += least > kRadius + 2e-4 ? 1 : 0;
-        open_high += least > kRadius - 2.5 * kStep ? 1 : 0;
+        bool low = true, high = true;
+        for (const std::size_t p : near) {
+          const double off = std::hypot(rim.x - drawn.path[p].x, rim.y - drawn.path[p].y) - kRadius;
+          // What the tool sweeps between two spots reaches this far beyond their discs. The last discs lie so
+          // close that all of the rim ahead is within that, so they count by how far back they are.
+          low = low && off > kBetween * std::min(1.0, (done - drawn.along[p]) / kStep);
+          high = high && off > -kTogether;
+        }
+        open_low += low ? 1 : 0;
+        open_high += high ? 1 : 0;
       }
       EXPECT_GE(sample.engagement, 360.0 * open_low / kRim - 1.5) << "at " << done;
       EXPECT_LE(sample.engagement, 360.0 * open_high / kRim + 1.5) << "at " << done;
@@ -123,8 +138,12 @@ TEST(VerifySimulateRaster, EngagementAndCoverageAreThoseOfManyDiscs) {
     EXPECT_NEAR(report->reachable_mm2, 0.04 * static_cast<double>(reachable), 2);
 
     double gouge = 0;
-    for (const Spot& p : drawn.path)
-      gouge = std::max(gouge, kRadius - std::min({p.x, p.y, kWidth - p.x, kHeight - p.y}));
+    for (const Spot& p : drawn.path) {
+      // Outside, the nearest place of the pocket may be its corner.
+      const double aside = std::max(-p.x, p.x - kWidth), above = std::max(-p.y, p.y - kHeight);
+      const double outside = std::hypot(std::max(aside, 0.0), std::max(above, 0.0));
+      gouge = std::max(gouge, kRadius + (outside > 0 ? outside : std::max(aside, above)));
+    }
     EXPECT_NEAR(report->gouge_mm, gouge, 0.021);
   }
 }
