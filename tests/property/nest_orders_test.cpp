@@ -102,8 +102,9 @@ Filled bottom_left_fill(const Document& document) {
   return counted(work.document(), unplaced);
 }
 
-Nested nested(const Document& document, std::uint64_t work) {
+Nested nested(const Document& document, std::uint64_t work, std::uint64_t seed = Options{}.seed) {
   Options options;
+  options.seed = seed;
   options.threads = 2;
   RunControl control;
   control.work_limit = work;
@@ -176,6 +177,8 @@ TEST(NestOrders, TheMostValuableKitsWhereNotAllHaveRoom) {
 
 TEST(NestOrders, TheValueOfTheKitsIsThatOfABruteForce) {
   // Squares of three kinds on a sheet that holds a few of them, whichever: kits compete for squares and room.
+  // The search promises no best value (nest-sheets.md, limits). On sheets as simple as these a fifth of this
+  // work found it in each of 240 cases.
   for (std::size_t i = 0; i < cases::case_count(12); ++i) {
     Random random(cases::seed(), i);
     Document document = cases::two_squares();
@@ -224,6 +227,29 @@ TEST(NestOrders, TheValueOfTheKitsIsThatOfABruteForce) {
     for (std::size_t k = 0; k < 3; ++k)
       value += static_cast<double>(done.kits[k].complete) * document.kits[k].value;
     EXPECT_EQ(value, best) << "case " << i << " of seed " << cases::seed();
+  }
+}
+
+TEST(NestOrders, AFullSheetGivesOtherKitsTheirTurnAtOnce) {
+  // Four squares fill the sheet, whichever. Two bolts are worth 14, a bolt and the frame 16. Nothing can be
+  // added to a full sheet, and the work is not to end before a plan of other kits has been followed.
+  Document document = cases::two_squares();
+  document.placements.clear();
+  document.parts.assign(3, document.parts[0]);
+  for (std::size_t p = 0; p < 3; ++p) {
+    document.parts[p].id = std::array{"plate", "bar", "bolt"}[p];
+    document.parts[p].rotations = {{0, 0}};
+  }
+  document.stocks[0].outline = cases::outline_of({cases::box_loop(0, 0, 40, 10)});
+  document.kits = {{"bolt", "", 2, 7, {{2, 1, std::nullopt}}},
+                   {"large frame", "", 2, 9, {{0, 2, std::nullopt}, {1, 2, std::nullopt}}},
+                   {"frame", "", 1, 9, {{0, 1, std::nullopt}, {1, 2, std::nullopt}}}};
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Nested found = nested(document, 300'000, seed);
+    const layout::Completeness done = layout::completeness(layout::Workspace(found.document));
+    EXPECT_EQ(done.kits[0].complete, 1) << "seed " << seed;
+    EXPECT_EQ(done.kits[1].complete, 0) << "seed " << seed;
+    EXPECT_EQ(done.kits[2].complete, 1) << "seed " << seed;
   }
 }
 

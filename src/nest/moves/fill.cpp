@@ -10,6 +10,29 @@
 namespace lekalo::nest {
 namespace {
 
+/// True if no open bin has as much area left as the smallest piece that lies nowhere.
+bool is_full(const Search& search) {
+  constexpr double kRounding = 1e-12;  // areas that fill a bin add up to it in any order
+  const Problem& problem = search.problem;
+  const Items& items = search.items;
+  const State& state = search.current.state;
+  std::vector<double> left;
+  for (const Bin& bin : problem.bins()) left.push_back(bin.area * (1 + kRounding));
+  for (const Spot& spot : items.fixed)
+    if (const Form& form = problem.forms()[spot.form]; problem.kind_of(form) == SearchShape::Kind::part)
+      left[spot.bin] -= problem.area_of(problem.part_of(form));
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < items.movable(); ++i) {
+    const double area = problem.area_of(items.parts[i]);
+    if (state.spots[i].bin == kNowhere)
+      least = std::min(least, area);
+    else
+      left[state.spots[i].bin] -= area;
+  }
+  return std::none_of(state.open_bins.begin(), state.open_bins.end(),
+                      [&](std::uint32_t bin) { return left[bin] >= least; });
+}
+
 /// Lets two items change places, so that the next attempt is another one.
 void exchange(Search& search) {
   const Problem& problem = search.problem;
@@ -147,8 +170,11 @@ void Fill::throw_in(Search& search) {
 
 bool Fill::throw_in_kits(Search& search, const std::vector<std::uint32_t>& missing) {
   Random& random = search.random();
-  if (search.problem.document().kits.empty() || random.below(4) == 0) return false;
-  if (failures_ > 0 && random.below(2) == 0) {
+  if (search.problem.document().kits.empty()) return false;
+  // A full sheet gains by other kits alone; every second attempt still exchanges pieces as usual.
+  const bool needs_plan = failures_ % 2 == 0 && is_full(search);
+  if (!needs_plan && random.below(4) == 0) return false;
+  if (needs_plan || (failures_ > 0 && random.below(2) == 0)) {
     const std::vector<std::int64_t> kits = planned_kits(search);
     if (!kits.empty()) {
       replace_by(search, kits);
