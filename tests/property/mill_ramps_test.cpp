@@ -120,7 +120,9 @@ TEST(MillRamps, RandomRampsCutWhatThePathCuts) {
     const RampedPath ramped = with_ramps(*path, loads, options);
     const JudgedPath after = judged(ramped.path, pocket);
     EXPECT_LE(after.report.engagement_max_deg, before.report.engagement_max_deg + 0.5);
-    EXPECT_LE(after.report.gouge_mm, std::max(before.report.gouge_mm, 1e-3));
+    // The path in plan is the same, but a ramp divides the moves it begins and ends in, and each part is
+    // written within 0.001 mm of the path (docs/design/pocket-program.md).
+    EXPECT_LE(after.report.gouge_mm, before.report.gouge_mm + 1e-3);
     EXPECT_NEAR(after.report.coverage_percent, before.report.coverage_percent, 1e-3);
     EXPECT_EQ(after.report.rapid_cut_mm, 0);
     EXPECT_EQ(after.report.retracts, before.report.retracts);

@@ -18,9 +18,7 @@ using geom::Region;
 
 constexpr double kSameLevel = 1e-6;  // mm of depth
 constexpr double kGrain = 1e-6;      // mm: stretches that agree to it are one
-/// mm: holes in what is cut that are narrower than twice kClosed are rounding, and so is material that stands
-/// thinner than kThin where the tool came along.
-constexpr double kClosed = 4e-3, kThin = 4e-3;
+constexpr double kClosed = 4e-3;  // mm: holes in what is cut that are narrower than twice this are rounding
 constexpr double kLeastDepth = 6e-3;  // mm: a piece that is nowhere thicker is left alone
 constexpr std::size_t kTogether = 24;
 

@@ -8,8 +8,11 @@
 
 namespace lekalo::mill {
 
+/// mm: material that stands thinner than this where an earlier tool came along is rounding.
+inline constexpr double kThin = 4e-3;
+
 /// The places where a tool of this radius meets nothing at this depth, because earlier tools have been there.
-/// Material that stands thinner than some thousandths of a millimetre counts as nothing.
+/// Material that stands thinner than kThin counts as nothing.
 [[nodiscard]] Result<std::vector<geom::Region>> cleared_places(const std::vector<EarlierCut>& cuts,
                                                                double depth, double tool_radius);
 

@@ -1,6 +1,7 @@
 #include "corners.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "lekalo/base/stop.hpp"
 #include "lekalo/mill/straight_pass.hpp"
@@ -96,10 +97,15 @@ Result<void> Corners::cut_beyond(std::size_t outer, const Front& zone, bool& bac
   LEKALO_TRY(auto peel, deepest_peel(outer, zone));
   if (peel.passes.empty()) return cut_beyond(peel.inner, zone, back, tool);
   if (back) std::reverse(peel.passes.begin(), peel.passes.end());
+  // A way to a pass goes along the outer round, because the corner beyond it still stands.
+  LEKALO_TRY(const auto round, peels_.at(outer));
+  std::optional<Point> left;  // the outer round, by the pass before
   for (const Front& pass : peel.passes) {
     const std::vector<Edge> edges = back && either_way_ ? geom::reversed(pass.edges) : pass.edges;
-    tool.link(edges.front().from);
+    if (left) tool.link(*left);
+    tool.link_along(round->index, edges.front().from);
     tool.go(ToolMotion::Kind::cut, edges);
+    left = tool.at();
     bool next = !back;
     LEKALO_CHECK(cut_beyond(peel.inner, pass, next, tool));
   }

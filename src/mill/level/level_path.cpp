@@ -121,7 +121,7 @@ Result<PocketPath> cleared_after_others(const Piece& piece, const PocketOptions&
       });
     }
     passes.cut_all(place->fronts);
-    cut_stretches(tool, walls, place->walls);
+    cut_stretches(tool, walls, place->walls, corners.walls().index);
     LEKALO_CHECK(cut_corners(tool, corners, place->corners));
     places.erase(place);
   }

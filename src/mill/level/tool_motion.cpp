@@ -65,12 +65,13 @@ void ToolMotion::come_down(Point to, double z) {
 
 void ToolMotion::come_down(Point to) { come_down(to, -depth_); }
 
-void ToolMotion::link(Point to) {
+void ToolMotion::link(Point to) { link_along(piece_.allowed.index, to); }
+
+void ToolMotion::link_along(const geom::RegionIndex& walls, Point to) {
   const double far = norm(to - at_);
   if (far < 1e-6) return;
   if (far < kWallWay * step_)
-    if (const auto wall = way_along_wall(piece_.allowed.index, at_, to, kWallWay * step_))
-      return go(Kind::link, *wall);
+    if (const auto wall = way_along_wall(walls, at_, to, kWallWay * step_)) return go(Kind::link, *wall);
   link_over_grid(to);
 }
 

@@ -38,8 +38,11 @@ class ToolMotion {
   void set_growth(const Growth& growth) { grid_.emplace(growth, piece_.tool_radius); }
   void set_done(std::size_t front) { grid_->set_done(front); }
   [[nodiscard]] bool is_done(std::size_t front) const { return grid_->is_done(front); }
-  /// \pre set_growth
+  /// \pre set_growth, here and below
   void link(geom::Point to);
+  /// \param walls  the tool may go along these instead of those of the piece; for instance where corners that
+  /// they round are still to be cut
+  void link_along(const geom::RegionIndex& walls, geom::Point to);
   /// Links to where a front begins. \param cut  what the layers before it have cut
   void link(geom::Point to, const geom::RegionIndex& cut);
 

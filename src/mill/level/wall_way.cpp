@@ -12,7 +12,7 @@ using geom::Point;
 
 namespace {
 
-constexpr double kOnWall = 1e-4;  // mm
+constexpr double kOnWall = 3e-4;  // mm: stretches that are new begin 2e-4 off the round before them
 
 /// True when the goal, which lies on an edge, is ahead on the rest of it.
 /// \param from_seam  the rest is one whole circle, from its seam on

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "cleared.hpp"
 #include "lekalo/base/stop.hpp"
 #include "mill/path/edge_path.hpp"
 
@@ -25,7 +26,7 @@ constexpr double kNearWall = 1.5;  // of the strip: a pass that ends nearer lead
 constexpr double kAhead = 4;       // of the strip: along the wall, to where it is led
 constexpr double kLeastAhead = 2;  // of the strip: what is led to the wall over less comes to it steeply
 constexpr double kBadStart = 3;    // of the tool's radius: of way rather than a start at a corner, or steeply
-constexpr double kMissed = 5e-3;   // mm
+constexpr double kMissed = 5e-3;   // mm: walls on which more stands are cut once more
 constexpr double kMissedPiece = 0.1;  // of the tool's radius
 
 /// The corners that are left from each edge of the walls: how many mm along the edge, and which.
@@ -176,12 +177,13 @@ Result<void> cut_walls(ToolMotion& tool, Corners& corners, const Piece& piece,
   return {};
 }
 
-void cut_stretches(ToolMotion& tool, const std::vector<Front>& walls, std::vector<std::size_t> which) {
+void cut_stretches(ToolMotion& tool, const std::vector<Front>& walls, std::vector<std::size_t> which,
+                   const RegionIndex& rounded) {
   while (!which.empty()) {
     const auto next = std::min_element(which.begin(), which.end(), [&](std::size_t a, std::size_t b) {
       return norm(walls[a].edges.front().from - tool.at()) < norm(walls[b].edges.front().from - tool.at());
     });
-    tool.link(walls[*next].edges.front().from);
+    tool.link_along(rounded, walls[*next].edges.front().from);
     tool.go(Kind::cut, walls[*next].edges);
     which.erase(next);
   }
@@ -190,16 +192,18 @@ void cut_stretches(ToolMotion& tool, const std::vector<Front>& walls, std::vecto
 void cut_missed_walls(ToolMotion& tool, const Piece& piece, const std::vector<Region>& cleared) {
   const RegionIndex before(cleared);
   const CutPlaces passes(tool.moves());
+  const auto is_cut = [&](Point p) {
+    return passes.are_near(p) ||
+           (!cleared.empty() && (before.contains(p) || before.nearest(p).distance < kMissed - kThin));
+  };
   std::vector<std::vector<Edge>> missed;
   for (const geom::Curve& wall : piece.allowed.index.curves()) {
     const double pieces = std::max(1.0, std::ceil(length_of(wall.edge) / (kMissedPiece * piece.tool_radius)));
     for (double i = 0; i < pieces; ++i) {
       ask();
-      const Point middle = place_at(wall.edge, (i + 0.5) / pieces);
-      if (passes.are_near(middle)) continue;
-      if (!cleared.empty() && (before.contains(middle) || before.nearest(middle).distance < kMissed))
-        continue;
+      // The ends count too: of a blunt corner that a larger tool rounded its point alone stands.
       const Edge part = part_of(wall.edge, i / pieces, (i + 1) / pieces);
+      if (is_cut(part.from) && is_cut(place_at(part, 0.5)) && is_cut(part.to)) continue;
       if (missed.empty() || !(missed.back().back().to == part.from)) missed.emplace_back();
       missed.back().push_back(part);
     }

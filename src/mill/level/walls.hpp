@@ -14,8 +14,9 @@ namespace lekalo::mill {
 Result<void> cut_walls(ToolMotion& tool, Corners& corners, const Piece& piece,
                        const std::vector<geom::Point>& ends);
 
-/// Cuts some stretches of walls, the nearest first.
-void cut_stretches(ToolMotion& tool, const std::vector<Front>& walls, std::vector<std::size_t> which);
+/// Cuts some stretches of walls, the nearest first. \param rounded  those walls, whose corners are cut later
+void cut_stretches(ToolMotion& tool, const std::vector<Front>& walls, std::vector<std::size_t> which,
+                   const geom::RegionIndex& rounded);
 
 /// Cuts stretches of the walls that no pass came along, as the path shows. Time: O(walls * passes).
 /// \param cleared  where other tools have been
