@@ -4,8 +4,7 @@
 
 Runs the families of growth_families.py at n and at 2 n, or those named, and compares what the two cost in
 processor time of the command alone, the least of three runs where the first ones say too much. Without names
-those of QUICK are run, which hold; `all` runs every family, and of those not all hold yet
-(docs/measurements/verify.md). With --table it prints a line for each.
+those of QUICK are run; `all` runs every family (docs/measurements/verify.md). With --table it prints a line for each.
 """
 
 import os
