@@ -93,8 +93,9 @@ builds_agree() {
     (cd "$data/pockets" && "$root/build/$build/lekalo" pocket cover.json --tool 6 --stepover 20% --depth 4 \
       --stepdown 2 --feed-max 3000 -o "$out/agree-$build/cover.ngc" --json) |
       grep -v '"path":' >"$out/agree-$build/cover.json"
+    # Not all of the kits' pieces have room there (exit status 1).
     (cd "$data/layouts" && "$root/build/$build/lekalo" nest shoes.json --work 300000 \
-      -o "$out/agree-$build/nested.json")
+      -o "$out/agree-$build/nested.json") || [ "$?" -eq 1 ]
     # 200 sessions of 200 commands each: what they did, and replayed, as one number.
     LEKALO_CASES=5000 LEKALO_TIMES=1000 "$root/build/$build/tests/property_layout_commands" --gtest_filter='*Undone*' |
       grep '^digest' >"$out/agree-$build/sessions.txt"
