@@ -200,10 +200,7 @@ double CoverTree::grown_radius(const Vec& centre, double written) const {
   if (in && *in && through < written) through = grown_ball(problem_.part, problem_.growth, centre, written);
   // A centre beside the part is off its nearest point by this much, and the first rule holds for that point.
   const double to_part = in && *in ? 0 : nearest;
-  const double radius =
-      std::max(grown, in && *in ? through : (just(std::min(0.0, through)) - just(to_part)).low);
-  return radius < written ? std::max(radius, covered_ball(problem_.part, problem_.growth, centre, written))
-                          : radius;
+  return std::max(grown, in && *in ? through : (just(std::min(0.0, through)) - just(to_part)).low);
 }
 
 double CoverTree::off_cap(const Vec& point, const Cap& cap) const {

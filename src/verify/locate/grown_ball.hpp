@@ -20,10 +20,4 @@ namespace lekalo::verify {
 [[nodiscard]] double grown_ball(const Shape& part, const std::vector<double>& growth, const Vec& c,
                                 double wanted);
 
-/// Returns the same for any c, beside the part too, and 0 where no growth reaches into the ball. The ball is
-/// cut into sectors. Each must lie in the part's material, or one side's growth must reach all of it. So
-/// holes that are grown over count, and so does what is grown beyond a wall.
-[[nodiscard]] double covered_ball(const Shape& part, const std::vector<double>& growth, const Vec& c,
-                                  double wanted);
-
 }  // namespace lekalo::verify
