@@ -262,10 +262,11 @@ Result<void> Store::note_damage() {
 }
 
 void Store::make_reserve() const {
-  const int file = ::open((path_ + "-reserve").c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
+  const std::string path = path_ + "-reserve";
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
   if (file < 0) return;
   // Without room for all of it there is no reserve; a part of it would only be in the way.
-  if (posix_fallocate(file, 0, kReserveBytes) != 0) ::unlink((path_ + "-reserve").c_str());
+  if (posix_fallocate(file, 0, kReserveBytes) != 0) ::unlink(path.c_str());
   ::close(file);
 }
 
