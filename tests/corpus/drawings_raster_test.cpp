@@ -26,7 +26,7 @@
 // that is not where the drawing has it is told. A seeded draw of the drawings of the project and of
 // LEKALO_SHARED_DATA/drawings; LEKALO_CASES=1000 takes all. It prints a line for each.
 
-namespace lekalo {
+namespace lekalo::drawings_raster_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -194,4 +194,4 @@ TEST(DrawingsRaster, LayoutsAreWhereOthersDrawThem) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::drawings_raster_test

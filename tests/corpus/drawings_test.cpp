@@ -19,7 +19,7 @@
 #include "lekalo/io/text/sha256.hpp"
 #include "support/shared_data.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::drawings_test {
 namespace {
 
 struct Row {
@@ -33,7 +33,8 @@ const std::map<std::string, std::string> kOtherAreas{
     {"drawings/ezdxf/3dface.dxf", "a field between closed outlines, of which one line alone is drawn"},
     {"drawings/ezdxf/columns_R2018.dxf", "a frame whose end lies on a curve"},
     {"drawings/ezdxf/custom_blocks.dxf", "holes that touch the outline all around leave segments"},
-    {"drawings/ezdxf/multi_insert_with_attribs.dxf", "the oracle closes 15 of 25 flags: ends of the others lie beside their poles by rounding"},
+    {"drawings/ezdxf/multi_insert_with_attribs.dxf",
+     "the oracle closes 15 of 25 flags: ends of the others lie beside their poles by rounding"},
     {"drawings/ezdxf/text_alignments.dxf", "circles about crosses, in which ends lie on curves"},
     {"drawings/ezdxf/text_mirror_true_type_font.dxf", "frames whose ends lie on curves"},
     {"drawings/ezdxf/text_oblique_rotate.dxf", "frames whose ends lie on curves"},
@@ -155,4 +156,4 @@ TEST_F(Drawings, CoverWhatTheirCurvesEnclose) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::drawings_test

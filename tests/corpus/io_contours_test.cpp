@@ -15,7 +15,7 @@
 // Files of this folder, many written by a DXF library that is not ours (data/contours/generate.py), with what
 // must be found in them; each contour again in every position and writing.
 
-namespace lekalo {
+namespace lekalo::io_contours_test {
 namespace {
 
 const std::string kFolder = cases::source_dir() + "/tests/corpus/data/contours/";
@@ -157,4 +157,4 @@ TEST(IoCorpus, EachContourTrimsToItselfWithinRounding) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::io_contours_test

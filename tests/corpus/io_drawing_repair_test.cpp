@@ -14,7 +14,7 @@
 // Drawings of other programs, LEKALO_SHARED_DATA/drawings: what is enclosed is taken, no curve is lost, and
 // the loss is what was promised. Run alone it prints a line for each file.
 
-namespace lekalo::io {
+namespace lekalo::io::io_drawing_repair_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -91,4 +91,4 @@ TEST(IoDrawingRepair, NoCurveIsLostAndTheLossIsSmall) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_drawing_repair_test

@@ -14,7 +14,7 @@
 // lines and arcs, cubic and rational splines, ellipses, mirrored blocks, mirrored planes; inches, centimetres
 // and nothing said.
 
-namespace lekalo {
+namespace lekalo::io_drawings_test {
 namespace {
 
 struct Style {
@@ -68,4 +68,4 @@ TEST(IoDrawings, EveryFileOfTheCorpusIsHere) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::io_drawings_test

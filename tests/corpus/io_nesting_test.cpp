@@ -14,7 +14,7 @@
 #include "support/json.hpp"
 #include "support/shared_data.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::io_nesting_test {
 namespace {
 
 using cases::Json;
@@ -258,4 +258,4 @@ TEST_F(Nesting, WhatIsReadIsWrittenAndReadAgainAsItIs) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_nesting_test

@@ -13,7 +13,7 @@
 #include "support/json.hpp"
 #include "support/places.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::io_svg_test {
 namespace {
 
 const std::string kFolder = cases::source_dir() + "/tests/corpus/data/svg/";
@@ -134,4 +134,4 @@ TEST(SvgCorpus, ArcsStayArcsUnderMapsThatKeepCircles) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_svg_test

@@ -20,7 +20,7 @@
 #include "support/layout_documents.hpp"
 #include "support/places.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::layout_schema_test {
 namespace {
 
 using cases::Json;
@@ -114,4 +114,4 @@ TEST(LayoutSchema, RefusesWhatTheReaderRefuses) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::layout_schema_test

@@ -16,7 +16,7 @@
 #include "support/places.hpp"
 #include "support/shared_data.hpp"
 
-namespace lekalo {
+namespace lekalo::locate_own_outline_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,4 +82,4 @@ TEST(LocateOwnOutline, NorHaveThoseOfTheSharedDrawings) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::locate_own_outline_test

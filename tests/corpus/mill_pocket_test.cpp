@@ -11,7 +11,7 @@
 
 // The pockets whose figures docs/design/pocket.md gives, judged by the independent checker.
 
-namespace lekalo::mill {
+namespace lekalo::mill::mill_pocket_test {
 namespace {
 
 struct Case {
@@ -57,4 +57,4 @@ INSTANTIATE_TEST_SUITE_P(All, MeasuredPocket,
                          });
 
 }  // namespace
-}  // namespace lekalo::mill
+}  // namespace lekalo::mill::mill_pocket_test

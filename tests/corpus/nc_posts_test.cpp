@@ -15,7 +15,7 @@
 #include "support/shared_data.hpp"
 #include "verify/pocket/moved_program.hpp"
 
-namespace lekalo {
+namespace lekalo::nc_posts_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -69,4 +69,4 @@ TEST(NcPosts, VariantsAreRewrittenOrRefusedAsTheTableSays) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::nc_posts_test

@@ -9,7 +9,7 @@
 
 // Programs that were judged as if a word of theirs were not there, beside sound ones of the same pocket.
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_simulate_test {
 namespace {
 
 Result<SimulateReport> judged(const std::string& name) {
@@ -52,4 +52,4 @@ TEST(VerifySimulateAttack, SoundProgramsAreStillJudged) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_simulate_test

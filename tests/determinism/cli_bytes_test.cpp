@@ -1,7 +1,7 @@
 #include "e2e/cli_run.hpp"
 
 /// Same input, same bytes: of every file that a run writes, whenever and wherever it runs.
-namespace lekalo::test {
+namespace lekalo::test::cli_bytes_test {
 namespace {
 
 const Words kEverything{"-o",       "out.json",     "--certificate",  "out.cert", "--picture",
@@ -63,4 +63,4 @@ TEST(SameBytesOf, TheVerdict) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_bytes_test

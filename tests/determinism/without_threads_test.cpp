@@ -9,7 +9,7 @@
 
 /// This program is linked with src/base/parallel.cpp as it is without LEKALO_WITH_THREADS
 /// (tests/CMakeLists.txt), and the command as the build has it: what both write is the same bytes.
-namespace lekalo::test {
+namespace lekalo::test::without_threads_test {
 namespace {
 
 const fs::path kExamples = fs::path(cases::source_dir()) / "examples";
@@ -58,4 +58,4 @@ TEST(WithoutThreads, APocketItsJudgementAndItsModelAreTheSameBytes) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::without_threads_test

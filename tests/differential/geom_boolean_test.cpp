@@ -5,7 +5,7 @@
 #include "support/boolean_hard_cases.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::geom {
+namespace lekalo::geom::geom_boolean_test {
 namespace {
 
 using cases::HardKind;
@@ -151,4 +151,4 @@ TEST(BooleanAgainstRays, ATriangleTwoErrorsThickIsKept) {
 }
 
 }  // namespace
-}  // namespace lekalo::geom
+}  // namespace lekalo::geom::geom_boolean_test

@@ -10,7 +10,7 @@
 #include "lekalo/geom/region_index.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::geom {
+namespace lekalo::geom::geom_edge_distance_test {
 namespace {
 
 constexpr double kTurn = 6.283185307179586;
@@ -193,4 +193,4 @@ TEST(RegionIndexDifferential, AnArcThatMissesItsEndsReachesNoFurther) {
 }
 
 }  // namespace
-}  // namespace lekalo::geom
+}  // namespace lekalo::geom::geom_edge_distance_test

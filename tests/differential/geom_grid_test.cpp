@@ -16,7 +16,7 @@
 #include "support/grid_cases.hpp"
 #include "support/grid_oracle.hpp"
 
-namespace lekalo::geom {
+namespace lekalo::geom::geom_grid_test {
 namespace {
 
 /// Nearest multiples of 2^-52 to cosine and sine, by 300 bits.
@@ -172,4 +172,4 @@ TEST(Grid, TurnIsExactAtTheLimits) {
 }
 
 }  // namespace
-}  // namespace lekalo::geom
+}  // namespace lekalo::geom::geom_grid_test

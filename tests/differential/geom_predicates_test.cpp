@@ -13,7 +13,7 @@
 #include "support/exact_geometry.hpp"
 #include "support/near_degenerate.hpp"
 
-namespace lekalo {
+namespace lekalo::geom_predicates_test {
 namespace {
 
 using cases::PointKind;
@@ -188,4 +188,4 @@ TEST(PredicatesAgainstRationals, LocatePoint) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::geom_predicates_test

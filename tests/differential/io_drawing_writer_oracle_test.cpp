@@ -22,7 +22,7 @@
 // Written drawings as others see them: DXF as ezdxf and OGR do, SVG as svgelements does
 // (support/written_oracle.py, support/dxf_oracle.py, tools/setup.sh).
 
-namespace lekalo::io {
+namespace lekalo::io::io_drawing_writer_oracle_test {
 namespace {
 
 using cases::Json;
@@ -207,4 +207,4 @@ TEST(DrawingWriterOracle, SvgelementsFindsTheSameLengthsAndAreas) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_drawing_writer_oracle_test

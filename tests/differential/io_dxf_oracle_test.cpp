@@ -23,7 +23,7 @@
 // polylines); see support/dxf_oracle.py. Both come as Debian packages (tools/setup.sh); where one is missing
 // its comparison is skipped.
 
-namespace lekalo {
+namespace lekalo::io_dxf_oracle_test {
 namespace {
 
 using cases::Json;
@@ -171,4 +171,4 @@ TEST(IoDxfOracle, OgrFindsTheSameLengthsAndBoxesOnEachLayer) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::io_dxf_oracle_test

@@ -13,7 +13,7 @@
 
 // Random trees, written by the writer and by nlohmann/json, in whose layouts reports have stood since 0.1.
 
-namespace lekalo::io {
+namespace lekalo::io::io_json_writer_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -147,4 +147,4 @@ TEST(JsonWriterDifferential, AnyBytesBecomeTheUtf8ThatNlohmannMakesOfThem) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_json_writer_test

@@ -18,7 +18,7 @@
 
 // Exported drawings as ezdxf reads them: areas by layer against the outlines on the grid.
 
-namespace lekalo::io {
+namespace lekalo::io::io_layout_export_oracle_test {
 namespace {
 
 using cases::Json;
@@ -99,4 +99,4 @@ TEST(LayoutExportOracle, EzdxfFindsTheOutlinesOnTheirLayers) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_layout_export_oracle_test

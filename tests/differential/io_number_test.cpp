@@ -12,7 +12,7 @@
 
 // Reading of decimals against exact rationals.
 
-namespace lekalo {
+namespace lekalo::io_number_test {
 namespace {
 
 class Rational {
@@ -170,4 +170,4 @@ TEST(IoNumber, ShortDecimalsInAnyUnitAreTheNearestDoublesToo) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::io_number_test

@@ -17,7 +17,7 @@
 #include "support/grid_cases.hpp"
 #include "support/grid_oracle.hpp"
 
-namespace lekalo::layout {
+namespace lekalo::layout::layout_check_test {
 namespace {
 
 using geom::GridPoint;
@@ -278,4 +278,4 @@ TEST(LayoutCheck, FindsWhatTheDefinitionsSayAndEndsIt) {
 }
 
 }  // namespace
-}  // namespace lekalo::layout
+}  // namespace lekalo::layout::layout_check_test

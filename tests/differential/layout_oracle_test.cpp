@@ -30,7 +30,7 @@
 #include "support/places.hpp"
 #include "support/shared_data.hpp"
 
-namespace lekalo {
+namespace lekalo::layout_oracle_test {
 namespace {
 
 using cases::Json;
@@ -309,4 +309,4 @@ TEST(LayoutOracle, TheIndependentCheckerFindsTheSame) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::layout_oracle_test

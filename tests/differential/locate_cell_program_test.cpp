@@ -10,7 +10,7 @@
 #include "lekalo/base/random.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::locate {
+namespace lekalo::locate::locate_cell_program_test {
 namespace {
 
 TEST(CellProgram, BoundsWhatAGridFindsAndReachesIt) {
@@ -56,4 +56,4 @@ TEST(CellProgram, BoundsWhatAGridFindsAndReachesIt) {
 }
 
 }  // namespace
-}  // namespace lekalo::locate
+}  // namespace lekalo::locate::locate_cell_program_test

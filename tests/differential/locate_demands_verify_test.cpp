@@ -12,7 +12,7 @@
 #include "lekalo/verify/verify.hpp"
 #include "support/region_cases.hpp"
 
-namespace lekalo {
+namespace lekalo::locate_demands_verify_test {
 namespace {
 
 using locate::criterion_named;
@@ -164,4 +164,4 @@ TEST(LocateDemandsAndVerify, EveryBoundOfLargestAllowancesIsConfirmedAndNoHigher
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::locate_demands_verify_test

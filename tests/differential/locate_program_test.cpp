@@ -8,7 +8,7 @@
 #include "locate/convex/contact_program.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::locate {
+namespace lekalo::locate::locate_program_test {
 namespace {
 
 using geom::Point;
@@ -120,4 +120,4 @@ TEST(LocateConvex, IsTheBestOfADenseEnumerationOnThePublishedExamples) {
 }
 
 }  // namespace
-}  // namespace lekalo::locate
+}  // namespace lekalo::locate::locate_program_test

@@ -8,7 +8,7 @@
 #include "lekalo/verify/verify.hpp"
 #include "support/region_cases.hpp"
 
-namespace lekalo {
+namespace lekalo::locate_region_verify_test {
 namespace {
 
 io::LocateDocument document_of(const cases::RegionCase& one, const locate::RegionResult& result) {
@@ -32,8 +32,8 @@ io::LocateDocument document_of(const cases::RegionCase& one, const locate::Regio
 verify::LocateReport checked(const io::LocateDocument& document) {
   const std::string text = io::result_json(document);
   const std::string part = io::regions_json(document.part), blank = io::regions_json(document.blank);
-  const auto report =
-      verify::verify_locate({{"result.json", text}, {"part.json", part}, {"blank.json", blank}, std::nullopt});
+  const auto report = verify::verify_locate(
+      {{"result.json", text}, {"part.json", part}, {"blank.json", blank}, std::nullopt});
   EXPECT_TRUE(report.has_value()) << (report ? "" : report.error().message);
   return report.value_or(verify::LocateReport{});
 }
@@ -80,4 +80,4 @@ TEST(LocateRegionsAndVerify, TheCheckerConfirmsEveryRandomCase) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::locate_region_verify_test

@@ -20,7 +20,7 @@
 #include "support/grown_cases.hpp"
 #include "support/scan_cases.hpp"
 
-namespace lekalo {
+namespace lekalo::locate_thousand_test {
 namespace {
 
 using geom::BlankFromPart;
@@ -307,4 +307,4 @@ TEST(LocateThousand, TinyCasesAgreeWithBruteForce) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::locate_thousand_test

@@ -10,7 +10,7 @@
 #include "lekalo/verify/verify.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo {
+namespace lekalo::locate_verify_test {
 namespace {
 
 std::string contour_text(const geom::ConvexPolygon& polygon) {
@@ -121,4 +121,4 @@ TEST(LocateAndVerify, TheCheckerConfirmsThatAPartDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::locate_verify_test

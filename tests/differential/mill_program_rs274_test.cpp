@@ -17,7 +17,7 @@
 #include "support/pockets.hpp"
 #include "support/rs274.hpp"
 
-namespace lekalo::mill {
+namespace lekalo::mill::mill_program_rs274_test {
 namespace {
 
 const std::string kPocket =
@@ -173,4 +173,4 @@ TEST(MillProgramRs274, RampsAreEntriesForTheInterpreterToo) {
 }
 
 }  // namespace
-}  // namespace lekalo::mill
+}  // namespace lekalo::mill::mill_program_rs274_test

@@ -12,7 +12,7 @@
 #include "support/profile_parts.hpp"
 #include "support/rs274.hpp"
 
-namespace lekalo::nc {
+namespace lekalo::nc::nc_profile_rs274_test {
 namespace {
 
 using cases::Real;
@@ -109,4 +109,4 @@ TEST(NcProfileRs274, TheInterpreterCutsBesideEveryPart) {
 }
 
 }  // namespace
-}  // namespace lekalo::nc
+}  // namespace lekalo::nc::nc_profile_rs274_test

@@ -16,9 +16,10 @@
 #include "support/rs274_strange.hpp"
 #include "support/shared_data.hpp"
 
+namespace lekalo::nc_rs274_test {
 namespace {
 
-using namespace lekalo::nc;
+using namespace nc;
 
 constexpr double kTolerance = 2e-4;
 constexpr double kDegree = 0.017453292519943295;
@@ -414,3 +415,4 @@ TEST(NcRs274, SamplesOfLinuxcncAreRewrittenOrRefusedAsTheTableSays) {
 }
 
 }  // namespace
+}  // namespace lekalo::nc_rs274_test

@@ -6,7 +6,7 @@
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo::nest {
+namespace lekalo::nest::nest_nofit_test {
 namespace {
 
 using geom::GridPoint;
@@ -166,4 +166,4 @@ TEST(NoFit, KeepsEveryEdgeOfABorderOfVeryMany) {
 }
 
 }  // namespace
-}  // namespace lekalo::nest
+}  // namespace lekalo::nest::nest_nofit_test

@@ -13,7 +13,7 @@
 #include "support/grid_cases.hpp"
 #include "support/grid_oracle.hpp"
 
-namespace lekalo {
+namespace lekalo::phi_outline_relation_test {
 namespace {
 
 using geom::GridPoint;
@@ -208,4 +208,4 @@ TEST(OutlineRelation, GapsThatDoublesCannotTellFromTheDistance) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::phi_outline_relation_test

@@ -6,7 +6,7 @@
 
 #include "support/region_cases.hpp"
 
-namespace lekalo::phi {
+namespace lekalo::phi::phi_region_test {
 namespace {
 
 using geom::BlankFromPart;
@@ -78,4 +78,4 @@ TEST(RegionClearance, KnownDistances) {
 }
 
 }  // namespace
-}  // namespace lekalo::phi
+}  // namespace lekalo::phi::phi_region_test

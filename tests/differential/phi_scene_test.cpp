@@ -15,7 +15,7 @@
 #include "support/grid_cases.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo {
+namespace lekalo::phi_scene_test {
 namespace {
 
 using geom::GridPoint;
@@ -313,4 +313,4 @@ TEST(Scene, NudgesInLayoutsAreAnsweredAsByTheOutlinesAlone) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::phi_scene_test

@@ -10,7 +10,7 @@
 
 #include "lekalo/geom/double_double.hpp"
 
-namespace lekalo::geom {
+namespace lekalo::geom::trig_test {
 namespace {
 
 class Real {
@@ -84,4 +84,4 @@ TEST(Trig, DirectionAngleIsWithinTheStatedError) {
 }
 
 }  // namespace
-}  // namespace lekalo::geom
+}  // namespace lekalo::geom::trig_test

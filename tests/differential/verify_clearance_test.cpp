@@ -16,7 +16,7 @@
 #include "support/cases.hpp"
 #include "support/region_cases.hpp"
 
-namespace lekalo {
+namespace lekalo::verify_clearance_test {
 namespace {
 
 using Real = long double;
@@ -312,4 +312,4 @@ TEST(VerifyClearance, RingsAreKnownExactly) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::verify_clearance_test

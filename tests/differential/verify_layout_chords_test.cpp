@@ -10,7 +10,7 @@
 #include "support/layout_texts.hpp"
 #include "support/region_cases.hpp"
 
-namespace lekalo {
+namespace lekalo::verify_layout_chords_test {
 namespace {
 
 using cases::Json;
@@ -88,4 +88,4 @@ TEST(LayoutChordsDifferential, TheCheckerTakesTheChordsThatAreMadeAndNoOthers) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::verify_layout_chords_test

@@ -8,7 +8,7 @@
 #include "support/lattice_outlines.hpp"
 #include "verify/layout/grid_outline.hpp"
 
-namespace lekalo {
+namespace lekalo::verify_layout_relations_test {
 namespace {
 
 using geom::GridPoint;
@@ -160,4 +160,4 @@ TEST(LayoutRelationsDifferential, ManyOutlinesAreSetsOfCells) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::verify_layout_relations_test

@@ -12,7 +12,7 @@
 #include "support/boolean_cases.hpp"
 #include "support/region_cases.hpp"
 
-namespace lekalo {
+namespace lekalo::verify_lies_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -47,8 +47,7 @@ Json true_result(locate::Mirror mirror = locate::Mirror::no) {
 
 std::string first_finding(const Json& document) {
   const std::string text = document.dump();
-  const auto report =
-      verify::verify_locate(
+  const auto report = verify::verify_locate(
       {{"result.json", text}, {"part.json", part_file}, {"blank.json", blank_file}, std::nullopt});
   if (!report) return report.error().message;
   return report->findings.empty() ? "" : report->findings.front();
@@ -57,8 +56,7 @@ std::string first_finding(const Json& document) {
 /// refuted: a finding, or no document at all.
 bool is_refuted(const Json& document) {
   const std::string text = document.dump();
-  const auto report =
-      verify::verify_locate(
+  const auto report = verify::verify_locate(
       {{"result.json", text}, {"part.json", part_file}, {"blank.json", blank_file}, std::nullopt});
   return !report || report->verdict != verify::Verdict::confirmed;
 }
@@ -207,4 +205,4 @@ TEST_F(Lies, NothingCanBeLeftOut) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::verify_lies_test

@@ -11,10 +11,10 @@
 #include "support/places.hpp"
 #include "support/verify_cases.hpp"
 
+namespace lekalo::verify_recheck_test {
 namespace {
 
-using namespace lekalo;
-using namespace lekalo::verify_cases;
+using namespace verify_cases;
 using verify::Verdict;
 
 std::string temporary(const std::string& name, const std::string& text) {
@@ -202,3 +202,4 @@ TEST(VerifyRecheck, TheDefinitionInLongDoubleAgrees) {
 }
 
 }  // namespace
+}  // namespace lekalo::verify_recheck_test

@@ -15,7 +15,7 @@
 #include "support/rs274_strange.hpp"
 #include "verify/pocket/nc_moves.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_simulate_rs274_test {
 namespace {
 
 constexpr double kTolerance = 1e-4;  ///< in the program's unit, of which rs274 prints four decimals
@@ -30,9 +30,9 @@ class Comparison {
  public:
   explicit Comparison(const std::vector<Move>& moves, const std::string& program = "")
       : moves_(moves),
-        homes_(std::ranges::any_of(
-            std::array{"G28", "G30", "G53", "g28", "g30", "g53"},
-            [&](const char* word) { return program.find(word) != std::string::npos; })) {}
+        homes_(
+            std::ranges::any_of(std::array{"G28", "G30", "G53", "g28", "g30", "g53"},
+                                [&](const char* word) { return program.find(word) != std::string::npos; })) {}
 
   /// What differs first; empty when nothing does.
   std::string difference(const rs274::Run& run) {
@@ -171,4 +171,4 @@ TEST(VerifySimulateRs274, SamplesOfLinuxcncMoveAsTheInterpreterDoesOrAreRefused)
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_simulate_rs274_test

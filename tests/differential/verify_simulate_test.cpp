@@ -13,7 +13,7 @@
 
 // Against a raster: the same figures from thousands of discs along the path, counted.
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_simulate_test {
 namespace {
 
 constexpr double kPi = 3.141592653589793, kRadius = 3, kWidth = 40, kHeight = 30, kStep = 0.02;
@@ -201,4 +201,4 @@ TEST(VerifySimulateRaster, UnreachableSpotsAreThoseOfEveryNode) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_simulate_test

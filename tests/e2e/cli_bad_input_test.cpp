@@ -2,7 +2,7 @@
 
 /// Everything a person can do wrong, as a table: each case has its exit status, exactly one sentence on
 /// stderr that names the file and the place, and leaves every file as it was.
-namespace lekalo::test {
+namespace lekalo::test::cli_bad_input_test {
 namespace {
 
 struct BadInput {
@@ -293,4 +293,4 @@ INSTANTIATE_TEST_SUITE_P(Programs, BadInputs, testing::ValuesIn(program_cases())
 INSTANTIATE_TEST_SUITE_P(Surroundings, BadInputs, testing::ValuesIn(surroundings_cases()), test_name);
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_bad_input_test

@@ -6,7 +6,7 @@
 #include "support/places.hpp"
 
 /// `lekalo locate` with demands by feature, criteria, locked shifts, drawings and scans, as a person runs it.
-namespace lekalo::test {
+namespace lekalo::test::cli_demands_test {
 namespace {
 
 std::string example(const std::string& name) { return cases::source_dir() + "/examples/regions/" + name; }
@@ -266,4 +266,4 @@ TEST_F(Demands, AScanGivesWhatItProvesAndUnknownStretchesAreNoYes) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_demands_test

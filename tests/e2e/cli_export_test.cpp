@@ -6,7 +6,7 @@
 
 /// `lekalo export` for machines and other programs, as a person runs it. What is in the files is tested in
 /// tests/unit/io_layout_export_test.cpp and those of nc/profile.hpp.
-namespace lekalo::test {
+namespace lekalo::test::cli_export_test {
 namespace {
 
 using cases::add_part;
@@ -125,4 +125,4 @@ TEST(CliExport, TheProgramPassesOurOwnReaderAndLocate) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_export_test

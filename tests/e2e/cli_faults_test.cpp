@@ -10,7 +10,7 @@
 /// Every command with the N-th call to the system failing, for N = 1, 2, ... until the command runs to its
 /// end: disks that are full or broken, memory that is out. Whatever fails, the command ends by itself, with a
 /// sentence and a documented status; files are there whole or as they were, and never beside.
-namespace lekalo::test {
+namespace lekalo::test::cli_faults_test {
 namespace {
 
 using Files = std::map<std::string, std::string>;
@@ -217,4 +217,4 @@ TEST_P(SeveralFiles, AreThereTogetherOrNotAtAll) {
 INSTANTIATE_TEST_SUITE_P(Commands, SeveralFiles, testing::Values(commands().front()), name_of);
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_faults_test

@@ -9,7 +9,7 @@
 /// checker disagree cannot be brought about from outside: it would take a mistake in one of them. Their
 /// sameness is tested in tests/differential/layout_oracle_test.cpp, and lies to the checker in
 /// tests/property/verify_layout_test.cpp.
-namespace lekalo::test {
+namespace lekalo::test::cli_layout_test {
 namespace {
 
 using cases::add_part;
@@ -485,4 +485,4 @@ TEST(CliLayout, HelpAndCompletionKnowTheCommands) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_layout_test

@@ -2,7 +2,7 @@
 
 /// Numbers beyond the limits of docs/limits.md are a mistake of their file, with exit status 3, and never one
 /// of lekalo (4). Files of an attack on 0.1 that got 4 stand in tests/corpus/data/attack.
-namespace lekalo::test {
+namespace lekalo::test::cli_limits_test {
 namespace {
 
 struct Attack {
@@ -89,7 +89,8 @@ TEST(CliLimits, AWildPointOfAScanIsAnsweredWithABoundThatTheCheckerProves) {
   EXPECT_NE(ran.err.find("the checker proves"), std::string::npos) << ran.err;
   const Ran verified = run(folder.path(), {"verify", "r.json"});
   EXPECT_EQ(verified.status, 1);
-  EXPECT_NE(verified.err.find("not measured, and nothing is proved there"), std::string::npos) << verified.err;
+  EXPECT_NE(verified.err.find("not measured, and nothing is proved there"), std::string::npos)
+      << verified.err;
 }
 
 std::string test_name(const testing::TestParamInfo<Attack>& info) {
@@ -101,4 +102,4 @@ std::string test_name(const testing::TestParamInfo<Attack>& info) {
 INSTANTIATE_TEST_SUITE_P(Files, Attacks, testing::ValuesIn(attacks()), test_name);
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_limits_test

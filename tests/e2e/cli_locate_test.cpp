@@ -6,7 +6,7 @@
 #include "support/places.hpp"
 
 /// `lekalo locate` as a person runs it, on good input.
-namespace lekalo::test {
+namespace lekalo::test::cli_locate_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -539,4 +539,4 @@ TEST(Completion, BashUnderstandsItsScript) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_locate_test

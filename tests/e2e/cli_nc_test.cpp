@@ -5,7 +5,7 @@
 
 /// The NC program beside the placement: all three modes, what the result says about them, and when there is
 /// none.
-namespace lekalo::test {
+namespace lekalo::test::cli_nc_test {
 namespace {
 
 class Program3 : public testing::Test {
@@ -120,4 +120,4 @@ TEST_F(Program3, ExampleProgramIsRewrittenForItsBlank) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_nc_test

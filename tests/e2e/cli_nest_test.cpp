@@ -2,7 +2,7 @@
 #include "support/layout_texts.hpp"
 #include "support/places.hpp"
 
-namespace lekalo::test {
+namespace lekalo::test::cli_nest_test {
 namespace {
 
 using cases::add_part;
@@ -135,4 +135,4 @@ TEST(CliNest, WrongWordsAreRefused) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_nest_test

@@ -4,7 +4,7 @@
 
 #include "e2e/cli_run.hpp"
 
-namespace lekalo::test {
+namespace lekalo::test::cli_order_test {
 namespace {
 
 std::string square_svg(int side) {
@@ -185,4 +185,4 @@ TEST(CliOrder, GrainHoldsPartsAlongTheStock) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_order_test

@@ -11,7 +11,7 @@
 #include "support/pockets.hpp"
 
 /// `lekalo pocket` and `lekalo simulate` as a person runs them. How good a path is: tests/property/mill_*.
-namespace lekalo::test {
+namespace lekalo::test::cli_pocket_test {
 namespace {
 
 const std::string kPlate =
@@ -404,4 +404,4 @@ TEST(CliPocket, BadInputIsOneSentence) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_pocket_test

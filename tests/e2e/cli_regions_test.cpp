@@ -4,7 +4,7 @@
 #include "support/places.hpp"
 
 /// `lekalo locate` where a shape is more than a convex polygon, as a person runs it.
-namespace lekalo::test {
+namespace lekalo::test::cli_regions_test {
 namespace {
 
 std::string example(const std::string& name) { return cases::source_dir() + "/examples/regions/" + name; }
@@ -137,4 +137,4 @@ TEST(Regions, BadShapesAndOptionsAreRefusedInOneSentence) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_regions_test

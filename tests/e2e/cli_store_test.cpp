@@ -5,7 +5,7 @@
 #include "cli_run.hpp"
 #include "support/places.hpp"
 
-namespace lekalo::test {
+namespace lekalo::test::cli_store_test {
 namespace {
 
 const fs::path kData = fs::path(cases::source_dir()) / "tests/corpus/data";
@@ -142,4 +142,4 @@ TEST_F(StoreCommand, SaysWhatIsWrongWithTheCommandLine) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_store_test

@@ -1,7 +1,7 @@
 #include "e2e/cli_run.hpp"
 
 /// `lekalo verify` of what is no placement: layouts, reports, programs, exports.
-namespace lekalo::test {
+namespace lekalo::test::cli_verify_claims_test {
 namespace {
 
 const fs::path kOrders = fs::path(cases::source_dir()) / "examples/orders";
@@ -209,4 +209,4 @@ TEST_F(VerifyClaims, OtherFilesAreNamedInOneSentence) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_verify_claims_test

@@ -7,7 +7,7 @@
 
 /// `lekalo verify` of results by demands: what a result says of its demands, and what the file of features
 /// says, cannot be changed unseen.
-namespace lekalo::test {
+namespace lekalo::test::cli_verify_features_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -271,4 +271,4 @@ TEST_F(VerifyFeaturesAttack, EveryRowIsRefusedAndTheTruthIsNot) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_verify_features_test

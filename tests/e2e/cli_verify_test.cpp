@@ -1,7 +1,7 @@
 #include "e2e/cli_run.hpp"
 
 /// `lekalo verify`: a result that was not touched is confirmed, anything changed afterwards is refuted.
-namespace lekalo::test {
+namespace lekalo::test::cli_verify_test {
 namespace {
 
 class Verify : public testing::Test {
@@ -338,4 +338,4 @@ TEST_F(Verify, AnotherProgramUnderTheNameOfTheOriginalIsRefuted) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::cli_verify_test

@@ -5,7 +5,7 @@
 #include "support/xml.hpp"
 
 /// The pictures that `lekalo locate` writes, against the result document of the same run.
-namespace lekalo::test {
+namespace lekalo::test::picture_files_test {
 namespace {
 
 double number_in(const XmlDocument& svg, const std::string& kind) {
@@ -105,4 +105,4 @@ TEST(Picture, TakesCyrillicFileNames) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::picture_files_test

@@ -5,7 +5,7 @@
 #include "support/xml.hpp"
 
 /// The report and the table of allowances that `lekalo locate` writes, against the result of the same run.
-namespace lekalo::test {
+namespace lekalo::test::report_files_test {
 namespace {
 
 std::string region_example(const std::string& name) {
@@ -145,4 +145,4 @@ TEST(ReportFiles, OfOtherEndingsOrInTheWayOfOthersAreRefused) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::report_files_test

@@ -9,7 +9,7 @@
 #include "serve_client.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::test {
+namespace lekalo::test::serve_attack_test {
 namespace {
 
 /// A frame of a client, masked with zeros. \param first  its flags and what it is
@@ -214,4 +214,4 @@ TEST(ServeAttack, MemoryThatEndsLosesNothingThatWasAcknowledged) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::serve_attack_test

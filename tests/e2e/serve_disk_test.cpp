@@ -7,7 +7,7 @@
 
 #include "serve_client.hpp"
 
-namespace lekalo::test {
+namespace lekalo::test::serve_disk_test {
 namespace {
 
 class SmallDisk {
@@ -107,4 +107,4 @@ TEST(ServeDisk, AFullOneIsFreedFromThePage) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::serve_disk_test

@@ -11,7 +11,7 @@
 #include "serve_client.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::test {
+namespace lekalo::test::serve_starving_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -243,4 +243,4 @@ TEST(ServeStarving, WhoIsSlowLosesThePlace) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::serve_starving_test

@@ -14,7 +14,7 @@
 #include "serve_client.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::test {
+namespace lekalo::test::serve_test {
 namespace {
 
 /// Three corners about a place, so that any order of them is an outline.
@@ -692,4 +692,4 @@ TEST(Serve, SaysThatAStoreCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::serve_test

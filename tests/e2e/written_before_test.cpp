@@ -11,7 +11,7 @@
 #include "server/store/store.hpp"
 
 /// What lekalo 0.1 wrote (tests/corpus/data/written-0.1) is read, confirmed and opened as it was then.
-namespace lekalo::test {
+namespace lekalo::test::written_before_test {
 namespace {
 
 /// A copy of the files of 0.1, which commands may write into.
@@ -184,4 +184,4 @@ TEST_F(WrittenBefore, TheServerGoesOnWithTheLayoutOfAFileThatItKnows) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::written_before_test

@@ -11,7 +11,7 @@
 #include "lekalo/field/level_lines.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::field {
+namespace lekalo::field::field_arrival_test {
 namespace {
 
 using geom::Point;
@@ -321,4 +321,4 @@ TEST(SignedDistances, AreThoseOfLinesAndArcsThemselves) {
 }
 
 }  // namespace
-}  // namespace lekalo::field
+}  // namespace lekalo::field::field_arrival_test

@@ -12,7 +12,7 @@
 // The quadratic conjunction on a grid, where polynomials stand for far subtrees, against every segment at
 // every node; and the bounds it rests on.
 
-namespace lekalo::field {
+namespace lekalo::field::field_quadratic_test {
 namespace {
 
 using geom::Point;
@@ -155,4 +155,4 @@ TEST(QuadraticGrid, TheMixingFactorIsBounded) {
 }
 
 }  // namespace
-}  // namespace lekalo::field
+}  // namespace lekalo::field::field_quadratic_test

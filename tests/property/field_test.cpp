@@ -9,7 +9,7 @@
 #include "support/cases.hpp"
 #include "support/voxel_reader.hpp"
 
-namespace lekalo::field {
+namespace lekalo::field::field_test {
 namespace {
 
 constexpr FlozForm kForms[] = {FlozForm::normalised, FlozForm::algebraic};
@@ -203,4 +203,4 @@ TEST(VoxelImages, ValueAndGradientAreReadBackWithinTheStatedError) {
 }
 
 }  // namespace
-}  // namespace lekalo::field
+}  // namespace lekalo::field::field_test

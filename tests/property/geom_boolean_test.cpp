@@ -9,7 +9,7 @@
 #include "support/boolean_cases.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::geom {
+namespace lekalo::geom::geom_boolean_test {
 namespace {
 
 using cases::BooleanKind;
@@ -138,4 +138,4 @@ TEST_F(BooleanLaws, DoNotDependOnThePlace) {
 }
 
 }  // namespace
-}  // namespace lekalo::geom
+}  // namespace lekalo::geom::geom_boolean_test

@@ -14,7 +14,7 @@
 #include "support/grid_cases.hpp"
 #include "support/grid_oracle.hpp"
 
-namespace lekalo::geom {
+namespace lekalo::geom::geom_grid_region_test {
 namespace {
 
 constexpr std::int64_t mm = kGridPerMm;
@@ -210,4 +210,4 @@ TEST(GridRegion, CurvesThatCannotBeChordsAreRefused) {
 }
 
 }  // namespace
-}  // namespace lekalo::geom
+}  // namespace lekalo::geom::geom_grid_region_test

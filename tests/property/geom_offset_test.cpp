@@ -13,7 +13,7 @@
 #include "support/offset_check.hpp"
 #include "support/region_cases.hpp"
 
-namespace lekalo::geom {
+namespace lekalo::geom::geom_offset_test {
 namespace {
 
 using cases::BooleanKind;
@@ -309,4 +309,4 @@ TEST(Offset, ArcsWhoseEndsMissTheirCircleAreSweptAsTheyAreMeant) {
 }
 
 }  // namespace
-}  // namespace lekalo::geom
+}  // namespace lekalo::geom::geom_offset_test

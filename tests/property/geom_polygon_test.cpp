@@ -11,7 +11,7 @@
 #include "support/cases.hpp"
 #include "support/near_degenerate.hpp"
 
-namespace lekalo {
+namespace lekalo::geom_polygon_test {
 namespace {
 
 using geom::Point;
@@ -187,4 +187,4 @@ TEST(ConvexPolygonLaws, RefusesWhatIsNotStrictlyConvexOnceAround) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::geom_polygon_test

@@ -9,7 +9,7 @@
 
 #include "support/cases.hpp"
 
-namespace lekalo {
+namespace lekalo::geom_pose_test {
 namespace {
 
 using geom::Point;
@@ -76,4 +76,4 @@ TEST(PoseLaws, NothingIsTheIdentity) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::geom_pose_test

@@ -10,7 +10,7 @@
 #include "support/cases.hpp"
 #include "support/near_degenerate.hpp"
 
-namespace lekalo {
+namespace lekalo::geom_predicates_test {
 namespace {
 
 using geom::orientation;
@@ -136,4 +136,4 @@ TEST(PredicateLaws, ConvexPolygonsAreLocatedAsTheirSidesSay) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::geom_predicates_test

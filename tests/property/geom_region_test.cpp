@@ -8,7 +8,7 @@
 
 #include "lekalo/base/random.hpp"
 
-namespace lekalo::geom {
+namespace lekalo::geom::geom_region_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -81,4 +81,4 @@ TEST(RegionLaws, MakeRegionRefusesWhatIsNoContour) {
 }
 
 }  // namespace
-}  // namespace lekalo::geom
+}  // namespace lekalo::geom::geom_region_test

@@ -9,7 +9,7 @@
 #include "support/io_contours.hpp"
 #include "support/ring_distance.hpp"
 
-namespace lekalo {
+namespace lekalo::io_convex_test {
 namespace {
 
 using io_cases::GridPoint;
@@ -248,4 +248,4 @@ TEST(IoTrimProperty, TheTrimmedPolygonLiesInsideAndLosesWhatItSays) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::io_convex_test

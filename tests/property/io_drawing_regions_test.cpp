@@ -12,7 +12,7 @@
 #include "support/drawn.hpp"
 #include "support/drawn_region_cases.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::io_drawing_regions_test {
 namespace {
 
 using cases::canonical;
@@ -285,4 +285,4 @@ TEST(DrawingRegionsLaws, AnEllipseTakesFewArcs) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_drawing_regions_test

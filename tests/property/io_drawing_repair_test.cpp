@@ -16,7 +16,7 @@
 // exactly when it is in the clean plate, or something is set aside and it is in no region that the plate does
 // not have.
 
-namespace lekalo::io {
+namespace lekalo::io::io_drawing_repair_test {
 namespace {
 
 using cases::Sketch;
@@ -132,4 +132,4 @@ TEST(IoDrawingRepair, NoPointIsInARegionThatIsNotInTheCleanPlate) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_drawing_repair_test

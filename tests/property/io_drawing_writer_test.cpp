@@ -12,7 +12,7 @@
 
 // The laws of drawing_writer.hpp.
 
-namespace lekalo::io {
+namespace lekalo::io::io_drawing_writer_test {
 namespace {
 
 using cases::case_count;
@@ -392,4 +392,4 @@ TEST(DrawingWriterLaws, ExactArcsFindTheirEntitiesByHandle) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_drawing_writer_test

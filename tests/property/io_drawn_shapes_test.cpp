@@ -14,7 +14,7 @@
 // The bounds of src/io/drawn_shapes.hpp: points of the exact curve, in numbers with 64 bits of mantissa, lie
 // within the error of the curve in doubles, and its points within the error of the exact one.
 
-namespace lekalo::io {
+namespace lekalo::io::io_drawn_shapes_test {
 namespace {
 
 using geom::Edge;
@@ -226,4 +226,4 @@ TEST(IoDrawnShapes, DirectionsAreWithinTheirErrorAndQuartersAreExact) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_drawn_shapes_test

@@ -11,7 +11,7 @@
 #include "support/layout_documents.hpp"
 #include "support/stopwatch.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::io_layout_json_test {
 namespace {
 
 TEST(LayoutJson, WhatIsWrittenReadsBackEqual) {
@@ -135,4 +135,4 @@ TEST(LayoutJson, AHundredThousandPlacementsTakeLittleTime) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_layout_json_test

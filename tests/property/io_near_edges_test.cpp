@@ -10,7 +10,7 @@
 
 // How far an edge is from others, against many points of it.
 
-namespace lekalo::io {
+namespace lekalo::io::io_near_edges_test {
 namespace {
 
 using geom::Edge;
@@ -108,4 +108,4 @@ TEST(NearEdges, AnEdgeBesideSeveralIsAsFarAsItsFarthestPoint) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_near_edges_test

@@ -13,7 +13,7 @@
 #include "support/boolean_cases.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::io_shape_tree_test {
 namespace {
 
 using geom::Point;
@@ -278,4 +278,4 @@ TEST(ShapeTreeLaws, TheSameBytesGiveTheSameRegions) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_shape_tree_test

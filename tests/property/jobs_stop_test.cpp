@@ -30,7 +30,7 @@
 #include "support/places.hpp"
 #include "support/stopwatch.hpp"
 
-namespace lekalo::jobs {
+namespace lekalo::jobs::jobs_stop_test {
 namespace {
 
 File file(const std::string& name) {
@@ -211,4 +211,4 @@ TEST(JobsStop, ANestingThatIsStoppedKeepsAValidLayout) {
 }
 
 }  // namespace
-}  // namespace lekalo::jobs
+}  // namespace lekalo::jobs::jobs_stop_test

@@ -13,7 +13,7 @@
 #include "support/layout_cases.hpp"
 #include "support/layout_commands.hpp"
 
-namespace lekalo::layout {
+namespace lekalo::layout::layout_commands_test {
 namespace {
 
 using geom::GridPoint;
@@ -203,4 +203,4 @@ TEST(LayoutCommands, SlidingEndsWithinTwoStepsOfTheGap) {
 }
 
 }  // namespace
-}  // namespace lekalo::layout
+}  // namespace lekalo::layout::layout_commands_test

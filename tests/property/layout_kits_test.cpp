@@ -10,7 +10,7 @@
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo::layout {
+namespace lekalo::layout::layout_kits_test {
 namespace {
 
 struct Case {
@@ -153,4 +153,4 @@ TEST(LayoutKits, ManyThatCompeteAreCountedInNoTime) {
 }
 
 }  // namespace
-}  // namespace lekalo::layout
+}  // namespace lekalo::layout::layout_kits_test

@@ -9,7 +9,7 @@
 #include "lekalo/phi/region.hpp"
 #include "support/region_cases.hpp"
 
-namespace lekalo::locate {
+namespace lekalo::locate::locate_caps_test {
 namespace {
 
 using geom::BlankFromPart;
@@ -167,4 +167,4 @@ TEST(LocateCaps, WhatIsLockedStays) {
 }
 
 }  // namespace
-}  // namespace lekalo::locate
+}  // namespace lekalo::locate::locate_caps_test

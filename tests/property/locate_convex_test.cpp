@@ -11,7 +11,7 @@
 #include "lekalo/phi/convex.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::locate {
+namespace lekalo::locate::locate_convex_test {
 namespace {
 
 using geom::Point;
@@ -161,4 +161,4 @@ TEST(LocateConvexProperty, TheSameInputGivesTheSameBits) {
 }
 
 }  // namespace
-}  // namespace lekalo::locate
+}  // namespace lekalo::locate::locate_convex_test

@@ -12,7 +12,7 @@
 #include "lekalo/phi/region.hpp"
 #include "support/region_cases.hpp"
 
-namespace lekalo::locate {
+namespace lekalo::locate::locate_demands_test {
 namespace {
 
 using geom::BlankFromPart;
@@ -378,4 +378,4 @@ TEST_F(LocateDemands, NonsenseIsRefused) {
 }
 
 }  // namespace
-}  // namespace lekalo::locate
+}  // namespace lekalo::locate::locate_demands_test

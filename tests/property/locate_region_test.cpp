@@ -8,7 +8,7 @@
 
 #include "support/region_cases.hpp"
 
-namespace lekalo::locate {
+namespace lekalo::locate::locate_region_test {
 namespace {
 
 using geom::BlankFromPart;
@@ -66,4 +66,4 @@ TEST(LocateRegionProperty, IsReachedAndNotBeaten) {
 }
 
 }  // namespace
-}  // namespace lekalo::locate
+}  // namespace lekalo::locate::locate_region_test

@@ -11,7 +11,7 @@
 #include "support/boolean_cases.hpp"
 #include "support/scan_cases.hpp"
 
-namespace lekalo {
+namespace lekalo::locate_scan_test {
 namespace {
 
 using cases::RegionKind;
@@ -346,4 +346,4 @@ TEST(GuaranteedBlank, UnmeasuredStretchesAreNeverCounted) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::locate_scan_test

@@ -20,7 +20,7 @@
 
 // The source's method and its parts: fragments, tracing, pictures of the model.
 
-namespace lekalo::mill {
+namespace lekalo::mill::mill_floz_test {
 namespace {
 
 using geom::EdgeKind;
@@ -351,4 +351,4 @@ TEST(MillFeeds, WhatOfALinkCutsIsACut) {
 }
 
 }  // namespace
-}  // namespace lekalo::mill
+}  // namespace lekalo::mill::mill_floz_test

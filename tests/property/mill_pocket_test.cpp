@@ -25,7 +25,7 @@
 // The path, judged by the independent checker. Bounds stated here are those the path keeps today; what it is
 // to keep in the end stands in docs/design/pocket.md.
 
-namespace lekalo::mill {
+namespace lekalo::mill::mill_pocket_test {
 namespace {
 
 using pockets::circle;
@@ -507,4 +507,4 @@ TEST(PocketPath, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace lekalo::mill
+}  // namespace lekalo::mill::mill_pocket_test

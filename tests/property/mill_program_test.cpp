@@ -13,7 +13,7 @@
 // What is written is read back by the checker's own reader and lies on the path that was meant, for every
 // post and unit; and fewer motions are the same path.
 
-namespace lekalo::mill {
+namespace lekalo::mill::mill_program_test {
 namespace {
 
 using geom::EdgeKind;
@@ -239,4 +239,4 @@ TEST(MillProgram, ACornerStaysWhereItIs) {
 }
 
 }  // namespace
-}  // namespace lekalo::mill
+}  // namespace lekalo::mill::mill_program_test

@@ -16,7 +16,7 @@
 
 // Ramps where the path would meet too much at one depth, judged by the independent checker.
 
-namespace lekalo::mill {
+namespace lekalo::mill::mill_ramps_test {
 namespace {
 
 using Kind = PathMove::Kind;
@@ -133,4 +133,4 @@ TEST(MillRamps, RandomRampsCutWhatThePathCuts) {
 }
 
 }  // namespace
-}  // namespace lekalo::mill
+}  // namespace lekalo::mill::mill_ramps_test

@@ -15,7 +15,7 @@
 
 // Shallower passes ahead of what is too hot, judged by the independent checker.
 
-namespace lekalo::mill {
+namespace lekalo::mill::mill_relief_test {
 namespace {
 
 using Kind = PathMove::Kind;
@@ -139,4 +139,4 @@ TEST(MillRelief, RandomPocketsGetNoHotterAndStayCleared) {
 }
 
 }  // namespace
-}  // namespace lekalo::mill
+}  // namespace lekalo::mill::mill_relief_test

@@ -11,7 +11,7 @@
 #include "support/cases.hpp"
 #include "support/profile_parts.hpp"
 
-namespace lekalo::nc {
+namespace lekalo::nc::nc_profile_test {
 namespace {
 
 using cases::Real;
@@ -217,4 +217,4 @@ TEST(NcProfile, OurOwnReaderPassesEveryProgramUnchanged) {
 }
 
 }  // namespace
-}  // namespace lekalo::nc
+}  // namespace lekalo::nc::nc_profile_test

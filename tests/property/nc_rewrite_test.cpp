@@ -12,10 +12,11 @@
 #include "support/rs274_random.hpp"
 #include "support/rs274_reader.hpp"
 
+namespace lekalo::nc_rewrite_test {
 namespace {
 
 using lekalo::Random;
-using namespace lekalo::nc;
+using namespace nc;
 
 struct Pose {
   double x, y, theta;
@@ -163,3 +164,4 @@ TEST_F(NcRewrite, WritesTheFrameOfModeG68WithinTheBound) {
 }
 
 }  // namespace
+}  // namespace lekalo::nc_rewrite_test

@@ -6,7 +6,7 @@
 #include "nest/separator/box_list.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::nest {
+namespace lekalo::nest::nest_box_list_test {
 namespace {
 
 TEST(BoxList, FindsAllThatMeetAndNothingFurtherAway) {
@@ -56,4 +56,4 @@ TEST(BoxList, FindsAllThatMeetAndNothingFurtherAway) {
 }
 
 }  // namespace
-}  // namespace lekalo::nest
+}  // namespace lekalo::nest::nest_box_list_test

@@ -19,7 +19,7 @@
 #include "support/layout_cases.hpp"
 #include "support/places.hpp"
 
-namespace lekalo::nest {
+namespace lekalo::nest::nest_orders_test {
 namespace {
 
 using layout::Document;
@@ -397,4 +397,4 @@ TEST(NestOrders, NoZoneGoodEnoughIsSaid) {
 }
 
 }  // namespace
-}  // namespace lekalo::nest
+}  // namespace lekalo::nest::nest_orders_test

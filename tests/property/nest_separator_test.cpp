@@ -10,7 +10,7 @@
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo::nest {
+namespace lekalo::nest::nest_separator_test {
 namespace {
 
 /// Parts of whole millimetres at quarter turns on a strip.
@@ -323,4 +323,4 @@ TEST(Nest, PuzzlesClose) {
 }
 
 }  // namespace
-}  // namespace lekalo::nest
+}  // namespace lekalo::nest::nest_separator_test

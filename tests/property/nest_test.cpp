@@ -12,7 +12,7 @@
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo::nest {
+namespace lekalo::nest::nest_test {
 namespace {
 
 layout::Document small_order(std::size_t index) {
@@ -178,4 +178,4 @@ TEST(Placer, WhatItPlacesBreaksNoRule) {
 }
 
 }  // namespace
-}  // namespace lekalo::nest
+}  // namespace lekalo::nest::nest_test

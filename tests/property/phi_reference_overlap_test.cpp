@@ -10,7 +10,7 @@
 #include "support/cases.hpp"
 #include "support/grid_cases.hpp"
 
-namespace lekalo::phi {
+namespace lekalo::phi::phi_reference_overlap_test {
 namespace {
 
 using geom::GridPoint;
@@ -115,4 +115,4 @@ TEST(ReferenceOverlap, FragmentMissesOverlapsOfConvexParts) {
 }
 
 }  // namespace
-}  // namespace lekalo::phi
+}  // namespace lekalo::phi::phi_reference_overlap_test

@@ -15,7 +15,7 @@
 #include "support/grid_cases.hpp"
 #include "support/grid_oracle.hpp"
 
-namespace lekalo {
+namespace lekalo::phi_separation_test {
 namespace {
 
 using geom::GridPoint;
@@ -180,4 +180,4 @@ TEST(Separation, BringsPartsBackIntoMaterialWithHoles) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::phi_separation_test

@@ -9,7 +9,7 @@
 #include "lekalo/phi/convex.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo {
+namespace lekalo::reference_cases_test {
 namespace {
 
 TEST(Cases, TheKnownPoseHasThePromisedAllowance) {
@@ -118,4 +118,4 @@ TEST(ReferenceMethods, IpoptNeverReportsMoreThanTheExactClearance) {
 #endif
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::reference_cases_test

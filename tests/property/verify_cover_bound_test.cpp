@@ -10,7 +10,7 @@
 #include "support/cases.hpp"
 #include "verify/locate/cover_bound.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_cover_bound_test {
 namespace {
 
 struct Pair {
@@ -106,4 +106,4 @@ TEST(CoverBound, TermsOfSecondOrderAreNeeded) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_cover_bound_test

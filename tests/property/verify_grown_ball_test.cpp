@@ -11,7 +11,7 @@
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_grown_ball_test {
 namespace {
 
 Shape shape_of(const std::string& text) {
@@ -95,4 +95,4 @@ TEST(GrownBall, IsAsLargeAsItCanBeWhereNeighboursGrowDifferently) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_grown_ball_test

@@ -4,11 +4,12 @@
 
 #include "support/verify_cases.hpp"
 
+namespace lekalo::verify_laws_test {
 namespace {
 
-using namespace lekalo;
-using namespace lekalo::verify_cases;
+using namespace verify_cases;
 using verify::Verdict;
+using verify_cases::Random;
 
 /// Coordinates with three decimals, as texts times 10^exponent.
 std::string points_text(const std::vector<std::array<long, 2>>& thousandths, int exponent) {
@@ -172,3 +173,4 @@ TEST(VerifyLaws, ADentNeverGivesAndTakesAtMostItsDepth) {
 }
 
 }  // namespace
+}  // namespace lekalo::verify_laws_test

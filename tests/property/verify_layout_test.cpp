@@ -13,7 +13,7 @@
 #include "support/crowded_layouts.hpp"
 #include "support/layout_texts.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_layout_test {
 namespace {
 
 using cases::add_part;
@@ -153,4 +153,4 @@ TEST(VerifyLayoutProperty, ManyParts) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_layout_test

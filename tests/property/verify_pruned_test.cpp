@@ -21,9 +21,10 @@
 #include "verify/shape/shape.hpp"
 #include "verify/shape/shape_inside.hpp"
 
+namespace lekalo::verify_pruned_test {
 namespace {
 
-using namespace lekalo::verify;
+using namespace verify;
 using lekalo::cases::case_count;
 using lekalo::verify_cases::Random;
 
@@ -243,3 +244,4 @@ TEST(VerifyPruned, TheValueOfATreeIsThatOfItsNodes) {
 }
 
 }  // namespace
+}  // namespace lekalo::verify_pruned_test

@@ -17,9 +17,10 @@
 #include "verify/number/span.hpp"
 #include "verify/shape/shape.hpp"
 
+namespace lekalo::verify_span_test {
 namespace {
 
-using namespace lekalo::verify;
+using namespace verify;
 using lekalo::cases::case_count;
 using lekalo::verify_cases::Random;
 
@@ -198,3 +199,4 @@ TEST(VerifySpan, ADecimalLiesInItsSpanAndItsDoubleIsTheNearest) {
 }
 
 }  // namespace
+}  // namespace lekalo::verify_span_test

@@ -12,9 +12,9 @@
 #include "support/ring_distance.hpp"
 #include "support/stopwatch.hpp"
 
+namespace lekalo::allowance_contour_test {
 namespace {
 
-using namespace lekalo;
 using geom::Point;
 using geom::Ring;
 using locate::Placement;
@@ -204,3 +204,4 @@ TEST(PlacementShift, TakesTheShorterWayRound) {
 }
 
 }  // namespace
+}  // namespace lekalo::allowance_contour_test

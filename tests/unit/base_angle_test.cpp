@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace lekalo {
+namespace lekalo::base_angle_test {
 namespace {
 
 TEST(Angle, EveryConstantIsTheNearestDouble) {
@@ -17,4 +17,4 @@ TEST(Angle, EveryConstantIsTheNearestDouble) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::base_angle_test

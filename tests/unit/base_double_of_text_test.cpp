@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace lekalo {
+namespace lekalo::base_double_of_text_test {
 namespace {
 
 TEST(DoubleOfText, ReadsDecimalsToTheNearestDouble) {
@@ -33,4 +33,4 @@ TEST(DoubleOfText, RefusesWhatIsBeyondDoubles) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::base_double_of_text_test

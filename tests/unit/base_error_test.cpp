@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-namespace lekalo {
+namespace lekalo::base_error_test {
 namespace {
 
 Result<int> half(int n) {
@@ -91,4 +91,4 @@ TEST(PassedOn, AnErrorOfAnyKindGoesOn) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::base_error_test

@@ -23,7 +23,7 @@
 #include "verify/number/exact.hpp"
 #include "verify/shape/shape.hpp"
 
-namespace lekalo {
+namespace lekalo::base_limits_test {
 namespace {
 
 using cases::Json;
@@ -337,4 +337,4 @@ TEST(Limits, ThePageStatesThem) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::base_limits_test

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace lekalo {
+namespace lekalo::base_parallel_test {
 namespace {
 
 TEST(Parallel, EachNumberIsDoneOnce) {
@@ -45,4 +45,4 @@ TEST(Parallel, WhatIsThrownComesBackToTheCaller) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::base_parallel_test

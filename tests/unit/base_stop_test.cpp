@@ -9,7 +9,7 @@
 
 #include "lekalo/base/parallel.hpp"
 
-namespace lekalo {
+namespace lekalo::base_stop_test {
 namespace {
 
 /// Asks so often, and says how often it came back.
@@ -130,4 +130,4 @@ TEST(Stop, TheWorkOfAllThreadsCountsAndNoneOfAnother) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::base_stop_test

@@ -8,7 +8,7 @@
 #include "lekalo/locate/edge_allowance.hpp"
 #include "support/region_cases.hpp"
 
-namespace lekalo::test {
+namespace lekalo::test::edge_allowance_test {
 namespace {
 
 using cases::region_detail::circle;
@@ -182,4 +182,4 @@ TEST(MissingMaterial, IsNothingWhereThePartLiesInTheBlank) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::edge_allowance_test

@@ -4,7 +4,7 @@
 
 #include "lekalo/field/contour_model.hpp"
 
-namespace lekalo::field {
+namespace lekalo::field::field_r_function_test {
 namespace {
 
 Jet plain(double value) { return {value, {}}; }
@@ -56,4 +56,4 @@ TEST(RFunction, GradientsAreDerivatives) {
 }
 
 }  // namespace
-}  // namespace lekalo::field
+}  // namespace lekalo::field::field_r_function_test

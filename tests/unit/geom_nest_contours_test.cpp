@@ -8,7 +8,7 @@
 #include "support/cases.hpp"
 #include "support/stopwatch.hpp"
 
-namespace lekalo::geom {
+namespace lekalo::geom::geom_nest_contours_test {
 namespace {
 
 Contour square(double x, double y, double side) { return cases::boolean_rectangle(x, y, side, side); }
@@ -126,4 +126,4 @@ TEST(NestContours, RandomRegionsTakenApartComeTogetherAgain) {
 }
 
 }  // namespace
-}  // namespace lekalo::geom
+}  // namespace lekalo::geom::geom_nest_contours_test

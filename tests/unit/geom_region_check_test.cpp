@@ -4,7 +4,7 @@
 
 #include "lekalo/geom/same_outline.hpp"
 
-namespace lekalo::geom {
+namespace lekalo::geom::geom_region_check_test {
 namespace {
 
 Contour polygon(const std::vector<Point>& points) {
@@ -129,4 +129,4 @@ TEST(RegionCheck, SameOutlinesMayBeginAnywhereAndRunEitherWay) {
 }
 
 }  // namespace
-}  // namespace lekalo::geom
+}  // namespace lekalo::geom::geom_region_check_test

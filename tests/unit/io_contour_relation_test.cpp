@@ -6,7 +6,7 @@
 
 #include "io/drawing/contour_relation.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::io_contour_relation_test {
 namespace {
 
 using geom::Contour;
@@ -52,4 +52,4 @@ TEST(IoContourRelation, ALineWithinReachOfAnArcAtItsEndsOnlyDoesNotRunAlongIt) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_contour_relation_test

@@ -4,7 +4,7 @@
 #include "lekalo/io/contour/contour_file.hpp"
 #include "support/io_contours.hpp"
 
-namespace lekalo {
+namespace lekalo::io_contour_test {
 namespace {
 
 using Indices = std::vector<std::size_t>;
@@ -321,4 +321,4 @@ TEST(IoTrim, RefusesToleranceThatIsNone) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::io_contour_test

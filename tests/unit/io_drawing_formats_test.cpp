@@ -10,7 +10,7 @@
 #include "lekalo/io/formats/any_layout.hpp"
 #include "lekalo/io/formats/outline_file.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::io_drawing_formats_test {
 namespace {
 
 std::vector<FileFormat> all_formats() {
@@ -67,4 +67,4 @@ TEST(DrawingFormats, OutlinesAreReadByTheReaderThatTheEndingNames) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_drawing_formats_test

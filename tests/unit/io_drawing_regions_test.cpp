@@ -7,7 +7,7 @@
 #include "support/boolean_cases.hpp"
 #include "support/drawn.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::io_drawing_regions_test {
 namespace {
 
 using cases::Sketch;
@@ -384,4 +384,4 @@ TEST(DrawingRegions, SumsTheTolerancesUpOfEachCurve) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_drawing_regions_test

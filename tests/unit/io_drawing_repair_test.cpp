@@ -11,7 +11,7 @@
 
 // What make_regions does with drawings that have faults: mends, marks, and what it sets aside.
 
-namespace lekalo::io {
+namespace lekalo::io::io_drawing_repair_test {
 namespace {
 
 using cases::Sketch;
@@ -428,4 +428,4 @@ TEST(DrawingRepair, TheSizeOfRepairsIsANumberFromZeroOn) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_drawing_repair_test

@@ -16,7 +16,7 @@
 #include "lekalo/io/dxf/dxf.hpp"
 #include "support/drawn_curves.hpp"
 
-namespace lekalo {
+namespace lekalo::io_dxf_drawing_test {
 namespace {
 
 using geom::Edge;
@@ -724,4 +724,4 @@ TEST(IoDxfDrawing, WhatABlockScalesBeyondTheLimitIsSetAside) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::io_dxf_drawing_test

@@ -12,7 +12,7 @@
 #include "lekalo/disk/files.hpp"
 #include "lekalo/io/text/sha256.hpp"
 
-namespace lekalo {
+namespace lekalo::io_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -201,4 +201,4 @@ TEST(IoSha256, GivesThePublishedDigests) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::io_files_test

@@ -8,7 +8,7 @@
 
 #include "lekalo/io/text/words.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::io_json_writer_test {
 namespace {
 
 std::string sample(JsonLayout layout) {
@@ -126,4 +126,4 @@ TEST(AsciiJson, HoldsTheSameTextInEscapes) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_json_writer_test

@@ -2,7 +2,7 @@
 
 #include "io/drawing/layers.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::io_layer_words_test {
 namespace {
 
 Drawing drawing_of(std::vector<Layer> layers) {
@@ -46,4 +46,4 @@ TEST(LayerWords, NamesColoursAndLineTypesChoose) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_layer_words_test

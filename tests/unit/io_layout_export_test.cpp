@@ -18,7 +18,7 @@
 #include "support/layout_texts.hpp"
 #include "support/profile_parts.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::io_layout_export_test {
 namespace {
 
 using cases::add_part;
@@ -397,4 +397,4 @@ TEST(LayoutExport, LayoutsThatWillNotDoAreRefusedInOneSentence) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_layout_export_test

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace lekalo::io {
+namespace lekalo::io::io_layout_json_test {
 namespace {
 
 using cases::Json;
@@ -252,4 +252,4 @@ TEST(LayoutJson, RefusesTooManyPoints) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_layout_json_test

@@ -11,7 +11,7 @@
 #include "lekalo/disk/open_layout.hpp"
 #include "support/places.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::io_nesting_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -263,4 +263,4 @@ TEST(OpenLayout, TellsFilesApartByWhatIsInThem) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_nesting_files_test

@@ -2,7 +2,7 @@
 
 #include "lekalo/io/formats/order_table.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::io_order_table_test {
 namespace {
 
 TEST(OrderTable, ColumnsAreFoundByNameInAnyOrderAndCase) {
@@ -103,4 +103,4 @@ TEST(OrderTable, WordsOfAngles) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_order_table_test

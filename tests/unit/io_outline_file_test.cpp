@@ -10,7 +10,7 @@
 #include "support/io_contours.hpp"
 #include "support/scan_files.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::io_outline_file_test {
 namespace {
 
 const io_cases::GridRing kPlate{{0, 0}, {80, 0}, {80, 40}, {0, 40}};
@@ -259,4 +259,4 @@ TEST(PartFile, FormsAreToldApartByTheirContent) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_outline_file_test

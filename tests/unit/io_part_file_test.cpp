@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace lekalo::io {
+namespace lekalo::io::io_part_file_test {
 namespace {
 
 /// A page of 200 mm x 100 mm in millimetres, with nothing filled unless it is said.
@@ -135,4 +135,4 @@ TEST(PartFile, DamagedElementsAreOnTheListAndRefusedWhereItIsStrict) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_part_file_test

@@ -6,7 +6,7 @@
 #include "lekalo/io/contour/contour_file.hpp"
 #include "support/io_contours.hpp"
 
-namespace lekalo {
+namespace lekalo::io_refusal_test {
 namespace {
 
 using namespace std::string_literals;
@@ -295,4 +295,4 @@ TEST(IoRefusal, ManyLineEndsInOnePlaceAreRefusedInsteadOfSearchedForever) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::io_refusal_test

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
-namespace lekalo::io {
+namespace lekalo::io::io_region_json_test {
 namespace {
 
 constexpr const char* kKeyhole = R"({"name": "keyhole", "units": "mm",
@@ -59,4 +59,4 @@ TEST(RegionJson, SaysWhereAFileIsNoJson) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_region_json_test

@@ -7,7 +7,7 @@
 #include "lekalo/io/scan/scan_file.hpp"
 #include "support/scan_files.hpp"
 
-namespace lekalo {
+namespace lekalo::io_scan_test {
 namespace {
 
 using namespace std::string_literals;
@@ -203,4 +203,4 @@ TEST(ScanBlank, ErrorsOfTheGeometryNameTheFile) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::io_scan_test

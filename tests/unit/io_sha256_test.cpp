@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace lekalo::io {
+namespace lekalo::io::io_sha256_test {
 namespace {
 
 TEST(Sha256, GivesTheDigestsOfTheStandard) {
@@ -38,4 +38,4 @@ TEST(Sha256, IsThatOfAnotherProgramAroundTheEndsOfBlocks) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_sha256_test

@@ -10,7 +10,7 @@
 #include "support/boolean_cases.hpp"
 #include "support/places.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::io_shape_tree_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -298,4 +298,4 @@ TEST(ShapeTree, BracketsWithoutEndAreRefused) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_shape_tree_test

@@ -7,7 +7,7 @@
 
 #include "support/drawn_measures.hpp"
 
-namespace lekalo::io {
+namespace lekalo::io::io_svg_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -506,4 +506,4 @@ TEST(SvgRefusals, NoOtherFileIsOpened) {
 }
 
 }  // namespace
-}  // namespace lekalo::io
+}  // namespace lekalo::io::io_svg_test

@@ -13,7 +13,7 @@
 #include "support/json.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo::jobs {
+namespace lekalo::jobs::jobs_layout_test {
 namespace {
 
 using cases::Json;
@@ -130,4 +130,4 @@ TEST(JobsExport, GivesEveryForm) {
 }
 
 }  // namespace
-}  // namespace lekalo::jobs
+}  // namespace lekalo::jobs::jobs_layout_test

@@ -13,7 +13,7 @@
 #include "support/json.hpp"
 #include "support/places.hpp"
 
-namespace lekalo::jobs {
+namespace lekalo::jobs::jobs_locate_test {
 namespace {
 
 const io_cases::GridRing kPart{{0, 0}, {80, 0}, {80, 40}, {0, 40}};
@@ -280,4 +280,4 @@ TEST(JobsLocate, ErrorsNameTheFileAndThePlace) {
 }
 
 }  // namespace
-}  // namespace lekalo::jobs
+}  // namespace lekalo::jobs::jobs_locate_test

@@ -12,7 +12,7 @@
 #include "lekalo/layout/check.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo::jobs {
+namespace lekalo::jobs::jobs_nest_test {
 namespace {
 
 using layout::Document;
@@ -158,4 +158,4 @@ TEST(JobsNest, AConfirmedLayoutPassesBothChecksAsItsBytes) {
 }
 
 }  // namespace
-}  // namespace lekalo::jobs
+}  // namespace lekalo::jobs::jobs_nest_test

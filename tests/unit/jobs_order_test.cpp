@@ -5,7 +5,7 @@
 #include "lekalo/jobs/nest.hpp"
 #include "lekalo/jobs/order.hpp"
 
-namespace lekalo::jobs {
+namespace lekalo::jobs::jobs_order_test {
 namespace {
 
 File drawing(const char* name, const char* shapes) {
@@ -131,4 +131,4 @@ TEST(JobsOrder, ItsLayoutIsNestedAndChecked) {
 }
 
 }  // namespace
-}  // namespace lekalo::jobs
+}  // namespace lekalo::jobs::jobs_order_test

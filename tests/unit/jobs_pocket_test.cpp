@@ -8,7 +8,7 @@
 #include "support/io_contours.hpp"
 #include "support/json.hpp"
 
-namespace lekalo::jobs {
+namespace lekalo::jobs::jobs_pocket_test {
 namespace {
 
 const std::string kPlate =
@@ -121,4 +121,4 @@ TEST(JobsPocket, WhatCannotBeIsRefused) {
 }
 
 }  // namespace
-}  // namespace lekalo::jobs
+}  // namespace lekalo::jobs::jobs_pocket_test

@@ -9,7 +9,7 @@
 #include "support/json.hpp"
 #include "support/places.hpp"
 
-namespace lekalo::jobs {
+namespace lekalo::jobs::jobs_verify_test {
 namespace {
 
 /// The files that a result names, without a disk.
@@ -124,4 +124,4 @@ TEST_F(JobsVerify, AProgramThatIsNotThereIsLeftOpenAndAPartIsAnError) {
 }
 
 }  // namespace
-}  // namespace lekalo::jobs
+}  // namespace lekalo::jobs::jobs_verify_test

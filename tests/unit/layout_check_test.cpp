@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace lekalo::layout {
+namespace lekalo::layout::layout_check_test {
 namespace {
 
 using geom::GridPoint;
@@ -250,4 +250,4 @@ TEST(LayoutCheck, OrderIsByStockCopyAndIds) {
 }
 
 }  // namespace
-}  // namespace lekalo::layout
+}  // namespace lekalo::layout::layout_check_test

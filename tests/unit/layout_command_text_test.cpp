@@ -6,7 +6,7 @@
 #include "lekalo/layout/session.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo::layout {
+namespace lekalo::layout::layout_command_text_test {
 namespace {
 
 constexpr std::int64_t mm = geom::kGridPerMm;
@@ -197,4 +197,4 @@ TEST(LayoutCommandText, EveryFaultIsNamed) {
 }
 
 }  // namespace
-}  // namespace lekalo::layout
+}  // namespace lekalo::layout::layout_command_text_test

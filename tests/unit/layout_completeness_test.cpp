@@ -8,7 +8,7 @@
 
 #include "support/layout_cases.hpp"
 
-namespace lekalo::layout {
+namespace lekalo::layout::layout_completeness_test {
 namespace {
 
 using cases::box_loop;
@@ -233,4 +233,4 @@ TEST(LayoutCompleteness, TheRemnantIsFreeAndTouchesSomethingOnEverySide) {
 }
 
 }  // namespace
-}  // namespace lekalo::layout
+}  // namespace lekalo::layout::layout_completeness_test

@@ -10,7 +10,7 @@
 #include "lekalo/layout/session.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo::layout {
+namespace lekalo::layout::layout_job_test {
 namespace {
 
 using cases::box_loop;
@@ -323,4 +323,4 @@ TEST(LayoutJob, APartThatComesBackStandsWhereItStoodAsFarAsTheOthersAreThere) {
 }
 
 }  // namespace
-}  // namespace lekalo::layout
+}  // namespace lekalo::layout::layout_job_test

@@ -12,7 +12,7 @@
 #include "lekalo/layout/check.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo::layout {
+namespace lekalo::layout::layout_session_test {
 namespace {
 
 using cases::box_loop;
@@ -573,4 +573,4 @@ TEST(LayoutSession, AStopAtAnyStepLeavesTheScenesAsTheyWere) {
 }
 
 }  // namespace
-}  // namespace lekalo::layout
+}  // namespace lekalo::layout::layout_session_test

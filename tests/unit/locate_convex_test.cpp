@@ -8,7 +8,7 @@
 #include "lekalo/phi/convex.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::locate {
+namespace lekalo::locate::locate_convex_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -242,4 +242,4 @@ TEST(LocateConvex, RefusesWhatHasNoMeaning) {
 }
 
 }  // namespace
-}  // namespace lekalo::locate
+}  // namespace lekalo::locate::locate_convex_test

@@ -11,7 +11,7 @@
 #include "lekalo/jobs/verify.hpp"
 #include "support/json.hpp"
 
-namespace lekalo {
+namespace lekalo::locate_criteria_test {
 namespace {
 
 using cases::Json;
@@ -188,4 +188,4 @@ TEST_F(Criteria, TheCheckerAndTheListUseTheSameWords) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::locate_criteria_test

@@ -10,7 +10,7 @@
 #include "support/cases.hpp"
 #include "support/scan_files.hpp"
 
-namespace lekalo {
+namespace lekalo::locate_scan_test {
 namespace {
 
 using locate::PointOrder;
@@ -268,4 +268,4 @@ TEST(GuaranteedBlank, GoesIntoTheCertifiedSearch) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::locate_scan_test

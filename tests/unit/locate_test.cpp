@@ -8,7 +8,7 @@
 
 #include "support/cases.hpp"
 
-namespace lekalo::locate {
+namespace lekalo::locate::locate_test {
 namespace {
 
 geom::Ring rectangle(double width, double height) {
@@ -213,4 +213,4 @@ TEST(Locate, AStoppedSearchHasAPlacementAndABound) {
 }
 
 }  // namespace
-}  // namespace lekalo::locate
+}  // namespace lekalo::locate::locate_test

@@ -11,7 +11,7 @@
 #include "mill/path/edge_path.hpp"
 #include "mill/path/mirror.hpp"
 
-namespace lekalo::mill {
+namespace lekalo::mill::mill_level_test {
 namespace {
 
 using geom::Edge;
@@ -142,4 +142,4 @@ TEST(MillLevel, AMirrorTurnsSidesAndDirections) {
 }
 
 }  // namespace
-}  // namespace lekalo::mill
+}  // namespace lekalo::mill::mill_level_test

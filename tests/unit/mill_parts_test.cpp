@@ -11,7 +11,7 @@
 #include "mill/path/arc_through.hpp"
 #include "mill/path/edge_path.hpp"
 
-namespace lekalo::mill {
+namespace lekalo::mill::mill_parts_test {
 namespace {
 
 using geom::Edge;
@@ -106,4 +106,4 @@ TEST(MillParts, NothingArrivesBehindAWall) {
 }
 
 }  // namespace
-}  // namespace lekalo::mill
+}  // namespace lekalo::mill::mill_parts_test

@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
+namespace lekalo::nc_decimal_test {
 namespace {
 
-using namespace lekalo::nc;
+using namespace nc;
 using lekalo::LengthUnit;
 
 std::string round_trip(std::string_view text) {
@@ -54,3 +55,4 @@ TEST(NcDecimal, WritesFixedDecimalsAndNoNegativeZero) {
 }
 
 }  // namespace
+}  // namespace lekalo::nc_decimal_test

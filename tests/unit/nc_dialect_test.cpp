@@ -23,7 +23,7 @@
 // A post is a value. Both writers of programs take one that nobody registered, and whatever lists the posts
 // lists those of the library.
 
-namespace lekalo::nc {
+namespace lekalo::nc::nc_dialect_test {
 namespace {
 
 /// A control that nobody has, unlike the others in everything in which posts may differ.
@@ -244,4 +244,4 @@ TEST(NcDialect, TheDocsNamePostsThatThereAre) {
 }
 
 }  // namespace
-}  // namespace lekalo::nc
+}  // namespace lekalo::nc::nc_dialect_test

@@ -6,7 +6,7 @@
 
 #include "support/profile_parts.hpp"
 
-namespace lekalo::nc {
+namespace lekalo::nc::nc_profile_test {
 namespace {
 
 using cases::box_contour;
@@ -219,4 +219,4 @@ TEST(NcProfile, ThePostsWriteTheirOwnWords) {
 }
 
 }  // namespace
-}  // namespace lekalo::nc
+}  // namespace lekalo::nc::nc_profile_test

@@ -7,9 +7,10 @@
 
 #include "lekalo/nc/rewrite.hpp"
 
+namespace lekalo::nc_refusal_test {
 namespace {
 
-using namespace lekalo::nc;
+using namespace nc;
 
 struct Case {
   const char* program;
@@ -368,3 +369,4 @@ TEST(NcRefusal, OfWhatOneModeCannotDo) {
 }
 
 }  // namespace
+}  // namespace lekalo::nc_refusal_test

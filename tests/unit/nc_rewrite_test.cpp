@@ -11,9 +11,10 @@
 
 #include "support/rs274_reader.hpp"
 
+namespace lekalo::nc_rewrite_test {
 namespace {
 
-using namespace lekalo::nc;
+using namespace nc;
 
 constexpr double kRight = 1.5707963267948966;
 constexpr double kDegree = 0.017453292519943295;
@@ -424,3 +425,4 @@ TEST(NcRequest, IsChecked) {
 }
 
 }  // namespace
+}  // namespace lekalo::nc_rewrite_test

@@ -12,7 +12,7 @@
 
 // A run that is stopped before it has anything places what it can by boxes.
 
-namespace lekalo::nest {
+namespace lekalo::nest::nest_columns_test {
 namespace {
 
 using layout::Document;
@@ -127,4 +127,4 @@ TEST(NestColumns, OrdersOfKitsAndStockThatIsNoRectangleAreLeft) {
 }
 
 }  // namespace
-}  // namespace lekalo::nest
+}  // namespace lekalo::nest::nest_columns_test

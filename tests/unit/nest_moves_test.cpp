@@ -9,7 +9,7 @@
 #include "nest/strand/strand.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo::nest {
+namespace lekalo::nest::nest_moves_test {
 namespace {
 
 /// Four squares of 10 mm, far apart on a strip 10 mm high.
@@ -180,4 +180,4 @@ TEST(Remnant, ACornerLeavesAllBeyondTheSmallestBox) {
 }
 
 }  // namespace
-}  // namespace lekalo::nest
+}  // namespace lekalo::nest::nest_moves_test

@@ -14,7 +14,7 @@
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo::nest {
+namespace lekalo::nest::nest_outer_outline_test {
 namespace {
 
 using geom::GridPoint;
@@ -118,4 +118,4 @@ TEST(OuterOutline, PartsOfThousandsOfCornersAreNestedByAllOfThem) {
 }
 
 }  // namespace
-}  // namespace lekalo::nest
+}  // namespace lekalo::nest::nest_outer_outline_test

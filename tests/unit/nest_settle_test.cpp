@@ -6,7 +6,7 @@
 #include "nest/exact/builder.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo::nest {
+namespace lekalo::nest::nest_settle_test {
 namespace {
 
 /// Squares of 10, 8 and 10 mm on a sheet of 40 x 10.
@@ -87,4 +87,4 @@ TEST_F(Squares, TheRestFindsAnotherPlace) {
 }
 
 }  // namespace
-}  // namespace lekalo::nest
+}  // namespace lekalo::nest::nest_settle_test

@@ -10,7 +10,7 @@
 #include "lekalo/phi/outline_relation.hpp"
 #include "phi/pair_memory.hpp"
 
-namespace lekalo {
+namespace lekalo::phi_scene_test {
 namespace {
 
 using geom::GridPoint;
@@ -160,4 +160,4 @@ TEST(PairMemory, KeepsWithinItsRoomAndStaysRight) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::phi_scene_test

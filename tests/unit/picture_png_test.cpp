@@ -5,7 +5,7 @@
 #include "lekalo/draw/picture.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::test {
+namespace lekalo::test::picture_png_test {
 namespace {
 
 draw::PictureOfRings& rings(draw::LocatePicture& picture) {
@@ -86,4 +86,4 @@ TEST(PicturePng, NamesMayHoldAnything) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::picture_png_test

@@ -17,7 +17,7 @@
 #include "support/stopwatch.hpp"
 #include "support/xml.hpp"
 
-namespace lekalo::test {
+namespace lekalo::test::picture_svg_test {
 namespace {
 
 using draw::LocatePicture;
@@ -434,4 +434,4 @@ TEST(PictureSvg, OfAHundredThousandPointsIsQuickAndSmall) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::picture_svg_test

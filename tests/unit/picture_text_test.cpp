@@ -12,7 +12,7 @@
 #include "lekalo/base/random.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::draw {
+namespace lekalo::draw::picture_text_test {
 using namespace io;
 namespace {
 
@@ -126,4 +126,4 @@ TEST(PictureColour, StepsCoverTheRangeEvenlyAndClamp) {
 }
 
 }  // namespace
-}  // namespace lekalo::draw
+}  // namespace lekalo::draw::picture_text_test

@@ -8,7 +8,7 @@
 #include "lekalo/phi/convex.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::locate {
+namespace lekalo::locate::reference_icp_test {
 namespace {
 
 const geom::Ring kWedge{{0, 0}, {80, 0}, {90, 20}, {60, 40}, {5, 30}};
@@ -114,4 +114,4 @@ TEST(LocateIcp, RefusesOptionsThatMeanNothing) {
 }
 
 }  // namespace
-}  // namespace lekalo::locate
+}  // namespace lekalo::locate::reference_icp_test

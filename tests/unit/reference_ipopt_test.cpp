@@ -9,7 +9,7 @@
 #include "locate/reference/ipopt_model.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::locate {
+namespace lekalo::locate::reference_ipopt_test {
 namespace {
 
 using Stage = NonlinearModel::Stage;
@@ -211,4 +211,4 @@ TEST(LocateIpopt, RefusesWhatItCannotDoInOneSentence) {
 #endif
 
 }  // namespace
-}  // namespace lekalo::locate
+}  // namespace lekalo::locate::reference_ipopt_test

@@ -6,7 +6,7 @@
 
 #include "lekalo/base/random.hpp"
 
-namespace lekalo {
+namespace lekalo::reference_random_test {
 namespace {
 
 TEST(Random, GivesThePublishedOutputsOfSplitmix64) {
@@ -63,4 +63,4 @@ TEST(Random, BelowGivesEveryNumberAboutAsOften) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::reference_random_test

@@ -9,7 +9,7 @@
 #include "lekalo/geom/predicates.hpp"
 #include "support/cases.hpp"
 
-namespace lekalo::locate {
+namespace lekalo::locate::reference_start_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -106,4 +106,4 @@ TEST(AngleWindow, IsRefusedWhenItRunsBackwardsOrIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace lekalo::locate
+}  // namespace lekalo::locate::reference_start_test

@@ -12,7 +12,7 @@
 #include "support/region_cases.hpp"
 #include "support/xml.hpp"
 
-namespace lekalo::test {
+namespace lekalo::test::report_test {
 namespace {
 
 using cases::region_detail::circle;
@@ -394,4 +394,4 @@ TEST(WrappedText, BreaksAtBlanksFitsEveryLineAndEndsInAnEllipsisWhereRoomEnds) {
 }
 
 }  // namespace
-}  // namespace lekalo::test
+}  // namespace lekalo::test::report_test

@@ -6,7 +6,7 @@
 
 #include "server/access.hpp"
 
-namespace lekalo::server {
+namespace lekalo::server::serve_access_test {
 namespace {
 
 constexpr const char* kToken = "0123456789abcdef0123456789abcdef";
@@ -87,4 +87,4 @@ TEST(Guesses, OfManyPeersTakeBoundedMemory) {
 }
 
 }  // namespace
-}  // namespace lekalo::server
+}  // namespace lekalo::server::serve_access_test

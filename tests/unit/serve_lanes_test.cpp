@@ -11,7 +11,7 @@
 
 #include "server/lanes.hpp"
 
-namespace lekalo::server {
+namespace lekalo::server::serve_lanes_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -191,4 +191,4 @@ TEST(Turns, AreDroppedWhenTheLanesHaveEnded) {
 }
 
 }  // namespace
-}  // namespace lekalo::server
+}  // namespace lekalo::server::serve_lanes_test

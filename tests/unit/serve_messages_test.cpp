@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace lekalo::server {
+namespace lekalo::server::serve_messages_test {
 namespace {
 
 TEST(Messages, AreReadWhateverTheOrderOfTheirFields) {
@@ -100,4 +100,4 @@ TEST(Targets, AreSplitAndDecodedOnce) {
 }
 
 }  // namespace
-}  // namespace lekalo::server
+}  // namespace lekalo::server::serve_messages_test

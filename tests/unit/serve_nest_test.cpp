@@ -7,7 +7,7 @@
 #include "server/nest_job.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo::server {
+namespace lekalo::server::serve_nest_test {
 namespace {
 
 /// A sheet of 100 with squares of 10 at (20, 40) and (60, 40), and six wanted in all.
@@ -97,4 +97,4 @@ TEST(NestJob, SaysWhatKeepsItFromBeginning) {
 }
 
 }  // namespace
-}  // namespace lekalo::server
+}  // namespace lekalo::server::serve_nest_test

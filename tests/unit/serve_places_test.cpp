@@ -7,7 +7,7 @@
 
 #include "server/places.hpp"
 
-namespace lekalo::server {
+namespace lekalo::server::serve_places_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -122,4 +122,4 @@ TEST_F(PlacesTest, HoldBoundedBytesAndWhoIsSlowGivesTheOwn) {
 }
 
 }  // namespace
-}  // namespace lekalo::server
+}  // namespace lekalo::server::serve_places_test

@@ -13,7 +13,7 @@
 #include "support/json.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo::server {
+namespace lekalo::server::serve_room_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -572,4 +572,4 @@ TEST(Outbox, DropsWhatAFreshLayoutSaysAndAsksForOneOnce) {
 }
 
 }  // namespace
-}  // namespace lekalo::server
+}  // namespace lekalo::server::serve_room_test

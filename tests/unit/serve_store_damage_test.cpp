@@ -11,7 +11,7 @@
 #include "support/places.hpp"
 #include "support/store_cases.hpp"
 
-namespace lekalo::server {
+namespace lekalo::server::serve_store_damage_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -315,4 +315,4 @@ TEST(StoreOnAFullDisk, ALayoutCanBeRemovedAndGivesItsRoomBack) {
 }
 
 }  // namespace
-}  // namespace lekalo::server
+}  // namespace lekalo::server::serve_store_damage_test

@@ -99,7 +99,7 @@ int unlink(const char* path) noexcept {
 }
 }
 
-namespace lekalo::server {
+namespace lekalo::server::serve_store_power_test {
 namespace {
 
 constexpr std::size_t kSector = 512;
@@ -268,4 +268,4 @@ TEST(StorePower, ALogThatIsNotFlushedWouldBeNoticed) {
 }
 
 }  // namespace
-}  // namespace lekalo::server
+}  // namespace lekalo::server::serve_store_power_test

@@ -18,7 +18,7 @@
 #include "support/layout_commands.hpp"
 #include "support/places.hpp"
 
-namespace lekalo::server {
+namespace lekalo::server::serve_store_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -433,4 +433,4 @@ TEST(ChangeText, IsExactAndRefusesEverythingElse) {
 }
 
 }  // namespace
-}  // namespace lekalo::server
+}  // namespace lekalo::server::serve_store_test

@@ -2,7 +2,7 @@
 
 #include "server/time_left.hpp"
 
-namespace lekalo::server {
+namespace lekalo::server::serve_time_left_test {
 namespace {
 
 TEST(TimeLeft, SaysNothingBeforeItKnowsAnything) {
@@ -40,4 +40,4 @@ TEST(TimeLeft, SaysNothingWhereNothingMoves) {
 }
 
 }  // namespace
-}  // namespace lekalo::server
+}  // namespace lekalo::server::serve_time_left_test

@@ -17,9 +17,10 @@
 #include "verify/number/span.hpp"
 #include "verify/read/json.hpp"
 
+namespace lekalo::verify_arithmetic_test {
 namespace {
 
-using namespace lekalo::verify;
+using namespace verify;
 using lekalo::verify_cases::Random;
 
 TEST(VerifyArithmetic, DecimalsAreReadExactly) {
@@ -333,3 +334,4 @@ TEST(VerifyArithmetic, JsonNests64DeepAndNoDeeper) {
 }
 
 }  // namespace
+}  // namespace lekalo::verify_arithmetic_test

@@ -8,7 +8,7 @@
 #include "support/lies.hpp"
 
 /// What the checker says of layouts and of reports about them, from bytes made by hand.
-namespace lekalo::verify {
+namespace lekalo::verify::verify_claims_test {
 namespace {
 
 using cases::Json;
@@ -389,4 +389,4 @@ TEST(VerifyClaims, FilesAreThoseThatTheReportNames) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_claims_test

@@ -12,7 +12,7 @@
 #include "support/lies.hpp"
 
 /// What the checker says of reports about programs, from bytes made by hand.
-namespace lekalo::verify {
+namespace lekalo::verify::verify_cut_report_test {
 namespace {
 
 using cases::Json;
@@ -623,4 +623,4 @@ TEST(VerifyCutReport, AProgramAloneKeepsItsWallsAndClearsItsPocket) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_cut_report_test

@@ -14,7 +14,7 @@
 #include "lekalo/verify/verify.hpp"
 #include "support/json.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_demands_test {
 namespace {
 
 using Tree = cases::Json;
@@ -553,4 +553,4 @@ TEST(VerifyDemands, TheBoundOfLargestAllowancesFollowsFromItsCertificate) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_demands_test

@@ -11,7 +11,7 @@
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/stretch.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_distance_test {
 namespace {
 
 Shape shape(const std::string& outer) {
@@ -212,4 +212,4 @@ TEST(VerifyDistance, ADiscInADisc) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_distance_test

@@ -8,7 +8,7 @@
 #include "verify/drawn/drawn_file.hpp"
 
 /// What the checker reads in an export, and that it refuses every word that lekalo does not write there.
-namespace lekalo::verify {
+namespace lekalo::verify::verify_drawn_files_test {
 namespace {
 
 std::string number(double value) { return fmt::format("{:.4g}", std::abs(value) < 1e-9 ? 0.0 : value); }
@@ -281,4 +281,4 @@ TEST(VerifyDrawnHpgl, WhatLekaloDoesNotWriteIsRefused) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_drawn_files_test

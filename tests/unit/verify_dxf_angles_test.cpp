@@ -6,7 +6,7 @@
 
 #include "verify/origin/drawing.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_dxf_angles_test {
 namespace {
 
 std::string drawing_of(const std::string& entity) {
@@ -54,4 +54,4 @@ TEST(VerifyDxfAngles, AnAngleWithThreeHundredDigitsIsReadAtOnce) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_dxf_angles_test

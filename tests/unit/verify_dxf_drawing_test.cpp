@@ -6,7 +6,7 @@
 #include "verify/origin/drawing.hpp"
 
 /// What the checker's own reader of DXF takes a drawing for, curve by curve.
-namespace lekalo::verify {
+namespace lekalo::verify::verify_dxf_drawing_test {
 namespace {
 
 using cases::drawn_cubics;
@@ -338,4 +338,4 @@ TEST(VerifyDxfDrawing, WhatStandsBehindTheEndOrASecondTimeIsNoDrawing) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_dxf_drawing_test

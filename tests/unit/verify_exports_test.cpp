@@ -10,7 +10,7 @@
 #include "support/layout_texts.hpp"
 
 /// Exports are held against their layout, outline by outline.
-namespace lekalo::verify {
+namespace lekalo::verify::verify_exports_test {
 namespace {
 
 using cases::add_part;
@@ -203,4 +203,4 @@ TEST(VerifyExports, APlotMayDeviateByHalfAUnitAndItsChords) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_exports_test

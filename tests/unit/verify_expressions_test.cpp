@@ -5,7 +5,7 @@
 #include "verify/pocket/nc_flow.hpp"
 
 /// What the checker computes of an expression in a program, and in which order it runs lines.
-namespace lekalo::verify {
+namespace lekalo::verify::verify_expressions_test {
 namespace {
 
 const NcVariables kSet{{"1", 5}, {"100", 7}, {"<A>", 3}, {"<_B>", 4}, {"3", 1}};
@@ -234,4 +234,4 @@ TEST(VerifyFlow, CommentsAndBlanksSayNothing) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_expressions_test

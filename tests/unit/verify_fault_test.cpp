@@ -9,7 +9,7 @@
 
 #include "lekalo/verify/verify.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_fault_test {
 namespace {
 
 std::string line(const std::string& from, const std::string& to) {
@@ -276,4 +276,4 @@ TEST(Touching, WhereFractionsDoNotHelpNothingIsClaimed) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_fault_test

@@ -7,7 +7,7 @@
 
 #include "verify/locate/feature_file.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_features_test {
 namespace {
 
 struct Reading {
@@ -97,4 +97,4 @@ TEST(VerifyFeatures, WhatIsNoFileOfFeaturesGetsASentence) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_features_test

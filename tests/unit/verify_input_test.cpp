@@ -7,10 +7,10 @@
 
 #include "support/verify_cases.hpp"
 
+namespace lekalo::verify_input_test {
 namespace {
 
-using namespace lekalo;
-using namespace lekalo::verify_cases;
+using namespace verify_cases;
 using verify::Verdict;
 
 const Case& example() {
@@ -371,3 +371,4 @@ TEST(VerifyInput, ACertificateFileMustBeOneAndAsLongAsTheResultSays) {
 }
 
 }  // namespace
+}  // namespace lekalo::verify_input_test

@@ -10,7 +10,7 @@
 
 #include "support/layout_texts.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_layout_test {
 namespace {
 
 using cases::add_part;
@@ -458,4 +458,4 @@ TEST(VerifyLayout, WhatIsNoLayout) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_layout_test

@@ -7,10 +7,10 @@
 
 #include "support/verify_cases.hpp"
 
+namespace lekalo::verify_locate_test {
 namespace {
 
-using namespace lekalo;
-using namespace lekalo::verify_cases;
+using namespace verify_cases;
 using verify::Verdict;
 
 void expect_verdict(Verdict verdict, const Files& files, const std::string& what) {
@@ -239,3 +239,4 @@ TEST(VerifyLocate, FindsEveryFalsifiedDigit) {
 }
 
 }  // namespace
+}  // namespace lekalo::verify_locate_test

@@ -10,7 +10,7 @@
 
 #include "verify/pocket/moved_program.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_moved_lines_test {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
@@ -303,4 +303,4 @@ TEST(VerifyMovedLines, AShiftAndATurnMakeTheFrame) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_moved_lines_test

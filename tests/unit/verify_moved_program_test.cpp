@@ -12,7 +12,7 @@
 #include "lekalo/nc/header.hpp"
 #include "lekalo/nc/rewrite.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_moved_program_test {
 namespace {
 
 using nc::RewriteMode;
@@ -186,4 +186,4 @@ TEST(VerifyMovedProgram, RefusesLinesThatAreTakenOutPutInOrExchanged) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_moved_program_test

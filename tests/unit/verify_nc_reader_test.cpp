@@ -11,7 +11,7 @@
 
 #include "verify/pocket/nc_program.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_nc_reader_test {
 namespace {
 
 using words::Control;
@@ -518,4 +518,4 @@ TEST(VerifyNcReader, NumbersAreReadAsTheyAreWritten) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_nc_reader_test

@@ -14,7 +14,7 @@
 #include "verify/number/interval.hpp"
 #include "verify/number/span.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_numbers_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -313,4 +313,4 @@ TEST(VerifyNumbers, QuotientsAndRootsOfSpansHoldTheirExtremes) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_numbers_test

@@ -12,7 +12,7 @@
 #include "verify/pocket/cut_path.hpp"
 #include "verify/pocket/stroke.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_paths_test {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
@@ -497,4 +497,4 @@ TEST(VerifySimulateOptions, AreWithinTheirBounds) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_paths_test

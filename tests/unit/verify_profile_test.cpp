@@ -9,7 +9,7 @@
 #include "verify/profile/profile_moves.hpp"
 
 /// What the checker reads in a profile program, and which cuts it accepts for a layout.
-namespace lekalo::verify {
+namespace lekalo::verify::verify_profile_test {
 namespace {
 
 std::string number(double value) { return fmt::format("{:.4g}", std::abs(value) < 1e-9 ? 0.0 : value); }
@@ -275,4 +275,4 @@ TEST(VerifyProfile, OneSheetIsCutByOneProgram) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_profile_test

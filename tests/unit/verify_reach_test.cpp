@@ -16,7 +16,7 @@
 #include "verify/pocket/pocket_reach.hpp"
 #include "verify/pocket/rim_cover.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_reach_test {
 namespace {
 
 constexpr double kPi = 3.141592653589793, kInfinity = std::numeric_limits<double>::infinity();
@@ -362,4 +362,4 @@ TEST(VerifyPocketReach, WhatIsNoPocketIsRefused) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_reach_test

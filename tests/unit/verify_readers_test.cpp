@@ -12,7 +12,7 @@
 #include "verify/read/fields.hpp"
 #include "verify/read/json.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_readers_test {
 namespace {
 
 std::string refusal(std::string_view json) {
@@ -473,4 +473,4 @@ TEST(VerifyReaders, InchesAreTurnedIntoMillimetresExactly) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_readers_test

@@ -12,7 +12,7 @@
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_regions_test {
 namespace {
 
 /// The file of a region as a result writes it.
@@ -448,4 +448,4 @@ TEST(VerifyRegions, TolerancesCountButForOneFile) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_regions_test

@@ -8,7 +8,7 @@
 #include "verify/read/json.hpp"
 
 /// When the checker agrees that measured points prove a blank to be material.
-namespace lekalo::verify {
+namespace lekalo::verify::verify_scan_check_test {
 namespace {
 
 std::string region(double low, double high) {
@@ -279,4 +279,4 @@ TEST(VerifyScanCheck, TheWordsOfAScanAreRead) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_scan_check_test

@@ -7,7 +7,7 @@
 #include "verify/origin/scan_points.hpp"
 
 /// What the checker's own reader of scans takes a file of points for.
-namespace lekalo::verify {
+namespace lekalo::verify::verify_scan_points_test {
 namespace {
 
 using cases::drawn_point;
@@ -166,4 +166,4 @@ TEST(VerifyScanPoints, AHeaderSaysWhatIsWrongAndWhere) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_scan_points_test

@@ -11,7 +11,7 @@
 #include "verify/shape/shape.hpp"
 #include "verify/shape/shape_distance.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_shape_reader_test {
 namespace {
 
 std::string line(const std::string& from, const std::string& to, const std::string& more = "") {
@@ -256,4 +256,4 @@ TEST(VerifyShapeReader, ShapesWithTheSameEdgesAreTheSameEitherWayRound) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_shape_reader_test

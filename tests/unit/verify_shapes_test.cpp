@@ -6,10 +6,10 @@
 
 #include "support/verify_cases.hpp"
 
+namespace lekalo::verify_shapes_test {
 namespace {
 
-using namespace lekalo;
-using namespace lekalo::verify_cases;
+using namespace verify_cases;
 using verify::Verdict;
 
 Points square(double low, double high) { return {{low, low}, {high, low}, {high, high}, {low, high}}; }
@@ -391,3 +391,4 @@ TEST(VerifyShapes, AlternativesAreCheckedLikeTheBest) {
 }
 
 }  // namespace
+}  // namespace lekalo::verify_shapes_test

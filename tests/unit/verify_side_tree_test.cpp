@@ -11,7 +11,7 @@
 
 // The checker's tree over boxes, against all boxes.
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_side_tree_test {
 namespace {
 
 Box random_box(Random& random) {
@@ -40,4 +40,4 @@ TEST(VerifySideTree, FindsWhatMeetsABoxAndWhatOverflowHasSpoiledEverywhere) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_side_tree_test

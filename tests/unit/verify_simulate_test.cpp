@@ -8,7 +8,7 @@
 
 #include "lekalo/verify/simulate.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_simulate_test {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
@@ -581,4 +581,4 @@ TEST(VerifySimulate, SomeLinesAloneGiveTheSameSamples) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_simulate_test

@@ -12,7 +12,7 @@
 #include "verify/shape/shape_distance.hpp"
 
 /// What the checker's own reader of SVG takes a drawing for, curve by curve.
-namespace lekalo::verify {
+namespace lekalo::verify::verify_svg_drawing_test {
 namespace {
 
 using cases::drawn_text;
@@ -524,4 +524,4 @@ TEST(VerifyXml, ElementsNestTo600Deep) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_svg_drawing_test

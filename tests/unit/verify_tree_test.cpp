@@ -12,7 +12,7 @@
 #include "verify/read/json.hpp"
 
 /// What the checker takes a tree of shapes for, and which regions it accepts as what the tree means.
-namespace lekalo::verify {
+namespace lekalo::verify::verify_tree_test {
 namespace {
 
 std::string told(const Tree& tree, std::size_t node) {
@@ -267,4 +267,4 @@ TEST(VerifyTree, EachOfManyHalfPlanesCounts) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_tree_test

@@ -12,7 +12,7 @@
 #include "lekalo/nc/rewrite.hpp"
 #include "verify/pocket/nc_moves.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_words_test {
 namespace {
 
 using words::Control;
@@ -370,4 +370,4 @@ TEST(VerifyWords, AHalfCircleByRadiusHasItsCentreInTheMiddle) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_words_test
