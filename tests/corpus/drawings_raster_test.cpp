@@ -34,7 +34,6 @@ using cases::Json;
 
 /// Drawings that the rasters show otherwise, or that the others cannot read, and why.
 const std::map<std::string, std::string> kOtherwise{
-    {"drawings/side.dxf", "ezdxf refuses an LWPOLYLINE without its subclass"},
     {"dxf/array-rotated.dxf", "ezdxf refuses an INSERT of scale 0 along z"},
     {"dxf/arrayed-holes.dxf", "ezdxf refuses an INSERT of scale 0 along z"},
     {"dxf/blocks2.dxf", "ezdxf refuses an INSERT of scale 0 along z"},
