@@ -23,6 +23,11 @@ locate::AngleWindow window_of(const LocateOptions& options) {
   return {from - kBound * std::abs(from), to + kBound * std::abs(to)};
 }
 
+/// A measured outline has crossings that no blank has, and is off by what nobody has said yet.
+constexpr const char* kLooksMeasured =
+    "it looks like a scan: --uncertainty MM says how well it was measured, and then the blank is proved from "
+    "it";
+
 /// Names an option that only convex outlines can have and that the job asks for; nullptr if there is none.
 const char* only_convex_has(const LocateJob& job) {
   if (job.options.method != LocateMethod::certified) return "--method ipopt or icp";
@@ -68,7 +73,13 @@ Result<void> read_outlines(const LocateJob& job, LocateInputs& in) {
                     convex_thing));
   for (const auto& [file, to, name] :
        {std::tuple{&part, &in.part, &job.part.name}, {&blank, &in.blank, &job.blank.name}}) {
-    LEKALO_TRY(*to, file->as_regions());
+    auto read = file->as_regions();
+    if (file == &blank && blank.looks_measured()) {
+      if (!read)
+        return failure(read.error().code, fmt::format("{}; {}", read.error().message, kLooksMeasured));
+      read->notices.push_back(fmt::format("{} is taken as exact; {}", *name, kLooksMeasured));
+    }
+    LEKALO_TRY(*to, std::move(read));
     if (!to->open.empty())
       return failure(
           ErrorCode::bad_input,

@@ -89,6 +89,8 @@ PLANTED = [
     ("docs/design/page.md", "", "\nIt is held by `LEKALO_CASES=9 unit_form`.\n", "no program is called unit_form"),
     ("docs/design/page.md", "--gap 1", "--gaps 1", "no program has an option --gaps; the nearest is --gap"),
     ("docs/design/page.md", "--gap 1", "--gap-of-others 1", "lekalo place has no option --gap-of-others"),
+    ("apps/cli/options.cpp", "", "\nconst char* const kHint = \"try --gaps\";\n",
+     "no command has an option --gaps; the nearest is --gap"),
     ("docs/design/page.md", "examples/part.csv", "examples/parts.csv",
      "the example examples/parts.csv does not exist; the nearest is examples/part.csv"),
     ("docs/design/page.md", "[1, 2]", "[1, ...]", "this is no JSON"),

@@ -329,9 +329,31 @@ def with_fences(lines):
         yield line, inside and not fence
 
 
-def options_of_command(lekalo, command):
-    told = subprocess.run([lekalo, command, "--help"], capture_output=True, text=True, check=False)
-    return set(OPTION.findall(told.stdout + told.stderr)) | {"--help"}
+def said(lekalo, *words):
+    told = subprocess.run([lekalo, *words], capture_output=True, text=True, check=False)
+    return told.stdout + told.stderr
+
+
+def options_of_command(lekalo, *command):
+    return set(OPTION.findall(said(lekalo, *command, "--help"))) | {"--help"}
+
+
+LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
+
+
+def check_messages(root, lekalo):
+    """Options that messages advise: some command takes each."""
+    commands = re.findall(r"^  ([a-z]+) ", said(lekalo, "--help").partition("Subcommands:")[2], re.M)
+    options = options_of_command(lekalo).union(*(options_of_command(lekalo, command) for command in commands))
+    for path in sources(root):
+        if not path.startswith(("src/", "apps/", "include/")):
+            continue
+        for number, line in enumerate(lines_of(root, path), 1):
+            for option in OPTION.findall(" ".join(LITERAL.findall(line.partition("// ")[0]))):
+                if option not in options:
+                    close = difflib.get_close_matches(option, options, 1, 0.7)
+                    hint = f"; the nearest is {close[0]}." if close else "."
+                    yield Finding(path, number, "option", f"no command has an option {option}{hint}")
 
 
 def check_json(root):
@@ -406,6 +428,8 @@ def references(root, lekalo=None, compiler=None):
     found = [finding for check in (check_links, check_files, check_files_of_comments, check_names, check_programs,
                                    check_options, check_json, check_quoted) for finding in check(root)]
     found += check_commands(root, lekalo)
+    if lekalo:
+        found += check_messages(root, lekalo)
     if compiler:
         found += check_cpp(root, compiler)
     return found

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
 
+#include "lekalo/base/random.hpp"
 #include "lekalo/io/formats/part_file.hpp"
 #include "support/boolean_cases.hpp"
 #include "support/io_contours.hpp"
@@ -199,6 +202,32 @@ TEST(OutlineFile, PointsThatAreNotConvexComeWithAdvice) {
   const ReadOutline read = outline_in(io_cases::csv(kDented, 0), "a.csv");
   ASSERT_EQ(read.notices.size(), 1U);
   EXPECT_NE(read.notices[0].find("a.csv is not convex and is taken as it is"), std::string::npos);
+}
+
+TEST(OutlineFile, PointsThatTurnToAndFroLookMeasured) {
+  const auto looks_measured = [](const std::string& bytes) {
+    return OutlineFile(bytes, "a.csv", {}).looks_measured();
+  };
+  const auto round = [](int count, double noise) {
+    std::string points;
+    Random random(7);
+    for (int k = 0; k < count; ++k) {
+      const double angle = 2 * std::numbers::pi * k / count, radius = 50 + noise * random.uniform(-1, 1);
+      points += fmt::format("{:.4f} {:.4f}\n", radius * std::cos(angle), radius * std::sin(angle));
+    }
+    return points;
+  };
+  EXPECT_TRUE(looks_measured(round(400, 0.02)));
+  EXPECT_FALSE(looks_measured(round(400, 0)));
+  EXPECT_FALSE(looks_measured(round(59, 2)));
+
+  std::string finger_joints, saw;
+  for (int k = 0; k < 40; ++k) {
+    finger_joints += fmt::format("{0} 0\n{0} 5\n{1} 5\n{1} 0\n", 10 * k, 10 * k + 5);
+    saw += fmt::format("{} 0\n{} 8\n", 10 * k, 10 * k + 5);
+  }
+  EXPECT_FALSE(looks_measured(finger_joints + "400 -90\n0 -90\n"));
+  EXPECT_FALSE(looks_measured(saw + "400 -90\n0 -90\n"));
 }
 
 TEST(OutlineFile, MeasuredPointsAreOfTheirOptionsOrEnding) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <set>
 
@@ -69,6 +70,36 @@ verify::Verdict verdict(const LocateJob& job, const Located& located) {
              });
   EXPECT_TRUE(done.has_value()) << (done ? "" : done.error().message);
   return done ? done->report.verdict : verify::Verdict::refuted;
+}
+
+/// Points every millimetre along the blank, which is dented by one or the other of two hundredths.
+std::string measured(double loop_at) {
+  std::string points;
+  for (int k = 0; k < 280; ++k) {
+    const double dent = 0.01 * (k * 7 % 3), s = k;
+    const auto [x, y] = s < 90    ? std::pair{100 + s, 100 + dent}
+                        : s < 140 ? std::pair{190 - dent, s + 10}
+                        : s < 230 ? std::pair{330 - s, 150 - dent}
+                                  : std::pair{100 + dent, 380 - s};
+    points += std::to_string(s == loop_at ? x - 1.5 : x) + "," + std::to_string(y) + "\n";
+  }
+  return points;
+}
+
+TEST(JobsLocate, AScanThatIsGivenAsAnOutlineIsRecognised) {
+  LocateJob job = region_job();
+  const auto hint = [](const std::string& text) {
+    return says(text, "looks like a scan: --uncertainty MM") && says(text, "blank.csv");
+  };
+  const auto hints = [&](const Located& located) {
+    const auto& warnings = located.document.warnings;
+    return std::count_if(warnings.begin(), warnings.end(), hint);
+  };
+  EXPECT_EQ(hints(made(job)), 0);
+  job.blank.bytes = measured(-1);
+  EXPECT_EQ(hints(made(job)), 1);
+  job.blank.bytes = measured(40);
+  EXPECT_TRUE(hint(refusal(job).message)) << refusal(job).message;
 }
 
 TEST(JobsLocate, BytesGoInAndAProvedDocumentComesOut) {

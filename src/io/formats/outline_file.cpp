@@ -281,6 +281,22 @@ bool OutlineFile::is_convex(bool only_convex_will_do) {
   return options_.layers.empty() && !options_.join && points();
 }
 
+bool OutlineFile::looks_measured() {
+  constexpr std::size_t kFewest = 60;  // a drawn outline of a few points may turn in any way
+  if (form_ != Form::points || !points() || points()->points.size() < kFewest) return false;
+  const geom::Ring& ring = points()->points;
+  std::size_t bends_back = 0;
+  int before = 0;
+  for (std::size_t k = 0; k + 2 < ring.size(); ++k) {
+    const geom::Point &a = ring[k], &b = ring[k + 1], &c = ring[k + 2];
+    const bool gentle = (b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y) > 0;
+    const int turn = gentle ? geom::orientation(a, b, c) : 0;
+    if (turn * before < 0) ++bends_back;
+    before = turn;
+  }
+  return 3 * bends_back >= ring.size();
+}
+
 Result<ReadOutline> OutlineFile::as_regions() {
   LEKALO_TRY(ReadOutline read, std::move(drawn()));
   drawn_.reset();

@@ -73,6 +73,10 @@ class OutlineFile {
   /// not convex.
   [[nodiscard]] bool is_convex(bool only_convex_will_do);
 
+  /// True for points that turn to and fro as measured ones do: at a third of them or more, the outline bends
+  /// back at the next point, and by less than a right angle, which teeth and joints do not.
+  [[nodiscard]] bool looks_measured();
+
   /// Returns the outline as regions of lines and arcs; bad_input where outlines cross or touch, with the
   /// place.
   [[nodiscard]] Result<ReadOutline> as_regions();
