@@ -376,6 +376,21 @@ TEST(DrawingWriterLaws, SvgIsReadByItsCurvesWhereTheyOrThePageWereChanged) {
   EXPECT_EQ(circle_of(cut).centre.x, 3);
 }
 
+// On a sheet of 3 m, lines of 0.2 mm were too fine for any screen.
+TEST(DrawingWriterLaws, LinesOfALargePageAreWideEnoughToBeSeen) {
+  const auto stroke = [](double side) {
+    const auto line = [](Point a, Point b) { return Edge{EdgeKind::line, a, b, {}}; };
+    const auto square = *geom::make_region({line({0, 0}, {side, 0}), line({side, 0}, {side, side}),
+                                            line({side, side}, {0, side}), line({0, side}, {0, 0})});
+    const std::string svg = *svg_drawing({{square, "CUT", {}}});
+    const std::size_t at = svg.find("stroke-width=\"") + 14;
+    return std::stod(svg.substr(at));
+  };
+  EXPECT_EQ(stroke(100), 0.2);
+  EXPECT_EQ(stroke(1000), 0.7);
+  EXPECT_EQ(stroke(3000), 2.1);
+}
+
 // A file whose exact numbers are beside other entities, or beside none.
 TEST(DrawingWriterLaws, ExactArcsFindTheirEntitiesByHandle) {
   const auto disc = *geom::make_region({{EdgeKind::arc_ccw, {1, 5}, {1, 5}, {1, 1}}});

@@ -25,7 +25,8 @@ using geom::Point;
 constexpr double kClearlyNoHalfTurn = 0x1p-8;
 /// A coordinate that rounding leaves this little below 0, mm, does not move the page.
 constexpr double kNoMatter = 0x1p-20;
-constexpr double kStrokeMm = 0.2;
+/// Lines are this wide, mm, or this share of the page, so that they are seen when all of it is on a screen.
+constexpr double kStrokeMm = 0.2, kStrokeOfPage = 0.0007;
 /// A wide arc is halved into half turns, and these once more into arcs that a radius tells.
 constexpr int kHalvings = 2;
 /// A line shorter than this share of its ends' coordinates is no line to a reader, because it is within the
@@ -58,6 +59,8 @@ class SvgWriter {
                     std::min(0.0, std::floor(drawing_.box.low.y + kNoMatter))};
     const Point high{std::max(low.x + 1, std::ceil(drawing_.box.high.x)),
                      std::max(low.y + 1, std::ceil(drawing_.box.high.y))};
+    const double page = std::max(high.x - low.x, high.y - low.y);
+    stroke_mm_ = std::max(kStrokeMm, std::round(10 * kStrokeOfPage * page) / 10);
     text_ = fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
         "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" version=\"1.1\" width=\"{0}mm\" "
@@ -97,7 +100,7 @@ class SvgWriter {
     append(
         "<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\" fill=\"none\" stroke=\"#{:06x}\" "
         "stroke-width=\"{}\">\n",
-        xml_text(drawing_.layers[layer]), drawing_.colours[layer].rgb, kStrokeMm);
+        xml_text(drawing_.layers[layer]), drawing_.colours[layer].rgb, stroke_mm_);
   }
 
   /// SVG counts y downwards.
@@ -192,6 +195,7 @@ class SvgWriter {
   }
 
   const WrittenDrawing& drawing_;
+  double stroke_mm_ = kStrokeMm;
   std::optional<std::size_t> open_layer_;
   std::string text_;
 };
