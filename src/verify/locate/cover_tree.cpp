@@ -1,5 +1,6 @@
 #include "cover_tree.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -30,7 +31,24 @@ Span radians(const Decimal& degrees) {
   return {angle.low_double(), angle.high_double()};
 }
 
+/// Growing a part joins points that are this share of the coordinates and growths apart, and the solver adds
+/// a little more than that to its bounds (edge_error in docs/design/boolean.md).
+constexpr double kJoined = 0x1p-39 * (1 - 0x1p-10);
+
+double largest_coordinate(const Shape& shape) {
+  return std::max({shape.high_x, -shape.low_x, shape.high_y, -shape.low_y});
+}
+
 }  // namespace
+
+CoverTree::CoverTree(const Problem& problem, std::vector<std::string>& findings)
+    : problem_(problem), findings_(findings), growth_(problem.growth) {
+  const double most = growth_.empty() ? 0 : *std::max_element(growth_.begin(), growth_.end());
+  if (!(most > 0)) return;
+  joined_ = kJoined * std::max(most, largest_coordinate(problem.part));
+  for (double& by : growth_)
+    if (by > 0) by = (just(by) + just(joined_)).low;
+}
 
 void CoverTree::check(Json tree, const std::string& path, std::string& complaint) {
   Fields fields(tree, path, complaint);
@@ -178,29 +196,58 @@ double CoverTree::part_radius(Json x, Json y, Json radius, const Vec& centre, do
   const auto known = part_radii_.find(key);
   if (known != part_radii_.end()) return known->second;
   const double inside =
-      problem_.growth.empty() ? signed_distance(centre, problem_.part).low : grown_radius(centre, written);
+      growth_.empty() ? signed_distance(centre, problem_.part).low : grown_radius(centre, written);
   const double real = std::min(std::max(0.0, written), inside);
   return part_radii_.emplace(key, real).first->second;
 }
 
-/// Returns a radius about the centre that surely lies in the grown part. A way from a point of the part to
-/// what is not in the grown part crosses a side, and then goes as far as that side is grown. A point beside
-/// the part can still be in what a side has grown to. The radius may be too small, never too large.
+/// Returns a radius about the centre that surely lies in the grown part, or minus a distance from which it
+/// has a point. A way from a point of the part to what is not in the grown part crosses a side, and then goes
+/// as far as that side is grown. The radius may be too small, never too large.
 double CoverTree::grown_radius(const Vec& centre, double written) const {
   const std::vector<Side>& sides = problem_.part.sides;
-  double through = kInfinity, nearest = kInfinity, grown = -kInfinity;
+  double through = kInfinity, grown = -kInfinity, nearest = kInfinity, in_rim = -kInfinity;
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const Span d = distance(centre, sides[k]);
-    const double by = problem_.growth[k];
+    const double by = growth_[k];
     through = std::min(through, (just(d.low) + just(by)).low);
     nearest = std::min(nearest, d.high);
-    if (by >= 0) grown = std::max(grown, (just(by) - just(d.high)).low);
+    if (by >= 0) {
+      grown = std::max(grown, (just(by) - just(d.high)).low);
+    } else {
+      in_rim = std::max(in_rim, (just(-by) - just(d.low)).high);
+    }
   }
   const std::optional<bool> in = holds(problem_.part, centre);
-  if (in && *in && through < written) through = grown_ball(problem_.part, problem_.growth, centre, written);
-  // A centre beside the part is off its nearest point by this much, and the first rule holds for that point.
-  const double to_part = in && *in ? 0 : nearest;
-  return std::max(grown, in && *in ? through : (just(std::min(0.0, through)) - just(to_part)).low);
+  const bool inside = in && *in;
+  double radius = inside && through >= 0 ? std::max(grown, through) : grown;
+  if (radius < written) radius = std::max(radius, grown_ball(problem_.part, growth_, centre, written));
+  if (radius < 0 && in_rim > -kInfinity)
+    radius = std::max(radius, -off_rims(centre, std::max(0.0, in_rim) + (inside ? 0 : nearest)));
+  return radius;
+}
+
+/// Returns a distance from the centre at which a point surely lies in the part's material and in no rim that
+/// is taken off. Such points are looked for from `least` on. Between two rims they are further than either is
+/// wide.
+double CoverTree::off_rims(const Vec& centre, double least) const {
+  constexpr int kDoublings = 6;
+  constexpr double kDirections[][2] = {
+      {1, 0},   {0.75, 0.75}, {0, 1},    {-0.75, 0.75}, {-1, 0},    {-0.75, -0.75}, {0, -1},   {0.75, -0.75},
+      {1, 0.5}, {0.5, 1},     {-0.5, 1}, {-1, 0.5},     {-1, -0.5}, {-0.5, -1},     {0.5, -1}, {1, -0.5}};
+  const auto in_no_rim = [&](const Vec& p) {
+    for (std::size_t k = 0; k < growth_.size(); ++k)
+      if (growth_[k] < 0 && !((just(distance(p, problem_.part.sides[k]).low) + just(growth_[k])).low >= 0))
+        return false;
+    return true;
+  };
+  double far = (1 + 0x1p-4) * least + 0x1p-48 * largest_coordinate(problem_.part);
+  for (int k = 0; k < kDoublings; ++k, far *= 2)
+    for (const auto& [x, y] : kDirections) {
+      const Vec p = centre + Vec{just(x), just(y)} * just(far);
+      if (in_no_rim(p) && holds(problem_.part, p) == true) return length(p - centre).high;
+    }
+  return kInfinity;
 }
 
 double CoverTree::off_cap(const Vec& point, const Cap& cap) const {
@@ -222,7 +269,9 @@ double CoverTree::blank_radius(Json x, Json y, Json radius, const Vec& centre, d
   const std::string key = fmt::format("{} {} {}", x.text, y.text, radius.text);
   const auto known = blank_radii_.find(key);
   if (known != blank_radii_.end()) return known->second;
-  const double real = std::min(std::max(0.0, written), -signed_distance(centre, problem_.blank).high);
+  const double empty = -signed_distance(centre, problem_.blank).high;
+  double real = std::min(std::max(0.0, written), empty);
+  if (joined_ > 0) real = (just(real) - just(joined_)).low;
   return blank_radii_.emplace(key, real).first->second;
 }
 

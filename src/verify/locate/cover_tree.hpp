@@ -50,8 +50,7 @@ class CoverTree {
     std::vector<double> growth = {};
     std::vector<Cap> caps = {};
   };
-  CoverTree(const Problem& problem, std::vector<std::string>& findings)
-      : problem_(problem), findings_(findings) {}
+  CoverTree(const Problem& problem, std::vector<std::string>& findings);
 
   /// Checks one tree; complaints about its form go to `complaint`, what it fails to prove to the findings.
   void check(Json tree, const std::string& path, std::string& complaint);
@@ -66,6 +65,7 @@ class CoverTree {
   bool read_leaf(Json contacts, std::vector<Term>& terms, std::string& complaint, const std::string& path);
   double part_radius(Json x, Json y, Json radius, const Vec& centre, double written);
   [[nodiscard]] double grown_radius(const Vec& centre, double written) const;
+  [[nodiscard]] double off_rims(const Vec& centre, double least) const;
   [[nodiscard]] double off_cap(const Vec& point, const Cap& cap) const;
   double material_radius(Json x, Json y, Json radius, const Vec& centre, double written);
   double blank_radius(Json x, Json y, Json radius, const Vec& centre, double written);
@@ -73,6 +73,11 @@ class CoverTree {
 
   const Problem& problem_;
   std::vector<std::string>& findings_;
+  /// The growths that the sides are taken to have, `joined_` more than theirs. Cracks narrower than twice
+  /// that are closed so, as those are that a growth leaves just closed, where rounding could prove nothing.
+  /// Every point is then within `joined_` of the grown part, and blank balls count as smaller by that.
+  std::vector<double> growth_;
+  double joined_ = 0;
   bool mirrored_ = false;
   std::size_t leaves_ = 0, failed_ = 0, cells_ = 0;
   /// The radii found so far, by the text of the ball.

@@ -2,143 +2,212 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <cmath>
+#include <optional>
 
+#include "lekalo/base/stop.hpp"
 #include "verify/number/span.hpp"
 #include "verify/shape/shape_distance.hpp"
+#include "verify/shape/shape_inside.hpp"
 #include "verify/shape/stretch.hpp"
 
 namespace lekalo::verify {
 namespace {
 
-/// One ball is looked at in at most this many pieces of sides.
-constexpr std::size_t kMostBallPieces = 256;
-/// A ball that is too large by no more than this, relatively, is made smaller at once.
-constexpr double kTouching = 1e-13;
-/// A piece is narrow enough when every corner's direction is off their mean by an angle with a cosine above
-/// it.
-constexpr double kNarrow = 0.9;
+/// For one ball at most this many pieces are looked at.
+constexpr std::size_t kMostPieces = 4096;
+/// A piece shorter than this share of the ball and its coordinates is not halved, because rounding would
+/// decide about its halves.
+constexpr double kShortest = 0x1p-47;
 
-/// The corners of a convex set.
-struct Hull {
-  std::array<Vec, 6> at;
-  std::size_t count = 0;
+double middle_of(Span a) { return 0.5 * a.low + 0.5 * a.high; }
+
+/// Returns half a circle, counter-clockwise from a direction to the opposite one.
+Side half_circle(const Vec& centre, const Vec& first, double radius) {
+  Side half;
+  half.arc = true, half.sweep = Sweep::half;
+  half.centre = centre, half.radius = just(radius);
+  half.first = first, half.last = -first;
+  half.from = centre + first * half.radius, half.to = centre - first * half.radius;
+  return half;
+}
+
+/// Returns an arc's parallel on a circle of another radius.
+Side with_radius(const Side& arc, Span radius) {
+  Side other = arc;
+  other.radius = {std::max(0.0, radius.low), radius.high};
+  other.ccw = true, other.off = 0;
+  other.from = arc.centre + arc.first * other.radius, other.to = arc.centre + arc.last * other.radius;
+  return other;
+}
+
+/// Encloses a point of the piece that is about as near to c as any.
+Vec nearest_point(const Side& piece, const Vec& c) {
+  if (piece.arc) {
+    const Vec enclosed = c - piece.centre;
+    // About the arc's centre every direction will do, and the enclosed one may be any.
+    const Vec out{just(middle_of(enclosed.x)), just(middle_of(enclosed.y))};
+    if (length(out).low > 0 && surely_faces(piece, out)) return piece.centre + unit(out) * piece.radius;
+    return length(piece.from - c).high < length(piece.to - c).high ? piece.from : piece.to;
+  }
+  const Vec along = piece.to - piece.from;
+  const double share = middle_of(dot(c - piece.from, along)) / middle_of(dot(along, along));
+  return share > 0 ? piece.from + along * just(std::min(share, 1.0)) : piece.from;
+}
+
+class GrownBall {
+ public:
+  GrownBall(const Shape& part, const std::vector<double>& growth, const Vec& c, double wanted)
+      : part_(part), c_(c), wanted_(wanted) {
+    for (std::size_t k = 0; k < part.sides.size(); ++k) {
+      const Side& side = part.sides[k];
+      const double apart = distance(c, side).low;
+      // A rim is taken to be wider by what the arc's ends miss its circle, so that it holds the true one.
+      const double by = growth[k] < 0 ? (just(-growth[k]) + just(side.off)).high : growth[k];
+      if (growth[k] < 0) {
+        rims_.push_back({k, by});
+      } else if (by > 0 && !((just(apart) - just(by)).low > wanted)) {
+        grown_.push_back({k, by});
+      }
+      if ((just(apart) - just(by)).low >= wanted) continue;
+      if (!(by > side.off)) add(side, Kind::side);
+      if (by > 0) add_parallels(side, by, growth[k] < 0 ? Kind::rim : Kind::growth);
+    }
+  }
+
+  double radius() {
+    if (!(wanted_ > 0) || !holds_middle()) return -kInfinity;
+    const double shortest = kShortest * (wanted_ + length(c_).high);
+    for (std::size_t looked = 0; !open_.empty(); ++looked) {
+      ask();
+      std::pop_heap(open_.begin(), open_.end(), farther);
+      const Piece piece = std::move(open_.back());
+      open_.pop_back();
+      const bool turns_far = piece.side.arc && piece.side.sweep != Sweep::less;
+      const Covered covered = turns_far ? Covered::partly : what_covers(piece);
+      if (covered == Covered::wholly) continue;
+      // No other piece is nearer.
+      if (covered == Covered::no || looked >= kMostPieces ||
+          (!turns_far && !(length(piece.side.to - piece.side.from).high > shortest)))
+        return piece.apart;
+      for (const Side& half : halves(piece.side)) add(half, piece.kind, piece.apart);
+    }
+    return wanted_;
+  }
+
+ private:
+  enum class Kind { side, growth, rim };
+  struct Piece {
+    Side side;
+    Kind kind = Kind::side;
+    double apart = 0;  ///< from c, at least
+  };
+  /// A side and the width of what it grows to, or of its rim.
+  struct Strip {
+    std::size_t side = 0;
+    double by = 0;
+  };
+  enum class Covered { no, partly, wholly };
+
+  static bool farther(const Piece& a, const Piece& b) { return a.apart > b.apart; }
+
+  /// \param least  a distance that the piece is known not to fall below
+  void add(const Side& side, Kind kind, double least = 0) {
+    double apart = std::max(least, distance(c_, side).low);
+    // Rounding hides the direction of a short line, and with it the distance from it.
+    if (!side.arc || side.sweep == Sweep::less)
+      apart = std::max(apart, (length(side.from - c_) - length(side.to - side.from) - just(side.off)).low);
+    if (apart >= wanted_) return;
+    open_.push_back({side, kind, apart});
+    std::push_heap(open_.begin(), open_.end(), farther);
+  }
+
+  /// Adds what holds all points whose distance from the side is `by`. A point of them whose nearest point is
+  /// an end of the side lies behind that end. A point further in than an arc's centre is nearest to an end.
+  void add_parallels(const Side& side, double by, Kind kind) {
+    if (side.arc) {
+      add(with_radius(side, side.radius + just(by)), kind);
+      if (const Span inner = side.radius - just(by); inner.high >= 0) add(with_radius(side, inner), kind);
+      if (side.sweep == Sweep::full) return;
+      add(half_circle(side.centre + side.first * side.radius, -side.first, by), kind);
+      add(half_circle(side.centre + side.last * side.radius, side.last, by), kind);
+      return;
+    }
+    const Vec along = side.to - side.from;
+    const Vec left = unit(Vec{-along.y, along.x});
+    add(side_between(side.from + left * just(by), side.to + left * just(by)), kind);
+    add(side_between(side.from - left * just(by), side.to - left * just(by)), kind);
+    add(half_circle(side.from, left, by), kind);
+    add(half_circle(side.to, -left, by), kind);
+  }
+
+  [[nodiscard]] bool may_reach(const Strip& strip, const Vec& p) const {
+    return gap(box_of(p), part_.tree->box(strip.side)) < strip.by &&
+           distance(p, part_.sides[strip.side]).high < strip.by;
+  }
+  /// Says whether every point of the piece is nearer to the strip's side than the strip is wide.
+  [[nodiscard]] bool reaches(const Strip& strip, const Side& piece, const Corners& corners) const {
+    const Side& side = part_.sides[strip.side];
+    return (just(farthest(piece, corners, side)) + just(side.off)).high < strip.by;
+  }
+  /// Says whether all of this, a point or a piece, is further from every rim's side than the rim is wide.
+  template <class Place>
+  [[nodiscard]] bool off_rims(const Place& place) const {
+    return std::all_of(rims_.begin(), rims_.end(), [&](const Strip& rim) {
+      const Side& side = part_.sides[rim.side];
+      return gap(box_of(place), part_.tree->box(rim.side)) > rim.by || distance(place, side).low > rim.by;
+    });
+  }
+
+  [[nodiscard]] bool holds_middle() const {
+    const auto reaches_middle = [&](const Strip& strip) {
+      const Side& side = part_.sides[strip.side];
+      return (just(distance(c_, side).high) + just(side.off)).high <= strip.by;
+    };
+    if (std::any_of(grown_.begin(), grown_.end(), reaches_middle)) return true;
+    const std::optional<bool> in = holds(part_, c_);
+    return in && *in && off_rims(c_);
+  }
+
+  /// Says whether the piece surely has no point on the grown part's outline. Where it may have, one of its
+  /// points that are nearest to c tells whether halving it is of any use.
+  Covered what_covers(const Piece& piece) {
+    const Corners corners = corners_of(piece.side);
+    const Vec nearest = nearest_point(piece.side, c_);
+    bool here = false;
+    for (std::vector<Strip>* strips : {&grown_, &rims_}) {
+      // A rim ends where it meets another one, and covers nothing else.
+      if (strips == &rims_ && piece.kind != Kind::rim) continue;
+      for (std::size_t k = 0; k < strips->size(); ++k) {
+        if (!may_reach((*strips)[k], nearest)) continue;
+        here = true;
+        if (!reaches((*strips)[k], piece.side, corners)) continue;
+        // The next piece is often covered by the same strip, which is asked first then.
+        std::swap((*strips)[0], (*strips)[k]);
+        return Covered::wholly;
+      }
+    }
+    const std::optional<bool> in = piece.kind == Kind::side ? std::nullopt : holds(part_, nearest);
+    // The outline of a rim is only that of the grown part where the rim is taken off material.
+    if (in && *in == (piece.kind == Kind::growth)) {
+      here = here || *in == false || off_rims(nearest);
+      if ((*in == false || off_rims(piece.side)) && distance(piece.side, part_).low > 0)
+        return Covered::wholly;
+    }
+    return here ? Covered::partly : Covered::no;
+  }
+
+  const Shape& part_;
+  const Vec& c_;
+  double wanted_;
+  std::vector<Strip> grown_, rims_;
+  std::vector<Piece> open_;  ///< a heap, the nearest first
 };
-
-/// Returns a distance that no point of the hull exceeds from the side.
-double farthest(const Hull& hull, const Side& side) {
-  // The distance from one point is a convex function, and so is the distance from a line: both are largest in
-  // a corner.
-  double to_point = kInfinity;
-  for (const Vec* end : {&side.from, &side.to}) {
-    double most = 0;
-    for (std::size_t i = 0; i < hull.count; ++i) most = std::max(most, length(hull.at[i] - *end).high);
-    to_point = std::min(to_point, (just(most) + just(side.off)).high);
-  }
-  if (!side.arc) {
-    double most = 0;
-    for (std::size_t i = 0; i < hull.count; ++i) most = std::max(most, distance(hull.at[i], side).high);
-    return std::min(to_point, most);
-  }
-  bool after = true, before = true;
-  Vec sum{just(0), just(0)};
-  for (std::size_t i = 0; i < hull.count; ++i) {
-    const Vec d = hull.at[i] - side.centre;
-    after = after && cross(side.first, d).low >= 0;
-    before = before && cross(d, side.last).low >= 0;
-    sum = sum + d;
-  }
-  const bool faces =
-      side.sweep == Sweep::full || (side.sweep == Sweep::more ? after || before : after && before);
-  if (!faces || !(length(sum).low > 0)) return to_point;
-  const Vec along = unit(sum);
-  double outside = 0, inside = 0;
-  for (std::size_t i = 0; i < hull.count; ++i) {
-    const Vec d = hull.at[i] - side.centre;
-    outside = std::max(outside, (length(d) - side.radius).high);
-    inside = std::max(inside, (side.radius - dot(d, along)).high);
-  }
-  return std::min(to_point, std::max(outside, inside));
-}
-
-/// Makes a hull of the points that lie beyond the piece on straight lines from c through it, up to `radius`
-/// from c. Returns false where the piece is too wide for that.
-///   With u_i the directions of the piece's corners, such a point is c + sum m_i u_i, m_i >= 0; it lies
-///   between the piece and where sum m_i = R; and its distance from c is at least (sum m_i) (least u_i . v)
-///   for every unit vector v.
-bool beyond(const Side& piece, const Vec& c, double radius, Hull& hull) {
-  const Corners corners = corners_of(piece);
-  std::array<Vec, 3> u;
-  Vec sum{just(0), just(0)};
-  hull.count = 0;
-  for (std::size_t i = 0; i < corners.count; ++i) {
-    const Vec d = corners.at[i] - c;
-    if (!(length(d).low > 0)) return false;
-    u[i] = unit(d), sum = sum + u[i];
-    hull.at[hull.count++] = corners.at[i];
-  }
-  if (!(length(sum).low > 0)) return false;
-  const Vec v = unit(sum);
-  double least = 1;
-  for (std::size_t i = 0; i < corners.count; ++i) least = std::min(least, dot(u[i], v).low);
-  if (!(least > kNarrow)) return false;
-  const Span far = just((just(radius) / just(least)).high);
-  for (std::size_t i = 0; i < corners.count; ++i) hull.at[hull.count++] = c + u[i] * far;
-  return true;
-}
 
 }  // namespace
 
 double grown_ball(const Shape& part, const std::vector<double>& growth, const Vec& c, double wanted) {
-  struct Piece {
-    Side side;
-    /// A way out through the piece is at least this long.
-    double by = 0, through = 0;
-  };
-  std::vector<Piece> open;
-  std::vector<std::size_t> covering;
-  double radius = wanted;
-  for (std::size_t k = 0; k < part.sides.size(); ++k) {
-    const double through = (just(distance(c, part.sides[k]).low) + just(growth[k])).low;
-    if (growth[k] < 0) {
-      radius = std::min(radius, through);
-    } else if (through < wanted) {
-      open.push_back({part.sides[k], growth[k], through});
-    }
-    if (growth[k] > 0 && (just(distance(c, part.sides[k]).low) - just(growth[k])).low <= wanted)
-      covering.push_back(k);
-  }
-  // The least way out so far through what is not covered.
-  double least = kInfinity;
-  for (std::size_t looked = 0; !open.empty(); ++looked) {
-    const Piece piece = open.back();
-    open.pop_back();
-    const double apart = distance(c, piece.side).low;
-    const double through = std::max(piece.through, (just(apart) + just(piece.by)).low);
-    if (through >= std::min(radius, least)) continue;
-    // The ball touches the side there, and only rounding says that it does not fit.
-    if (through >= radius - kTouching * (1 + radius)) {
-      radius = through;
-      continue;
-    }
-    const bool whole = piece.side.arc && piece.side.sweep != Sweep::less;
-    Hull hull;
-    bool covered = false;
-    if (!whole && apart > 2 * piece.side.off && beyond(piece.side, c, radius, hull)) {
-      // Lines through what joins an arc's end to its circle are off by its length, and by more as they go on.
-      const Span slack = just(2 * piece.side.off) * (just(1) + just(2 * radius) / just(apart));
-      covered = std::any_of(covering.begin(), covering.end(), [&](std::size_t k) {
-        return (just(farthest(hull, part.sides[k])) + slack).high <= growth[k];
-      });
-    }
-    if (covered) continue;
-    if (looked >= kMostBallPieces) {
-      least = through;
-      continue;
-    }
-    for (const Side& half : halves(piece.side)) open.push_back({half, piece.by, through});
-  }
-  return std::min(radius, least);
+  return GrownBall(part, growth, c, wanted).radius();
 }
 
 }  // namespace lekalo::verify

@@ -6,17 +6,15 @@
 
 namespace lekalo::verify {
 
-/// Returns how large a ball about c lies in the part grown by `growth`: up to `wanted`, and never more than
-/// the truth.
+/// Returns the radius, up to `wanted`, of a ball about c that surely lies in the grown part, and minus
+/// infinity where c itself does not surely lie in it. The grown part holds the part's material, without a rim
+/// along each side whose growth is negative, and all points that are no further from a side than its growth.
+/// The radius may be too small, never too large.
 ///
-/// A point q of the ball that is not in the grown part lies beyond a side, on a straight line from c. That
-/// side is grown by its own number. The sides beside it cover q as well, and cover more where they are grown
-/// by more. So a stretch of a side whose own growth is not enough is looked at in pieces. For each piece, one
-/// side's growth must reach all that lies beyond it within the ball.
-///
-/// \param growth  by how much each side is grown; where it is negative, a rim of that width is taken off
-/// along the side
-/// \pre c is surely in the part
+/// The area that a side grows to ends in parallels of the side and in half circles about its ends. These, the
+/// rims' parallels, and sides that do not grow hold the grown part's outline. So the ball is as large as the
+/// least distance of a piece of them that is not covered: one that does not surely lie within another side's
+/// growth, nor in the material. The nearest piece is looked at first, and halved where it is not covered.
 [[nodiscard]] double grown_ball(const Shape& part, const std::vector<double>& growth, const Vec& c,
                                 double wanted);
 
