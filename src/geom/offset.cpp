@@ -207,11 +207,11 @@ Result<BooleanResult> shrunk(const std::vector<Region>& regions, double distance
       outlines, [](const Winding& w) { return w[0] > 0 && w[1] <= 0; }, material.error);
 }
 
-/// Adds all points within `distance` of an edge, on the sides asked for.
-void add_rim(const Edge& edge, double distance, std::uint8_t operand, bool both_sides, Outlines& outlines) {
+/// Adds all points within `distance` of an edge.
+void add_rim(const Edge& edge, double distance, std::uint8_t operand, Outlines& outlines) {
   Brush brush(distance, operand, outlines);
   brush.sweep(edge);
-  if (both_sides) brush.sweep(reversed(edge));
+  brush.sweep(reversed(edge));
   if (is_circle(edge)) return;
   brush.disc(edge.from);
   brush.disc(edge.to);
@@ -228,13 +228,13 @@ Result<BooleanResult> offset_edges(const std::vector<Region>& regions, const std
   Outlines cut;
   cut.add(regions, 0);
   for (std::size_t k = 0; k < edges.size(); ++k)
-    if (distances[k] < 0) add_rim(*edges[k], -distances[k], 1, true, cut);
+    if (distances[k] < 0) add_rim(*edges[k], -distances[k], 1, cut);
   const auto rest = detail::overlay(cut, [](const Winding& w) { return w[0] > 0 && w[1] <= 0; });
   if (!rest) return rest;
   Outlines all;
   all.add(rest->regions, 0);
   for (std::size_t k = 0; k < edges.size(); ++k)
-    if (distances[k] > 0) add_rim(*edges[k], distances[k], 1, false, all);
+    if (distances[k] > 0) add_rim(*edges[k], distances[k], 1, all);
   return detail::overlay(
       all, [](const Winding& w) { return w[0] > 0 || w[1] > 0; }, rest->edge_error);
 }

@@ -74,6 +74,19 @@ TEST_F(Demands, WhatCannotBeMetIsProvedAndNamed) {
   EXPECT_EQ(verified(), 0);
 }
 
+/// The bore lies in the middle of a leg of 40, where what the two edges beside it demand just meets. With a
+/// little less a crack is left, which the growth closes.
+TEST_F(Demands, WhatJustClosesABoreIsProvedToBeMissing) {
+  for (const char* const minimum : {"20", "20.0000000001", "19.99999999985", "19.9999999997", "19.999"}) {
+    SCOPED_TRACE(minimum);
+    write_bytes(folder_ / "features.json",
+                R"({"units": "mm", "features": [{"name": "outline", "contour": 0, "minimum": )" +
+                    std::string(minimum) + "}]}");
+    EXPECT_EQ(located(bracket({"--features", "features.json"}), 1)["status"], "infeasible");
+    EXPECT_EQ(verified(), 0);
+  }
+}
+
 TEST_F(Demands, IgnoredRegionsDoNotCount) {
   // A pad over the end of the long leg: without it the part may go further that way.
   write_bytes(folder_ / "features.json",

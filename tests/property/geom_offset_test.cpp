@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "lekalo/geom/region_check.hpp"
+#include "lekalo/geom/region_index.hpp"
 #include "support/boolean_cases.hpp"
 #include "support/cases.hpp"
 #include "support/offset_check.hpp"
@@ -194,6 +195,29 @@ TEST(Offset, HolesClosePiecesMergeNecksPart) {
   EXPECT_EQ(grown(neck, -0.51).regions.size(), 2u);
   for (const double d : {-0.49, -0.5, -0.51, -2.0, 0.7, 2.0}) EXPECT_EQ(fault(neck, d), "") << d;
   EXPECT_TRUE(grown(neck, -2.01).regions.empty());
+}
+
+/// What a hole or an edge is grown by once ended at the wall beside it, because only the side without
+/// material was swept.
+TEST(OffsetEdges, ReachBeyondAWallThatIsThinnerThanTheDistance) {
+  const auto line = [](Point a, Point b) { return Edge{EdgeKind::line, a, b, {}}; };
+  const Contour outer{line({0, 0}, {100, 0}), line({100, 0}, {100, 40}), line({100, 40}, {0, 40}),
+                      line({0, 40}, {0, 0})};
+  const Point bore{50, 10};
+  const Regions plate{region(outer, {{{EdgeKind::arc_cw, {56, 10}, {56, 10}, bore}}})};
+  const auto covers = [](const Regions& regions, Point p) { return RegionIndex(regions).contains(p); };
+
+  const Regions by_bore = offset_edges(plate, {0, 0, 0, 0, 15}).value().regions;
+  EXPECT_TRUE(covers(by_bore, bore));
+  EXPECT_TRUE(covers(by_bore, {50, -10.999}));
+  EXPECT_FALSE(covers(by_bore, {50, -11.001}));
+  EXPECT_TRUE(covers(by_bore, {60, -8.46}));  // 10 and 18.46 from the middle: 20.99
+  EXPECT_FALSE(covers(by_bore, {60, -8.48}));
+  EXPECT_FALSE(covers(by_bore, {50, 40.001}));
+
+  const Regions by_top = offset_edges(plate, {0, 0, 50, 0, 0}).value().regions;
+  EXPECT_TRUE(covers(by_top, {50, -9.999}));
+  EXPECT_FALSE(covers(by_top, {50, -10.001}));
 }
 
 TEST(Offset, PiecesThatTouchOrOverlapCountAsTheirUnion) {

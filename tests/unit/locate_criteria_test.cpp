@@ -156,6 +156,30 @@ TEST_F(Criteria, DemandsThatCannotBeMetAreProvedWhateverTheirDigitsAre) {
   }
 }
 
+/// The minimum of 15 about the bore reaches 11 beyond the edge below it.
+TEST_F(Criteria, AMinimumLargerThanTheWallBesideItIsMet) {
+  job_.part.bytes = plate(), job_.blank.bytes = box(120, 60);
+  job_.features = jobs::File{
+      "f.json",
+      R"({"units": "mm", "minimum": 1, "features": [{"name": "bore", "contour": 1, "minimum": 15}]})"};
+  const auto made = jobs::locate(job_);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->document.status, "optimal");
+  EXPECT_NEAR(made->document.demands->margin, 4, 1e-3);
+  EXPECT_NEAR(made->document.placement.y, 15, 1e-3);
+
+  // What is missing counts beyond the wall too, and the checker agrees.
+  for (const char* const minimum : {"40", "100", "3600", "10000", "100000"}) {
+    job_.features->bytes =
+        std::string(
+            R"({"units": "mm", "minimum": 1, "features": [{"name": "bore", "contour": 1, "minimum": )") +
+        minimum + "}]}";
+    const auto missing = jobs::locate(job_);
+    ASSERT_TRUE(missing) << minimum << ": " << missing.error().message;
+    EXPECT_EQ(missing->document.status, "infeasible") << minimum;
+  }
+}
+
 /// A finished feature takes its rim off the part, and what is left bounds no margin by itself.
 TEST_F(Criteria, FinishedFeaturesHaveAProofEvenWhereTheWorkEndsAtOnce) {
   job_.part.bytes = plate(), job_.blank.bytes = box(120, 60);
