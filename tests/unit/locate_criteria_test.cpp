@@ -194,6 +194,18 @@ TEST_F(Criteria, FinishedFeaturesHaveAProofEvenWhereTheWorkEndsAtOnce) {
   EXPECT_GE(made->document.demands->margin_bound, 30);
 }
 
+/// The rim of a finished edge takes the ends of the edges beside it off what is searched, and they were
+/// forgotten where more was missing at them.
+TEST_F(Criteria, WhatIsMissingAtTheEndsOfEdgesBesideAFinishedOneCounts) {
+  job_.part.bytes = box(30, 30), job_.blank.bytes = box(28, 60);
+  job_.features = jobs::File{
+      "f.json", R"({"units": "mm", "features": [{"name": "right", "edges": [1], "finished": 0.5}]})"};
+  const auto made = jobs::locate(job_);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->document.status, "infeasible");
+  EXPECT_GE(made->document.shortfall, 1);
+}
+
 TEST_F(Criteria, TheFirstOfTheListDoesNotGoOnAndAllOthersDo) {
   for (const locate::Criterion& criterion : locate::criteria()) {
     EXPECT_EQ(criterion.choose == nullptr, &criterion == &locate::criteria().front()) << criterion.name;

@@ -478,6 +478,24 @@ TEST(VerifyDemands, BehindARimTheGrownPartBeginsAgain) {
   EXPECT_NEAR(off(58, 50, tall), 2, 1e-10);
   // The rim takes all of a thin part but what its other edges grow by.
   EXPECT_NEAR(off(61, 50, rectangle(57, 0, 60, 100)), 2, 1e-10);
+  // On the finished edge itself no side of it was looked at.
+  EXPECT_NEAR(off(60, 50, tall), 4, 1e-10);
+}
+
+/// Behind the corner of a notch whose edges are finished the material begins on an arc, which was not looked
+/// for.
+TEST(VerifyDemands, BehindARimTheGrownPartBeginsAgainAboutACornerToo) {
+  Tree one = demands();
+  one["features"].push_back(feature("[0, 1, 2, 3, 4, 5]", R"({"finished": 4})"));
+  const std::string l_shape =
+      R"({"outer": [{"line": {"from": [0, 0], "to": [90, 0]}}, {"line": {"from": [90, 0], "to": [90, 40]}},
+        {"line": {"from": [90, 40], "to": [40, 40]}}, {"line": {"from": [40, 40], "to": [40, 90]}},
+        {"line": {"from": [40, 90], "to": [0, 90]}}, {"line": {"from": [0, 90], "to": [0, 0]}}]})";
+  const auto off = [&](double x, double y) {
+    return Checked(one, l_shape).check->off_grown_part({just(x), just(y)}, just(2));
+  };
+  EXPECT_NEAR(off(39, 38), 4 - std::hypot(1, 2), 1e-10);
+  EXPECT_GE(off(39, 38), 4 - std::hypot(1, 2));
 }
 
 /// What is said of a bound for all placements, with a cap or without.

@@ -277,14 +277,60 @@ class DemandLocaliser final : public Choice {
            rounding(pose);
   }
 
+  /// Returns how far an edge sticks out of the blank, or a little more.
+  [[nodiscard]] double edge_out(const Pose& pose, const Edge& edge) const {
+    constexpr double kOfLength = 1.0 / 4096, kRelative = 1.0 / 256;
+    const bool is_line = edge.kind == geom::EdgeKind::line;
+    const double turn = is_line ? 0 : geom::arc_sweep(edge) * (edge.kind == geom::EdgeKind::arc_ccw ? 1 : -1);
+    const double length = is_line ? norm(edge.to - edge.from) : geom::arc_radius(edge) * std::abs(turn);
+    const BlankFromPart map = pose.map();
+    const auto out_at = [&](double share) {
+      const Point on_arc =
+          edge.centre + BlankFromPart::from_angle(share * turn, {}).rotate(edge.from - edge.centre);
+      const Point p = map(is_line ? edge.from + share * (edge.to - edge.from) : on_arc);
+      const double distance = clearance_.blank().nearest(p).distance;
+      return clearance_.blank().contains(p) ? -distance : distance;
+    };
+    double reached = std::max({0.0, out_at(0), out_at(1)});
+    const auto tolerance = [&] {
+      return std::max({0.25 * options_.gap, kRelative * reached, kOfLength * length});
+    };
+    struct Stretch {
+      double middle, half;
+    };
+    std::vector<Stretch> open{{0.5, 0.5}};
+    while (!open.empty()) {
+      const Stretch s = open.back();
+      open.pop_back();
+      const double out = out_at(s.middle);
+      reached = std::max(reached, out);
+      if (out + s.half * length <= reached + tolerance()) continue;
+      for (const double side : {-0.5, 0.5}) open.push_back({s.middle + side * s.half, 0.5 * s.half});
+    }
+    return reached + tolerance();
+  }
+
+  /// Returns how far edges without a minimum stick out of the blank, or a little more. The grown part lacks
+  /// their ends where the rim of a finished feature is taken off.
+  [[nodiscard]] double bare_edges_out(const Pose& pose) const {
+    double out = 0;
+    for (std::uint32_t k = 0; k < edges_.size() && finished_; ++k) {
+      if (demand_[k].finished || demand_[k].minimum > 0) continue;
+      const bool inside = clearance_.blank().contains(pose.map()(edges_[k].from)) &&
+                          clearance_.nearest(pose.map(), k).distance > 0;
+      if (!inside) out = std::max(out, edge_out(pose, edges_[k]));
+    }
+    return out;
+  }
+
   /// The margin at a pose, rounded down: of DemandResult.
   [[nodiscard]] double margin_at(const Pose& pose) const {
     const phi::RegionClearance::Value value = base_->at(pose.map());
-    const double caps_left = left(pose);
-    if (!value.inside) {
+    const double caps_left = left(pose), bare = bare_edges_out(pose);
+    if (!value.inside || bare > 0) {
       // Not a rim of the demands may be missing: how deep it is.
-      const double missing = base_->depth(pose.map(), 0.25 * options_.gap);
-      return std::min(-missing, caps_left) - rounding(pose) - base_tolerance_;
+      const double missing = value.inside ? 0 : base_->depth(pose.map(), 0.25 * options_.gap);
+      return std::min(-std::max(missing, bare), caps_left) - rounding(pose) - base_tolerance_;
     }
     double least = kInfinity;
     for (std::uint32_t k = 0; k < edges_.size(); ++k) {

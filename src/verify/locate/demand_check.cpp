@@ -433,23 +433,28 @@ std::vector<CoverTree::Cap> DemandCheck::caps(Span shift, const std::optional<Sp
 
 namespace {
 
-/// Returns the points on the straight line from p to the side's line or circle, to both sides of it, that are
-/// as far from it as the rim along the side is wide, and further by no more than rounding asks for.
+/// Returns points that are as far from the side as the rim along it is wide, and further by no more than
+/// rounding asks for: those on the perpendicular from p to the side's line or circle, to both sides of it,
+/// and those on the lines from the side's ends through p.
 std::vector<Vec> beyond_rim(const Vec& p, const Side& side, double rim) {
   constexpr double kPast = 0x1p-40;
-  Vec to_side{just(0), just(0)};
+  std::vector<Vec> points;
+  const auto add = [&](const Vec& from, const Vec& towards) {
+    if (length(towards).low > 0) points.push_back(from + unit(towards) * just(rim * (1 + kPast)));
+  };
+  for (const Vec* end : {&side.from, &side.to}) add(*end, p - *end);
+  Vec foot = side.from, across = p - side.centre;
   if (side.arc) {
-    const Vec from_middle = p - side.centre;
-    if (!(length(from_middle).low > 0)) return {};
-    to_side = unit(from_middle) * side.radius - from_middle;
+    if (!(length(across).low > 0)) return points;
+    foot = side.centre + unit(across) * side.radius;
   } else {
-    const Vec along = side.to - side.from, d = p - side.from;
-    if (!(dot(along, along).low > 0)) return {};
-    to_side = along * (dot(d, along) / dot(along, along)) - d;
+    const Vec along = side.to - side.from;
+    if (!(dot(along, along).low > 0)) return points;
+    foot = side.from + along * (dot(p - side.from, along) / dot(along, along));
+    across = {-along.y, along.x};
   }
-  if (!(length(to_side).low > 0)) return {};
-  const Vec past = unit(to_side) * just(rim * (1 + kPast));
-  return {p + to_side + past, p + to_side - past};
+  add(foot, across), add(foot, -across);
+  return points;
 }
 
 }  // namespace
