@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 #include "lekalo/base/stop.hpp"
@@ -205,6 +207,29 @@ void loosen_bound(double share, double found_bound, io::LocateDocument& d) {
                   found_bound, *d.upper_bound));
 }
 
+/// Does the same for the bound of a margin, by a share of what lies between it and the margin found, or of a
+/// few gaps where that is closed.
+/// A bound of the certificate below 0 says that the demands cannot be met, and one above 0 counts by the
+/// least scale on top of the margin that the part was grown for.
+void loosen_margin_bound(double share, const io::DemandRecord& found, io::LocateDocument& d) {
+  double least_scale = 1;
+  for (const locate::Feature& f : found.features) least_scale = std::min(least_scale, f.scale);
+  const double by = share * std::max(found.margin_bound - found.margin, 4 * found.margin_gap);
+  io::DemandRecord& demands = *d.demands;
+  demands.bound = found.bound + by, demands.shift = found.shift + by;
+  demands.margin_bound = found.margin_bound + by / (found.margin_bound < 0 ? 1 : least_scale);
+  if (found.margin_bound < 0 && demands.margin_bound >= 0)
+    demands.margin_bound = std::max(0.0, demands.bound / least_scale);
+  // The checker encloses what is written and adds it up again.
+  for (int step = 0; step < 4; ++step)
+    demands.margin_bound = std::nextafter(demands.margin_bound, std::numeric_limits<double>::infinity());
+  d.status = io::name_of(demands.margin_bound < 0 ? locate::Status::infeasible : locate::Status::stopped);
+  d.warnings.push_back(
+      fmt::format("the bound {} of the margin was found, and the checker proves {}; more --work brings them "
+                  "together",
+                  found.margin_bound, demands.margin_bound));
+}
+
 void add_comparison(const LocateInputs& in, io::LocateDocument& d) {
   if (!in.earlier) return;
   const locate::ConvexOutline &part = *in.problem.part.convex, &blank = *in.problem.blank.convex;
@@ -245,12 +270,16 @@ void add_deviations(const LocateJob& job, const LocateInputs& in, Located& made)
 Result<void> check_with_looser_bound(const LocateJob& job, const LocateInputs& in, Result<void> refused,
                                      Located& made) {
   const io::LocateDocument found = made.document;
-  const bool by_poses =
-      !found.convex() && !found.demands && found.upper_bound && job.options.method == LocateMethod::certified;
+  const bool by_poses = !found.convex() && (found.demands || found.upper_bound) &&
+                        job.options.method == LocateMethod::certified;
   if (!by_poses || refused.error().code != ErrorCode::refuted) return refused;
   for (double share = 0x1p-10; share <= 1; share *= 4) {
     made.document = found;
-    loosen_bound(share, *found.upper_bound, made.document);
+    if (found.demands) {
+      loosen_margin_bound(share, *found.demands, made.document);
+    } else {
+      loosen_bound(share, *found.upper_bound, made.document);
+    }
     made.result = io::result_json(made.document);
     if (!self_check(job, made)) continue;
     LEKALO_CHECK(add_pictures(job, in, made));

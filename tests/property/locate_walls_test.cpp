@@ -162,7 +162,7 @@ TEST(LocateWalls, EveryResultIsConfirmedAndSamplesSayTheSame) {
     job.options.window_from_deg = -3, job.options.window_to_deg = random.below(3) == 0 ? 90 : 3;
     job.options.gap = 0.01;
     RunControl run;
-    run.work_limit = 3000;
+    run.work_limit = random.below(4) == 0 ? 10 : 3000;  // cells are large where it ends at once
     const auto made = jobs::locate(job, run);
     if (!made && made.error().code == ErrorCode::bad_input) continue;  // holes that meet
     ASSERT_TRUE(made) << made.error().message;

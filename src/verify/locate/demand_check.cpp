@@ -437,10 +437,11 @@ namespace {
 /// rounding asks for: those on the perpendicular from p to the side's line or circle, to both sides of it,
 /// and those on the lines from the side's ends through p.
 std::vector<Vec> beyond_rim(const Vec& p, const Side& side, double rim) {
-  constexpr double kPast = 0x1p-40;
+  constexpr double kPast = 0x1p-40, kPastOfCoordinates = 0x1p-46;
+  const Span far = just(rim * (1 + kPast) + kPastOfCoordinates * length(p).high);
   std::vector<Vec> points;
   const auto add = [&](const Vec& from, const Vec& towards) {
-    if (length(towards).low > 0) points.push_back(from + unit(towards) * just(rim * (1 + kPast)));
+    if (length(towards).low > 0) points.push_back(from + unit(towards) * far);
   };
   for (const Vec* end : {&side.from, &side.to}) add(*end, p - *end);
   Vec foot = side.from, across = p - side.centre;
