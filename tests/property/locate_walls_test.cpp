@@ -16,7 +16,7 @@
 #include "support/cases.hpp"
 #include "support/json.hpp"
 
-namespace lekalo {
+namespace lekalo::locate_walls_test {
 namespace {
 
 using cases::Json;
@@ -210,4 +210,4 @@ TEST(LocateWalls, EveryResultIsConfirmedAndSamplesSayTheSame) {
 }
 
 }  // namespace
-}  // namespace lekalo
+}  // namespace lekalo::locate_walls_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_cover_tree_test {
 namespace {
 
 Shape square(double from, double to) {
@@ -65,4 +65,4 @@ TEST(CoverTree, TheMaterialBehindTwoRimsIsFurtherThanEitherIsWide) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_cover_tree_test

@@ -9,7 +9,7 @@
 
 #include "verify/read/json.hpp"
 
-namespace lekalo::verify {
+namespace lekalo::verify::verify_grown_ball_test {
 namespace {
 
 /// A plate of 100 by 40 with a bore of radius 6 about (50, 10), side 4, and a slot of 6 by 26 above it, sides
@@ -103,4 +103,4 @@ TEST(GrownBall, ARimThatIsTakenOffCountsWhereNothingGrowsOverIt) {
 }
 
 }  // namespace
-}  // namespace lekalo::verify
+}  // namespace lekalo::verify::verify_grown_ball_test
