@@ -4,7 +4,7 @@
 set -euo pipefail
 . "$(dirname -- "${BASH_SOURCE[0]}")/tools/common.sh"
 
-"$root/tools/setup.sh"
+"$root/tools/setup.sh" --build
 build_preset release --target lekalo
 
 # From here on as a person would type it, in the folder of the project.

@@ -5,7 +5,7 @@
 set -euo pipefail
 . "$(dirname -- "${BASH_SOURCE[0]}")/common.sh"
 
-"$root/tools/setup.sh"
+"$root/tools/setup.sh" --build
 build_preset release --target lekalo_wasm
 if [ -n "${1-}" ]; then
   mkdir -p "$1"

@@ -2,7 +2,8 @@
 # Installs what the build needs and is missing, on Debian 12 and its kin. Asks nothing; running it again
 # changes nothing.
 #
-#   tools/setup.sh          compiler, CMake and libraries: enough for demo.sh and test.sh
+#   tools/setup.sh --build  compilers, CMake and libraries: enough for demo.sh
+#   tools/setup.sh          also the browser and the other programs that test.sh compares with
 #   tools/setup.sh --full   also clang and what else test.sh --full needs
 set -euo pipefail
 . "$(dirname -- "${BASH_SOURCE[0]}")/common.sh"
@@ -12,21 +13,23 @@ packages=(
   libexpected-dev libfmt-dev libcli11-dev nlohmann-json3-dev # header libraries and text
   libmpfr-dev libgmp-dev                                     # exact checks
   libpng-dev                                                 # M-images
-  libcairo2-dev                                              # PNG pictures
+  libcairo2-dev fonts-dejavu-core                            # PNG pictures; their texts, Cyrillic too
   libexpat1-dev                                              # XML of SVG drawings
   libboost-dev libsqlite3-dev                                # the server of the editor: HTTP and WebSocket, its store
   # the reference method; its pkg-config file also names libraries that its package does not bring
   coinor-libipopt-dev libblas-dev liblapack-dev libgfortran-12-dev
-  # lekalo.wasm, the kernel of the page, and what builds the page and drives it in tests
-  clang-19 lld-19 wasi-libc libc++-19-dev-wasm32 libclang-rt-19-dev-wasm32 nodejs chromium
+  # lekalo.wasm, the kernel of the page, and what builds the page
+  clang-19 lld-19 wasi-libc libc++-19-dev-wasm32 libclang-rt-19-dev-wasm32 nodejs
   libgtest-dev
+)
+test_packages=(
+  chromium           # shows the page
   python3            # a third opinion on results, written by a stranger
   python3-ezdxf python3-gdal # the same on DXF drawings
   python3-svgelements        # and on SVG
   librsvg2-bin python3-numpy python3-pil # and rasters of both
   python3-shapely            # a second opinion on layouts
   python3-jsonschema         # the schema of layouts
-  fonts-dejavu-core  # texts in PNG pictures, Cyrillic too
 )
 full_packages=(
   clang libclang-rt-14-dev lld llvm libbenchmark-dev
@@ -37,9 +40,10 @@ full_packages=(
 command -v npm >/dev/null || packages+=(npm)
 
 case "${1-}" in
-  "") ;;
-  --full) packages+=("${full_packages[@]}") ;;
-  *) fail "tools/setup.sh: unknown argument '$1'; it takes --full or nothing." ;;
+  --build) ;;
+  "") packages+=("${test_packages[@]}") ;;
+  --full) packages+=("${test_packages[@]}" "${full_packages[@]}") ;;
+  *) fail "tools/setup.sh: unknown argument '$1'; it takes --build, --full or nothing." ;;
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
