@@ -49,6 +49,10 @@ std::string_view wanted_beside(char letter) noexcept {
       return "G41 or G42";
     case 'U':
       return "G4";
+    case 'A':
+    case 'B':
+    case 'C':
+      return "a line, an arc or a canned cycle of Haas or Fanuc";
     default:
       return "a word that takes it";
   }
@@ -85,11 +89,14 @@ Fault check_takers(const BlockWords& words, words::Control control, const words:
   const bool carried = motion != nullptr && (words.has_axis() || (arc && words.has_centre()));
   for (char letter = 'A'; letter <= 'Z'; ++letter) {
     if (words[letter] == nullptr || !words::is_taken(letter, control)) continue;
-    const bool axis = std::string_view("XYZABC").find(letter) != std::string_view::npos;
+    const bool place = std::string_view("XYZ").find(letter) != std::string_view::npos;
+    // The interpreter has the words for a rotary axis alone, and for one before any motion.
+    const bool alone = std::string_view("ABC").find(letter) != std::string_view::npos &&
+                       (motion == nullptr || !words.has_axis());
     const bool taken =
         std::ranges::any_of(words.all, [&](const words::Word* word) { return takes(*word, letter); });
     const bool beside_allowed = words.allowed && (letter == 'P' || letter == 'Q');
-    if (!axis && !taken && !beside_allowed && !(carried && takes(*motion, letter)))
+    if (!place && !alone && !taken && !beside_allowed && !(carried && takes(*motion, letter)))
       return fmt::format("{} without {} in its block", letter, wanted_beside(letter));
   }
   return {};

@@ -182,7 +182,7 @@ std::size_t idle_letters(const Program& program, Control control) {
           known != nullptr && (known->group == words::Group::motion || known->tenths == words::kMotionOff))
         motion = known->group == words::Group::motion ? known : nullptr;
     for (const Word& word : block.words) {
-      if (std::string_view("PQDLK").find(word.letter) == std::string_view::npos) continue;
+      if (std::string_view("PQDLKABC").find(word.letter) == std::string_view::npos) continue;
       const bool used =
           takes(motion, word.letter) || std::ranges::any_of(block.words, [&](const Word& other) {
             return takes(listed(other, control), word.letter);

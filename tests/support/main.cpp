@@ -11,26 +11,32 @@ namespace {
 
 std::filesystem::path file_name(const char* path) { return std::filesystem::path(path).filename(); }
 
-/// Takes all tests of other files than this one out of gtest's filter. Returns whether it has tests.
+/// Leaves in gtest's filter the tests that are written in this file alone. Returns whether it has tests.
 bool keep_to(const std::string& file) {
   const testing::UnitTest& all = *testing::UnitTest::GetInstance();
-  bool found = false;
-  std::string filter = GTEST_FLAG_GET(filter);
-  char before = filter.find('-') == std::string::npos ? '-' : ':';
+  std::string own, others;
   for (int i = 0; i < all.total_test_suite_count(); ++i) {
     const testing::TestSuite& suite = *all.GetTestSuite(i);
+    std::string own_here, others_here;
     for (int j = 0; j < suite.total_test_count(); ++j) {
       const testing::TestInfo& test = *suite.GetTestInfo(j);
-      if (file_name(test.file()) == file) {
-        found = true;
-        continue;
-      }
-      filter += std::string(1, before) + suite.name() + "." + test.name();
-      before = ':';
+      (file_name(test.file()) == file ? own_here : others_here) +=
+          std::string(":") + suite.name() + "." + test.name();
     }
+    const std::string whole = std::string(":") + suite.name() + ".*";
+    own += others_here.empty() ? whole : own_here;
+    others += own_here.empty() ? whole : others_here;
   }
-  GTEST_FLAG_SET(filter, filter);
-  return found;
+  if (own.empty()) return false;
+  // The filter is printed, so that the shorter list is the better one; a given one is kept.
+  const std::string given = GTEST_FLAG_GET(filter);
+  if (given == "*") {
+    GTEST_FLAG_SET(filter, own.substr(1));
+  } else if (!others.empty()) {
+    others[0] = given.find('-') == std::string::npos ? '-' : ':';
+    GTEST_FLAG_SET(filter, given + others);
+  }
+  return true;
 }
 
 }  // namespace

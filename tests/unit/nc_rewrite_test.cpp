@@ -247,6 +247,22 @@ TEST(NcRewrite, LeavesTheByteOrderMarkOut) {
   EXPECT_EQ(result->program, "G21\n(\xC3\xA9)\nG0 X11.00000 Y22.00000\n");
 }
 
+/// Posts for a fourth axis write A0 beside each hole. LinuxCNC refuses that, and Fanuc and Haas do not.
+TEST(NcRewrite, KeepsARotaryAxisAtRestBesideAHole) {
+  const std::string program = "G21 G90\nG0 X1. Y2. Z9. A0.\nG98 G81 X1. Y2. A0. Z-1. R1. F9.\nX3. A0.\nG80\n";
+  const auto guessed = rewrite_program(program, "p", 10, 20, 0, {});
+  ASSERT_TRUE(guessed) << guessed.error().message;
+  EXPECT_EQ(guessed->control, lekalo::words::Control::fanuc);
+  EXPECT_NE(guessed->program.find("\nX13.00000 A0.\n"), std::string::npos) << guessed->program;
+  EXPECT_TRUE(rewrite_program(program, "p", 10, 20, 0, {.control = lekalo::words::Control::haas}));
+  const auto refused =
+      rewrite_program(program, "p", 10, 20, 0, {.control = lekalo::words::Control::linuxcnc});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("A without a line, an arc or a canned cycle of Haas or Fanuc"),
+            std::string::npos)
+      << refused.error().message;
+}
+
 TEST(NcRewrite, ReadsTheLettersOfACycleAsItsControlDoes) {
   const std::string begin = "G21 G90\nG0 X0. Y0. Z9.\n";
   const auto places = [&](const std::string& cycle, lekalo::words::Control control) {

@@ -456,6 +456,10 @@ TEST(VerifyNcReader, ARotaryWordAloneMovesUnderG0AndG1Only) {
   EXPECT_EQ(judged(there + "G80 A0\n"), "p:2: no word of the block takes A");
   EXPECT_EQ(judged(there + "G2 I5 F9\nB0\n"), "p:3: no word of the block takes B");
   EXPECT_EQ(judged(there + "G98 G81 Z-1 R1 F9\nB0\n"), "p:3: no word of the block takes B");
+  EXPECT_EQ(judged(there + "G98 G81 X1 A0 Z-1 R1 F9\n"), "p:2: no word of the block takes A");
+  for (const Control control : {Control::fanuc, Control::haas})
+    EXPECT_EQ(compared("G0 X1. Y1. Z1.\nG98 G81 X2. A0 Z-1. R1. F9.\nX3. A0\n", control),
+              compared("G0 X1. Y1. Z1.\nG98 G81 X2. A0 Z-1. R1. F9.\nA0 X3.\n", control));
   EXPECT_EQ(judged(there + "G4 P1 B0\n"), "p:2: a dwell beside a motion; give it a block of its own");
   EXPECT_EQ(judged("G0 X1. Y1. Z1.\nG4 X1. B0\n", Control::fanuc),
             "p:2: a dwell beside a motion; give it a block of its own");

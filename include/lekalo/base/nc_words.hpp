@@ -78,11 +78,11 @@ inline constexpr int kRapid = 0, kFeed = 10, kClockwise = 20, kCounterClockwise 
 
 namespace detail {
 inline constexpr unsigned L = 1, H = 2, F = 4, B = 8, mills = L | H | F, all = mills | B;
-inline constexpr std::string_view axes = "XYZABC", arc = "XYZABCIJKR", hole = "XYZRPQL";
-/// LinuxCNC refuses P and Q beside cycles that do not wait and do not peck. Haas shapes its pecks by I, J and
-/// K, where Fanuc has K for the L of the others.
+inline constexpr std::string_view axes = "XYZABC", arc = "XYZABCIJKR", hole = "XYZABCRPQL";
+/// LinuxCNC refuses P and Q beside cycles that do not wait and do not peck, and rotary axes beside all. Haas
+/// shapes its pecks by I, J and K, where Fanuc has K for the L of the others.
 inline constexpr std::string_view drill = "XYZRL", dwell = "XYZRPL", peck = "XYZRQL",
-                                  shaped_peck = "XYZRPQLIJK", fanuc_hole = "XYZRPQKL";
+                                  shaped_peck = "XYZABCRPQLIJK", fanuc_hole = "XYZABCRPQKL";
 }  // namespace detail
 
 inline constexpr std::array kWords = [] {

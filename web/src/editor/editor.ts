@@ -71,8 +71,8 @@ export class Editor {
   readonly photos = new Photos(this);
   show = { labels: true, grain: true, gap: true, zones: true };
   message = { text: '', isNote: false };
-  /** A layout is on its way from the server. */
-  loading = false;
+  /** A layout is on its way from the server, as it is from the beginning on. */
+  loading = true;
   pending = 0;
   long: Long | null = null;
   /** Gestures made while a long command runs; they are carried out one after the other when it has ended. */

@@ -72,7 +72,10 @@ export class Layouts {
     const wanted = Number(here.searchParams.get('layout'));
     const first = this.known.find((one) => one.id === wanted) ?? this.known[0];
     if (first) this.open(first.id);
-    else this.events.empty();
+    else {
+      this.editor.loading = false;
+      this.events.empty();
+    }
   }
 
   open(id: number): void {

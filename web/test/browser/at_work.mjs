@@ -36,10 +36,10 @@ const black = async (page) => {
 inEditor(
   'shows nothing black and says nothing of missing things while it loads',
   async (page, server) => {
-    // The kernel comes late, and the layout when it is let go.
+    // The kernel and the list of layouts come late, and the layout when it is let go.
     let letGo;
     const released = new Promise((resolve) => (letGo = resolve));
-    await page.route('**/lekalo.wasm', async (route) => {
+    await page.route(/\/lekalo\.wasm$|\/api\/layouts$/, async (route) => {
       await new Promise((resolve) => setTimeout(resolve, 600));
       await route.continue();
     });
