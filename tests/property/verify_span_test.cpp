@@ -24,7 +24,6 @@ using namespace verify;
 using lekalo::cases::case_count;
 using lekalo::verify_cases::Random;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargest = std::numeric_limits<double>::max();
 constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
 constexpr double kNormal = std::numeric_limits<double>::min();

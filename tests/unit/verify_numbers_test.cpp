@@ -17,7 +17,6 @@
 namespace lekalo::verify::verify_numbers_test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Decimal decimal(std::string_view text) { return *parse_decimal(text); }
 Interval interval(std::string_view text, Precision precision = 200) { return {decimal(text), precision}; }
