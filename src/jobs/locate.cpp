@@ -209,6 +209,7 @@ void loosen_bound(double share, double found_bound, io::LocateDocument& d) {
 
 /// Does the same for the bound of a margin, by a share of what lies between it and the margin found, or of a
 /// few gaps where that is closed.
+///
 /// A bound of the certificate below 0 says that the demands cannot be met, and one above 0 counts by the
 /// least scale on top of the margin that the part was grown for.
 void loosen_margin_bound(double share, const io::DemandRecord& found, io::LocateDocument& d) {
