@@ -22,7 +22,8 @@ Shape square(double from, double to) {
   return read;
 }
 
-/// Says whether one contact proves the bound for a square of 10 that lies in the lower left corner of one of 100.
+/// Says whether one contact proves the bound for a square of 10 that lies in the lower left corner of one of
+/// 100.
 bool proves(const std::string& contact, double bound, const std::vector<double>& growth) {
   const Shape part = square(0, 10), blank = square(0, 100);
   const Vec origin{just(0), just(0)};
