@@ -8,6 +8,7 @@
         --jobs N          runners side by side (the number of processors)
         --minutes M       no new mutant after so many
         --longest S       tests that take more seconds of a processor are left out
+        --most S          a mutant that outlives tests of so many seconds counts as a survivor
         --explained       also those that tests/mutation/explained.txt explains
 
 A mutant is killed by the first test that fails, takes ten times its time, or wants 3 GB. A test is tried only on
@@ -305,8 +306,11 @@ def run(arguments):
     def killed_by(k):
         if time.monotonic() - started > 60 * arguments.minutes:
             return "not tried"
-        file = mutants[k]["file"]
+        file, spent = mutants[k]["file"], 0.0
         for test in trial.order(k, file):
+            spent += trial.tests[test]
+            if spent > arguments.most:
+                break
             if with_runner(lambda r: r.ask("try", k, trial.patience(test), test)) != ["passed"]:
                 trial.kills[file][test] += 1
                 return test
@@ -368,6 +372,7 @@ def main():
     runs.add_argument("--jobs", type=int, default=os.cpu_count())
     runs.add_argument("--minutes", type=float, default=85)
     runs.add_argument("--longest", type=float, default=3)
+    runs.add_argument("--most", type=float, default=20)
     runs.add_argument("--explained", action="store_true")
     arguments = parser.parse_args()
     write(arguments.folder) if arguments.command == "write" else run(arguments)

@@ -12,7 +12,7 @@ const std::string kPocket = R"({"units": "mm", "outer": [{"line": {"from": [0, 0
  {"line": {"from": [50, 40], "to": [0, 40]}}, {"line": {"from": [0, 40], "to": [0, 0]}}],
  "holes": [[{"arc": {"from": [24, 20], "to": [24, 20], "centre": [20, 20], "ccw": false}}]]})";
 
-class VerifyClaims : public testing::Test {
+class CliVerifyClaims : public testing::Test {
  protected:
   [[nodiscard]] Ran lekalo(const Words& words) const { return run(folder_.path(), words); }
   /// Runs a command that has to succeed, and keeps its standard output in a file.
@@ -40,7 +40,7 @@ class VerifyClaims : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(VerifyClaims, ALayoutKeepsItsRulesAndTheLayoutItWasMadeFrom) {
+TEST_F(CliVerifyClaims, ALayoutKeepsItsRulesAndTheLayoutItWasMadeFrom) {
   nest();
   expect(0, {"nested.json"}, "Confirmed");
   expect(0, {"nested.json", "--layout", "given.json"}, "Confirmed");
@@ -54,14 +54,14 @@ TEST_F(VerifyClaims, ALayoutKeepsItsRulesAndTheLayoutItWasMadeFrom) {
   expect(4, {"nested.json"}, "is broken by placement");
 }
 
-TEST_F(VerifyClaims, AReportOfNestSaysWhatItsLayoutHas) {
+TEST_F(CliVerifyClaims, AReportOfNestSaysWhatItsLayoutHas) {
   nest();
   expect(0, {"report.json"}, "Confirmed");
   change("report.json", "\"density\": 0.", "\"density\": 0.9");
   expect(4, {"report.json"}, "density is");
 }
 
-TEST_F(VerifyClaims, AReportOfNestIsOfTheVeryFiles) {
+TEST_F(CliVerifyClaims, AReportOfNestIsOfTheVeryFiles) {
   nest();
   change("nested.json", "{", "{ ");
   expect(4, {"report.json"}, "SHA-256");
@@ -71,7 +71,7 @@ TEST_F(VerifyClaims, AReportOfNestIsOfTheVeryFiles) {
   expect(3, {"report.json"}, "was not written");
 }
 
-TEST_F(VerifyClaims, AReportOfCheckHasTheViolationsOfItsLayout) {
+TEST_F(CliVerifyClaims, AReportOfCheckHasTheViolationsOfItsLayout) {
   nest();
   keep({"check", "nested.json", "--json"}, "check.json");
   expect(0, {"check.json"}, "Confirmed");
@@ -81,7 +81,7 @@ TEST_F(VerifyClaims, AReportOfCheckHasTheViolationsOfItsLayout) {
   expect(4, {"check.json"}, "violations are not those of nested.json");
 }
 
-TEST_F(VerifyClaims, ReportsOfPocketAndSimulateAreMadeAnew) {
+TEST_F(CliVerifyClaims, ReportsOfPocketAndSimulateAreMadeAnew) {
   write_bytes(folder_ / "pocket.json", kPocket);
   keep({"pocket", "pocket.json", "--tool", "8", "--depth", "2", "-o", "p.ngc", "--json"}, "pocketed.json");
   keep({"simulate", "p.ngc", "--pocket", "pocket.json", "--tool", "8", "--json"}, "simulated.json");
@@ -108,7 +108,7 @@ const std::string kDrawing =
     R"(<g id="WALL"><path d="M0 0H40A10 8 0 0 1 50 8V30H0"/></g><g id="OPEN"><path d="M0 30V0"/></g>)"
     R"(<g id="ISLAND"><rect x="0.2in" y="12" width="8" height="6" rx="2"/></g></svg>)";
 
-TEST_F(VerifyClaims, ThePocketOfADrawingIsDerivedFromIt) {
+TEST_F(CliVerifyClaims, ThePocketOfADrawingIsDerivedFromIt) {
   write_bytes(folder_ / "p.svg", kDrawing);
   keep({"pocket", "p.svg", "--tool", "6", "--depth", "1", "--open-layer", "OPEN", "--island-layer", "ISLAND",
         "-o", "p.ngc", "--json"},
@@ -122,7 +122,7 @@ TEST_F(VerifyClaims, ThePocketOfADrawingIsDerivedFromIt) {
   expect(3, {"r.json"}, "below 0");
 }
 
-TEST_F(VerifyClaims, ThePocketOfATreeIsDerivedFromIt) {
+TEST_F(CliVerifyClaims, ThePocketOfATreeIsDerivedFromIt) {
   const std::string tree = R"({"units": "mm", "shape": {"difference": [
       {"rectangle": {"corner": [0, 0], "size": [60, 40]}}, {"circle": {"centre": [30, 20], "radius": 6}}]}})";
   write_bytes(folder_ / "tree.json", tree);
@@ -136,7 +136,7 @@ TEST_F(VerifyClaims, ThePocketOfATreeIsDerivedFromIt) {
   expect(4, {"r.json"}, "regions are not what tree.json means");
 }
 
-TEST_F(VerifyClaims, AProgramAloneSaysWhatToAdd) {
+TEST_F(CliVerifyClaims, AProgramAloneSaysWhatToAdd) {
   write_bytes(folder_ / "pocket.json", kPocket);
   keep({"pocket", "pocket.json", "--tool", "8", "--depth", "2", "-o", "p.ngc"});
   expect(2, {"p.ngc"}, "--pocket FILE --tool MM");
@@ -145,7 +145,7 @@ TEST_F(VerifyClaims, AProgramAloneSaysWhatToAdd) {
   expect(4, {"p.ngc", "--pocket", "pocket.json", "--tool", "6"}, "uncut");
 }
 
-TEST_F(VerifyClaims, AProfileProgramCutsEveryPartAndEntersNone) {
+TEST_F(CliVerifyClaims, AProfileProgramCutsEveryPartAndEntersNone) {
   nest();
   for (const Words& more :
        {Words{"--process", "laser", "--pierce", "0.3", "--lead-in", "2"},
@@ -163,7 +163,7 @@ TEST_F(VerifyClaims, AProfileProgramCutsEveryPartAndEntersNone) {
   expect(2, {"cut.nc", "--layout", "nested.json"}, "--kerf");
 }
 
-TEST_F(VerifyClaims, ExportsAreTheLayout) {
+TEST_F(CliVerifyClaims, ExportsAreTheLayout) {
   nest();
   for (const Words& more :
        {Words{"--format", "dxf"}, Words{"--format", "dxf", "--unit", "inch"}, Words{"--format", "svg"}}) {
@@ -175,7 +175,7 @@ TEST_F(VerifyClaims, ExportsAreTheLayout) {
   }
 }
 
-TEST_F(VerifyClaims, EveryUntouchedResultOfTheExamplesIsConfirmed) {
+TEST_F(CliVerifyClaims, EveryUntouchedResultOfTheExamplesIsConfirmed) {
   std::vector<fs::path> orders{fs::path(cases::source_dir()) / "examples/layouts/shoes.json"};
   for (const auto& entry : fs::directory_iterator(kOrders)) orders.push_back(entry.path());
   for (const fs::path& order : orders) {
@@ -198,7 +198,7 @@ TEST_F(VerifyClaims, EveryUntouchedResultOfTheExamplesIsConfirmed) {
   }
 }
 
-TEST_F(VerifyClaims, OtherFilesAreNamedInOneSentence) {
+TEST_F(CliVerifyClaims, OtherFilesAreNamedInOneSentence) {
   nest();
   keep({"show", "nested.json", "--picture", "p.png"});
   keep({"show", "nested.json", "--picture", "p.pdf"});

@@ -27,7 +27,7 @@ const std::string kFeatures = R"({"units": "mm", "minimum": 0.3, "features": [
  {"name": "sides", "edges": [3, 1], "minimum": 1, "target": 4, "scale": 2},
  {"name": "bore", "contour": 1, "minimum": 2}]})";
 
-class VerifyFeatures : public testing::Test {
+class CliVerifyFeatures : public testing::Test {
  protected:
   void SetUp() override {
     write_bytes(folder_ / "part.json", kPart);
@@ -109,14 +109,14 @@ bool stays_true(const std::string& path, const Json& lie, const Json& was) {
   return path == "/min_allowance" && is <= 0.3;
 }
 
-TEST_F(VerifyFeatures, WhatWasNotTouchedIsConfirmed) {
+TEST_F(CliVerifyFeatures, WhatWasNotTouchedIsConfirmed) {
   const Ran ran = verify();
   EXPECT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(result_["inputs"][2]["role"], "features");
   EXPECT_EQ(result_["demands"]["features"].size(), 3U);
 }
 
-TEST_F(VerifyFeatures, NothingThatAResultSaysOfItsDemandsCanBeChangedUnseen) {
+TEST_F(CliVerifyFeatures, NothingThatAResultSaysOfItsDemandsCanBeChangedUnseen) {
   std::size_t tried = 0;
   for (const char* const below :
        {"/demands", "/min_allowance", "/shortfall", "/upper_bound", "/gap", "/part_cut"})
@@ -129,7 +129,7 @@ TEST_F(VerifyFeatures, NothingThatAResultSaysOfItsDemandsCanBeChangedUnseen) {
   EXPECT_GT(tried, 150U);
 }
 
-TEST_F(VerifyFeatures, NothingInTheFileCanBeChangedUnseenAlsoWithItsDigest) {
+TEST_F(CliVerifyFeatures, NothingInTheFileCanBeChangedUnseenAlsoWithItsDigest) {
   const std::size_t tried =
       try_lies(Json::parse(kFeatures), "", [&](const std::string& path, const Json& lie, const Json& wrong) {
         const Ran ran = verify_with(wrong.dump());
@@ -141,7 +141,7 @@ TEST_F(VerifyFeatures, NothingInTheFileCanBeChangedUnseenAlsoWithItsDigest) {
   EXPECT_GT(tried, 70U);
 }
 
-TEST_F(VerifyFeatures, FeaturesMoreOrLessOrInAnotherOrderAreNamed) {
+TEST_F(CliVerifyFeatures, FeaturesMoreOrLessOrInAnotherOrderAreNamed) {
   Json file = Json::parse(kFeatures);
   file["features"].push_back({{"name", "top"}, {"edges", {2}}});
   Ran ran = verify_with(file.dump());
@@ -159,7 +159,7 @@ TEST_F(VerifyFeatures, FeaturesMoreOrLessOrInAnotherOrderAreNamed) {
   EXPECT_EQ(verify(turned).status, 4);
 }
 
-TEST_F(VerifyFeatures, AFileThatIsNotThereOrAnotherOneIsSaid) {
+TEST_F(CliVerifyFeatures, AFileThatIsNotThereOrAnotherOneIsSaid) {
   fs::rename(folder_ / "features.json", folder_ / "moved.json");
   Ran ran = verify();
   EXPECT_EQ(ran.status, 3);
@@ -181,7 +181,7 @@ TEST_F(VerifyFeatures, AFileThatIsNotThereOrAnotherOneIsSaid) {
   EXPECT_NE(ran.err.find("names no file of features"), std::string::npos) << ran.err;
 }
 
-TEST_F(VerifyFeatures, AResultThatSaysNothingOfDemandsDoesNotPassBesideAFileThatMakesSome) {
+TEST_F(CliVerifyFeatures, AResultThatSaysNothingOfDemandsDoesNotPassBesideAFileThatMakesSome) {
   for (const bool convex : {false, true}) {
     const Words plain = convex ? Words{} : Words{"--mirror", "either"};
     write_bytes(folder_ / "part.csv", "0 0\n40 0\n40 20\n0 20\n");
@@ -202,7 +202,7 @@ TEST_F(VerifyFeatures, AResultThatSaysNothingOfDemandsDoesNotPassBesideAFileThat
   }
 }
 
-TEST_F(VerifyFeatures, InchesOfAFileOrOfTheCommandAreTheSameDemands) {
+TEST_F(CliVerifyFeatures, InchesOfAFileOrOfTheCommandAreTheSameDemands) {
   Json file = Json::parse(kFeatures);
   file["units"] = "inch", file["minimum"] = 0.01;
   for (Json& feature : file["features"])
@@ -217,7 +217,7 @@ TEST_F(VerifyFeatures, InchesOfAFileOrOfTheCommandAreTheSameDemands) {
   EXPECT_EQ(verify_with(file.dump()).status, 4);
 }
 
-TEST_F(VerifyFeatures, EdgesOfALabelAreRebuiltFromATree) {
+TEST_F(CliVerifyFeatures, EdgesOfALabelAreRebuiltFromATree) {
   write_bytes(folder_ / "part.json",
               R"({"units": "mm", "shape": {"difference": [{"rectangle": {"size": [40, 20]}, "name": "plate"},
  {"circle": {"radius": 5}, "name": "bore"}]}})");
@@ -228,7 +228,7 @@ TEST_F(VerifyFeatures, EdgesOfALabelAreRebuiltFromATree) {
   EXPECT_EQ(verify_with(R"({"features": [{"name": "hole", "label": "bore", "minimum": 3}]})").status, 4);
 }
 
-TEST_F(VerifyFeatures, ALabelOfARegionFileIsRefuted) {
+TEST_F(CliVerifyFeatures, ALabelOfARegionFileIsRefuted) {
   Json file = Json::parse(kFeatures);
   file["features"][2].erase("contour"), file["features"][2]["label"] = "bore";
   const Ran ran = verify_with(file.dump());

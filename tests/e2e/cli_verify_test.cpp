@@ -241,7 +241,7 @@ void take_digest_of_now(const TemporaryFolder& folder, const std::string& result
   write_bytes(folder / result, changed.dump());
 }
 
-TEST(VerifyRegions, PartAndBlankOfOneFileAreReadInOneWay) {
+TEST(CliVerify, PartAndBlankOfOneFileAreReadInOneWay) {
   const TemporaryFolder folder;
   write_bytes(folder / "one.svg", R"(<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm"
     viewBox="0 0 60 40"><path d="M0 0H60V40H0Z"/><circle cx="30" cy="20" r="7.3"/></svg>)");
@@ -261,7 +261,7 @@ TEST(VerifyRegions, PartAndBlankOfOneFileAreReadInOneWay) {
   EXPECT_NE(otherwise.err.find("in the same way was not rechecked"), std::string::npos) << otherwise.err;
 }
 
-TEST(VerifyRegions, TheCheckerReadsEveryKindOfPartItself) {
+TEST(CliVerify, TheCheckerReadsEveryKindOfPartItself) {
   for (const PartFile& part : kParts) {
     SCOPED_TRACE(part.name);
     const TemporaryFolder folder;
@@ -282,7 +282,7 @@ TEST(VerifyRegions, TheCheckerReadsEveryKindOfPartItself) {
   }
 }
 
-TEST(VerifyRegions, AScanHasToProveTheBlank) {
+TEST(CliVerify, AScanHasToProveTheBlank) {
   const TemporaryFolder folder;
   std::string points;
   for (int k = 0; k < 240; ++k) {
@@ -309,7 +309,7 @@ TEST(VerifyRegions, AScanHasToProveTheBlank) {
   }
 }
 
-TEST(VerifyRegions, APartFarAwayIsToldToBeOutside) {
+TEST(CliVerify, APartFarAwayIsToldToBeOutside) {
   const TemporaryFolder folder;
   write_bytes(folder / "blank.json", R"({"shape": {"regular_polygon": {"sides": 500, "radius": 60}}})");
   write_bytes(folder / "part.json", kParts[0].bytes);
