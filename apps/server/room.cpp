@@ -78,7 +78,19 @@ std::string named(const layout::ItemChange<layout::Part>& one) {
 std::string named(const layout::ItemChange<layout::Stock>& one) {
   return fmt::format("stock '{}'", one.either().id);
 }
+std::string named(const layout::ItemChange<layout::Kit>& one) {
+  return fmt::format("kit '{}'", one.either().id);
+}
 constexpr const char* kRules = "the rules";
+
+/// Names the kits that a command changes and that stay, or those that go.
+void name_kits(JsonWriter& json, const char* key, const std::vector<layout::ItemChange<layout::Kit>>& kits,
+               bool stay) {
+  std::vector<std::string> ids;
+  for (const auto& one : kits)
+    if (one.after.has_value() == stay) ids.push_back(one.either().id);
+  if (!ids.empty()) json.key(key).list(ids, [&](const std::string& id) { json.value(id); });
+}
 
 std::int64_t taken_off(const layout::Change& change) {
   if (change.job.is_nothing()) return 0;
@@ -308,6 +320,8 @@ Outbound Room::carry_out(ClientNumber client, const CommandMessage& said, const 
   JsonWriter json = begin_done(said.seq, revision_);
   if (stopped) json.field("stopped", true);
   if (const std::int64_t count = taken_off(change); count > 0) json.field("taken_off", count);
+  name_kits(json, "kits", change.job.kits, true);
+  name_kits(json, "kits_gone", change.job.kits, false);
   // A defect is where it is: admitted, and what lies on it is named.
   if (!change.features.empty())
     json.key("violations").raw() += io::violations_json(document(), violations_with(workspace_, change));
@@ -530,6 +544,8 @@ Result<void> Room::check_job_standing(const StoredChange& command, const layout:
     return refuse_item(*one, &layout::JobChange::parts);
   if (const auto* one = unfit(document().stocks, job.stocks))
     return refuse_item(*one, &layout::JobChange::stocks);
+  if (const auto* one = unfit(kits_beside(document(), job), job.kits))
+    return refuse_item(*one, &layout::JobChange::kits);
   if (job.rules && !(job.rules->before == document().rules))
     return refuse(kRules, [](const layout::Change& change) { return change.job.rules.has_value(); });
   const std::set<std::string> parts = ids_that_go(job.parts), stocks = ids_that_go(job.stocks);
@@ -620,6 +636,7 @@ Result<void> Room::commit(ClientNumber client, StoredChange change, Outbound& ou
     last_draw_[feature_key(stock_id(document(), change.change, one.stock), one.either())] = toucher;
   for (const auto& one : job.parts) last_order_[named(one)] = toucher;
   for (const auto& one : job.stocks) last_order_[named(one)] = toucher;
+  for (const auto& one : job.kits) last_order_[named(one)] = toucher;
   if (job.rules) last_order_[kRules] = toucher;
   if (!job.is_nothing()) {
     // Whatever was numbered may be numbered otherwise, so everyone begins anew.

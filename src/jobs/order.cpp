@@ -127,7 +127,8 @@ class OrderMaker {
     if (gap > order_.gap_mm)
       made_.notices.push_back(fmt::format(
           "the gap of {:g} mm is narrower than the cut; it is raised to {:g} mm", order_.gap_mm, gap));
-    made_.document.rules = {geom::grid_from_mm_up(gap), geom::grid_from_mm_up(order_.border_mm), 0};
+    made_.document.rules = {geom::grid_from_mm_up(gap), geom::grid_from_mm_up(order_.border_mm), 0,
+                            geom::grid_from_mm_up(order_.kerf_mm)};
   }
 
   const Order& order_;

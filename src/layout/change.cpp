@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <set>
 #include <string_view>
 #include <utility>
 
@@ -36,19 +35,11 @@ struct Merged {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> stay;
 };
 
-/// \param pinned  the ids of those that stay in any case; both lists have them in one order
+/// Those that stay are in one order in both lists.
 template <class Item>
-Merged<Item> merged(const std::vector<Item>& from, const std::vector<Item>& to,
-                    const std::set<std::string_view>& pinned) {
+Merged<Item> merged(const std::vector<Item>& from, const std::vector<Item>& to) {
   std::map<std::string_view, std::uint32_t> places;
   for (std::uint32_t i = 0; i < from.size(); ++i) places.emplace(from[i].id, i);
-  // Those that stay have to be in one order in both lists, so none reaches beyond the next that is pinned.
-  std::vector<std::size_t> before(to.size());
-  std::size_t end = from.size();
-  for (std::size_t i = to.size(); i-- > 0;) {
-    before[i] = end;
-    if (pinned.contains(to[i].id)) end = places.at(to[i].id);
-  }
   Merged<Item> all;
   std::uint32_t old = 0, size = 0;
   const auto goes_up_to = [&](std::uint32_t place) {
@@ -59,7 +50,7 @@ Merged<Item> merged(const std::vector<Item>& from, const std::vector<Item>& to,
   };
   for (std::uint32_t i = 0; i < to.size(); ++i) {
     const auto known = places.find(to[i].id);
-    const bool stays = known != places.end() && known->second >= old && known->second < before[i];
+    const bool stays = known != places.end() && known->second >= old;
     if (stays) {
       goes_up_to(known->second);
       all.stay.push_back({old++, i});
@@ -80,6 +71,19 @@ void add_change(std::vector<ItemChange<Item>>& changes, ItemChange<Item> one) {
       std::lower_bound(changes.begin(), changes.end(), one.index,
                        [](const ItemChange<Item>& a, std::uint32_t index) { return a.index < index; });
   changes.insert(at, std::move(one));
+}
+
+Placement numbered(Placement placement, const std::vector<std::uint32_t>& parts,
+                   const std::vector<std::uint32_t>& stocks) {
+  placement.part = parts[placement.part];
+  placement.stock = stocks[placement.stock];
+  return placement;
+}
+
+std::vector<Kit> numbered(std::vector<Kit> kits, const std::vector<std::uint32_t>& parts) {
+  for (Kit& kit : kits)
+    for (KitPiece& piece : kit.pieces) piece.part = parts[piece.part];
+  return kits;
 }
 
 bool same_but_features(const Stock& a, const Stock& b) {
@@ -221,18 +225,20 @@ Change reversed(const Change& change, std::uint64_t next_id) {
 }
 
 Change difference(const Document& from, const Document& to) {
-  // Kits cannot be changed, so the parts that they name stay.
-  std::set<std::string_view> pinned;
-  for (const Kit& kit : from.kits)
-    for (const KitPiece& piece : kit.pieces) pinned.insert(from.parts[piece.part].id);
-  Merged<Part> parts = merged(from.parts, to.parts, pinned);
-  Merged<Stock> stocks = merged(from.stocks, to.stocks, {});
+  Merged<Part> parts = merged(from.parts, to.parts);
+  Merged<Stock> stocks = merged(from.stocks, to.stocks);
+  const std::vector<Kit> kits_before = numbered(from.kits, parts.from),
+                         kits_after = numbered(to.kits, parts.to);
+  Merged<Kit> kits = merged(kits_before, kits_after);
   Change change;
   change.next_id_before = from.next_id;
   change.next_id_after = to.next_id;
   for (const auto& [old, now] : parts.stay)
     if (!(from.parts[old] == to.parts[now]))
       add_change(parts.changes, {parts.from[old], from.parts[old], to.parts[now]});
+  for (const auto& [old, now] : kits.stay)
+    if (!(kits_before[old] == kits_after[now]))
+      add_change(kits.changes, {kits.from[old], kits_before[old], kits_after[now]});
   Document drawn_before, drawn_after;  // the stocks of which the features alone may differ
   std::vector<std::uint32_t> drawn;    // their numbers
   for (const auto& [old, now] : stocks.stay) {
@@ -247,12 +253,6 @@ Change difference(const Document& from, const Document& to) {
   }
   change.features = feature_difference(drawn_before, drawn_after);
   for (FeatureChange& one : change.features) one.stock = drawn[one.stock];
-  const auto numbered = [&](Placement placement, const std::vector<std::uint32_t>& part,
-                            const std::vector<std::uint32_t>& stock) {
-    placement.part = part[placement.part];
-    placement.stock = stock[placement.stock];
-    return placement;
-  };
   std::size_t i = 0, k = 0;
   while (i < from.placements.size() || k < to.placements.size()) {
     const bool has_old = k == to.placements.size() ||
@@ -266,6 +266,7 @@ Change difference(const Document& from, const Document& to) {
   }
   change.job.parts = std::move(parts.changes);
   change.job.stocks = std::move(stocks.changes);
+  change.job.kits = std::move(kits.changes);
   if (!(from.rules == to.rules)) change.job.rules = RulesChange{from.rules, to.rules};
   return change;
 }
@@ -274,6 +275,7 @@ Result<Change> renumbered(Change change, const Document& then, const Document& n
   const JobChange job = change.job;  // the numberings keep pointers into it
   const Renumbering<Part> parts("part", then.parts, now.parts, job.parts);
   const Renumbering<Stock> stocks("stock", then.stocks, now.stocks, job.stocks);
+  const Renumbering<Kit> kits("kit", then.kits, now.kits, job.kits);
   for (PlacementChange& one : change.placements)
     for (std::optional<Placement>* const placement : {&one.before, &one.after}) {
       if (!*placement) continue;
@@ -284,8 +286,14 @@ Result<Change> renumbered(Change change, const Document& then, const Document& n
       LEKALO_CHECK(stocks((*placement)->stock));
     }
   for (FeatureChange& one : change.features) LEKALO_CHECK(stocks(one.stock));
+  for (ItemChange<Kit>& one : change.job.kits)
+    for (std::optional<Kit>* const kit : {&one.before, &one.after}) {
+      if (!*kit) continue;
+      for (KitPiece& piece : (*kit)->pieces) LEKALO_CHECK(parts(piece.part));
+    }
   LEKALO_CHECK(parts(change.job.parts));
   LEKALO_CHECK(stocks(change.job.stocks));
+  LEKALO_CHECK(kits(change.job.kits));
   return change;
 }
 

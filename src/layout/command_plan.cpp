@@ -383,21 +383,28 @@ class Planner {
   }
 
   Result<Outcome> operator()(const MirrorCommand& c) const {
+    LEKALO_CHECK(check_part(c.part));
+    for (const Kit& kit : document_.kits)
+      for (const KitPiece& piece : kit.pieces)
+        if (!c.may_mirror && piece.part == c.part && piece.mirrored.value_or(false))
+          return wrong(fmt::format("kit '{}' is made with part '{}' turned over, so it may be mirrored",
+                                   kit.id, document_.parts[c.part].id));
     return changed_part(c.part, [&](Part& part) { part.may_mirror = c.may_mirror; });
   }
 
   Result<Outcome> operator()(const RemovePartCommand& c) const {
     LEKALO_CHECK(check_part(c.part));
-    const Part& part = document_.parts[c.part];
-    for (const Kit& kit : document_.kits)
-      for (const KitPiece& piece : kit.pieces)
-        if (piece.part == c.part)
-          return wrong(
-              fmt::format("part '{}' is a piece of kit '{}', and stays; set its quantity to 0 where none is "
-                          "wanted beside the kits",
-                          part.id, kit.id));
     LEKALO_TRY(auto outcome, without([&](const Placement& placement) { return placement.part == c.part; }));
-    outcome.job.parts.push_back({c.part, part, std::nullopt});
+    outcome.job.parts.push_back({c.part, document_.parts[c.part], std::nullopt});
+    for (std::uint32_t i = 0; i < document_.kits.size(); ++i) {
+      Kit rest = document_.kits[i];
+      if (std::erase_if(rest.pieces, [&](const KitPiece& piece) { return piece.part == c.part; }) == 0)
+        continue;
+      // A kit is made of something, so one that has no piece left goes too.
+      std::optional<Kit> after;
+      if (!rest.pieces.empty()) after = std::move(rest);
+      outcome.job.kits.push_back({i, document_.kits[i], std::move(after)});
+    }
     return outcome;
   }
 
@@ -443,10 +450,17 @@ class Planner {
     if (c.length < 0 || c.length > geom::grid_from_mm(limits::kLargestOutline))
       return malformed(fmt::format("gap, border and kerf are from 0 to {} mm", limits::kLargestOutline));
     Rules rules = document_.rules;
-    if (c.kind == RuleKind::border)
-      rules.border_gap = c.length;
-    else
-      rules.gap = c.kind == RuleKind::gap ? c.length : std::max(rules.gap, c.length);
+    switch (c.kind) {
+      case RuleKind::gap:
+        rules.gap = std::max(c.length, rules.kerf);
+        break;
+      case RuleKind::border:
+        rules.border_gap = c.length;
+        break;
+      case RuleKind::kerf:
+        rules.kerf = c.length;
+        rules.gap = std::max(rules.gap, c.length);
+    }
     Outcome outcome{{}, {}, true};
     if (!(rules == document_.rules)) outcome.job.rules = RulesChange{document_.rules, rules};
     return outcome;

@@ -67,15 +67,19 @@ Numbers take_out(std::vector<Item>& list, const std::vector<ItemChange<Item>>& c
   return same ? Numbers{} : numbers;
 }
 
+void renumber(std::vector<Kit>& kits, const Numbers& parts) {
+  if (parts.empty()) return;
+  for (Kit& kit : kits)
+    for (KitPiece& piece : kit.pieces) piece.part = parts[piece.part];
+}
+
 void renumber(Document& document, const Numbers& parts, const Numbers& stocks) {
   if (parts.empty() && stocks.empty()) return;
   for (Placement& placement : document.placements) {
     if (!parts.empty()) placement.part = parts[placement.part];
     if (!stocks.empty()) placement.stock = stocks[placement.stock];
   }
-  if (parts.empty()) return;
-  for (Kit& kit : document.kits)
-    for (KitPiece& piece : kit.pieces) piece.part = parts[piece.part];
+  renumber(document.kits, parts);
 }
 
 template <class Item>
@@ -143,7 +147,7 @@ std::vector<ItemChange<Item>> coming(const std::vector<Item>& there, std::vector
 }  // namespace
 
 JobChange reversed(const JobChange& change) {
-  JobChange back{reversed(change.parts), reversed(change.stocks), std::nullopt};
+  JobChange back{reversed(change.parts), reversed(change.stocks), std::nullopt, reversed(change.kits)};
   if (change.rules) back.rules = RulesChange{change.rules->after, change.rules->before};
   return back;
 }
@@ -151,17 +155,43 @@ JobChange reversed(const JobChange& change) {
 void bring_in(Document& document, const JobChange& change) {
   const Numbers parts = bring_in(document.parts, change.parts);
   renumber(document, parts, bring_in(document.stocks, change.stocks));
+  bring_in(document.kits, change.kits);
   if (change.rules) document.rules = change.rules->after;
 }
 
 void take_out(Document& document, const JobChange& change) {
+  take_out(document.kits, change.kits);
   const Numbers parts = take_out(document.parts, change.parts);
   renumber(document, parts, take_out(document.stocks, change.stocks));
 }
 
+std::vector<Kit> kits_beside(const Document& document, const JobChange& change) {
+  std::vector<Kit> kits = document.kits;
+  Numbers parts;
+  auto next = change.parts.begin();
+  for (std::uint32_t index = 0; parts.size() < document.parts.size(); ++index) {
+    const bool is_here = next != change.parts.end() && next->index == index;
+    if (!is_here || next->before) parts.push_back(index);
+    if (is_here) ++next;
+  }
+  renumber(kits, parts);
+  return kits;
+}
+
 bool can_bring_in(const Document& document, const JobChange& change) {
-  return can_bring_in(document.parts, change.parts) && can_bring_in(document.stocks, change.stocks) &&
-         (!change.rules || change.rules->before == document.rules);
+  if (!can_bring_in(document.parts, change.parts) || !can_bring_in(document.stocks, change.stocks) ||
+      (change.rules && !(change.rules->before == document.rules)))
+    return false;
+  if (change.kits.empty()) return true;
+  const auto comes = [](const ItemChange<Part>& one) { return !one.before; };
+  const std::size_t parts = document.parts.size() + static_cast<std::size_t>(std::count_if(
+                                                        change.parts.begin(), change.parts.end(), comes));
+  const auto names_parts = [&](const ItemChange<Kit>& one) {
+    return !one.after || std::all_of(one.after->pieces.begin(), one.after->pieces.end(),
+                                     [&](const KitPiece& piece) { return piece.part < parts; });
+  };
+  return std::all_of(change.kits.begin(), change.kits.end(), names_parts) &&
+         can_bring_in(kits_beside(document, change), change.kits);
 }
 
 bool can_take_out(const Document& document, const JobChange& change) {
@@ -172,9 +202,10 @@ bool can_take_out(const Document& document, const JobChange& change) {
   if (parts.empty() && stocks.empty()) return true;
   for (const Placement& placement : document.placements)
     if (goes(parts, placement.part) || goes(stocks, placement.stock)) return false;
-  for (const Kit& kit : document.kits)
-    for (const KitPiece& piece : kit.pieces)
-      if (goes(parts, piece.part)) return false;
+  const Numbers kits = going(change.kits);
+  for (std::uint32_t i = 0; i < document.kits.size(); ++i)
+    for (const KitPiece& piece : document.kits[i].pieces)
+      if (goes(parts, piece.part) && !goes(kits, i)) return false;
   return true;
 }
 

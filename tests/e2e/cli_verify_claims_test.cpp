@@ -47,6 +47,11 @@ TEST_F(CliVerifyClaims, ALayoutKeepsItsRulesAndTheLayoutItWasMadeFrom) {
   write_bytes(folder_ / "other.json", read_bytes(kOrders / "brackets.json"));
   expect(4, {"nested.json", "--layout", "other.json"}, "layout it was made from");
   Json layout = Json::parse(read_bytes(folder_ / "nested.json"));
+  Json cut = layout;
+  cut["rules"]["kerf"] = 0.2;
+  write_bytes(folder_ / "cut.json", cut.dump());
+  expect(0, {"cut.json"}, "Confirmed");
+  expect(4, {"cut.json", "--layout", "given.json"}, "the kerf is not that of the layout it was made from");
   layout.at("/placements/0/x") = layout.at("/placements/1/x");
   layout.at("/placements/0/y") = layout.at("/placements/1/y");
   layout.at("/placements/0")["copy"] = layout.at("/placements/1").value("copy", 0);

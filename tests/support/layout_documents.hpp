@@ -173,6 +173,7 @@ inline layout::Document random_document(std::uint64_t seed, std::uint64_t index)
     p.locked = half();
     d.placements.push_back(p);
   }
+  if (half()) d.rules.kerf = gap();
   return d;
 }
 

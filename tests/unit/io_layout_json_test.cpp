@@ -76,12 +76,13 @@ TEST(LayoutJson, MarksOfPartsAreKeptAsTheyAre) {
 
 TEST(LayoutJson, GapsAreRoundedUpAndCoordinatesToTheNearestStep) {
   Json json = Json::parse(kLayout);
-  json["rules"] = {{"gap", 0.1}, {"border_gap", 3}, {"defect_gap", 1e-300}};
+  json["rules"] = {{"gap", 0.1}, {"border_gap", 3}, {"defect_gap", 1e-300}, {"kerf", 0.2}};
   const auto file = read_layout(json.dump(), "plan.json");
   ASSERT_TRUE(file.has_value()) << file.error().message;
   EXPECT_EQ(file->document.rules.gap, 104858);  // 104857.6 steps
   EXPECT_EQ(file->document.rules.border_gap, 3 * geom::kGridPerMm);
   EXPECT_EQ(file->document.rules.defect_gap, 1);
+  EXPECT_EQ(file->document.rules.kerf, geom::grid_from_mm_up(0.2));
 }
 
 TEST(LayoutJson, PlacementsAreOrderedByIdAndIdsNotUsedAgain) {

@@ -101,6 +101,20 @@ TEST(JobsEdit, CarriesOutALogOrNothing) {
   EXPECT_EQ(free->violations.size(), 1u);
 }
 
+TEST(JobsEdit, NamesTheKitsThatLoseParts) {
+  layout::Document document = cases::two_squares();
+  document.parts.push_back(document.parts[0]);
+  document.parts[1].id = "lid";
+  document.kits = {{"set", "", 1, 1, {{0, 1, std::nullopt}, {1, 1, std::nullopt}}},
+                   {"lids", "", 1, 1, {{1, 2, std::nullopt}}}};
+  const auto edited = edit(document, {"log", "lekalo-commands/1\nremove-part lid\n"});
+  ASSERT_TRUE(edited) << edited.error().message;
+  EXPECT_EQ(edited->notices,
+            (std::vector<std::string>{"kit 'set' is made without the parts that were removed",
+                                      "kit 'lids' is gone with the last of its parts"}));
+  EXPECT_TRUE(edit(document, {"log", "lekalo-commands/1\nmove 1 by 5 0\n"})->notices.empty());
+}
+
 TEST(JobsShow, CountsAndDraws) {
   const Layout layout = two_squares();
   const Shown shown = show(layout.document);

@@ -85,6 +85,7 @@ TEST(JobsOrder, AGapBelowTheKerfIsRaisedToItAndTold) {
   ASSERT_TRUE(made);
   EXPECT_EQ(made->document.rules.gap, geom::grid_from_mm_up(0.25));
   EXPECT_EQ(made->document.rules.border_gap, geom::grid_from_mm_up(10));
+  EXPECT_EQ(made->document.rules.kerf, geom::grid_from_mm_up(0.25)) << "it was forgotten";
   ASSERT_EQ(made->notices.size(), 1u);
   EXPECT_NE(made->notices[0].find("raised to 0.25 mm"), std::string::npos);
   order.gap_mm = 0.3;

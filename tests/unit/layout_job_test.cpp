@@ -114,9 +114,12 @@ TEST(LayoutJob, EachCommandDoesWhatItSays) {
   EXPECT_EQ(carry_out(session, "gap 4"), "");
   EXPECT_EQ(carry_out(session, "border 10"), "");
   EXPECT_EQ(d.rules, (Rules{4 * mm, 10 * mm, 0}));
-  EXPECT_EQ(carry_out(session, "kerf 3"), "nothing");
+  EXPECT_EQ(carry_out(session, "kerf 3"), "");
+  EXPECT_EQ(d.rules, (Rules{4 * mm, 10 * mm, 0, 3 * mm})) << "narrower than the gap";
   EXPECT_EQ(carry_out(session, "kerf 5"), "");
-  EXPECT_EQ(d.rules.gap, 5 * mm);
+  EXPECT_EQ(d.rules, (Rules{5 * mm, 10 * mm, 0, 5 * mm}));
+  EXPECT_EQ(carry_out(session, "gap 4"), "nothing") << "the cut is wider";
+  EXPECT_EQ(carry_out(session, "kerf 5"), "nothing");
   EXPECT_EQ(carry_out(session, "quantity square 6"), "nothing");
   EXPECT_EQ(ids(d), (std::vector<std::uint64_t>{1, 2, 3, 4}));
   while (session.can_undo()) session.undo();
@@ -136,6 +139,30 @@ TEST(LayoutJob, WhatIsPlacedOfAPartThatGoesGoesWithItAndOthersKeepTheirParts) {
   EXPECT_EQ(session.workspace().at({1, 0}, grid_point(52, 52)), (std::vector<std::uint64_t>{3}));
   session.undo();
   EXPECT_TRUE(d == job());
+}
+
+TEST(LayoutJob, APartThatGoesIsInNoKitAnyMoreAndAKitOfNothingGoesToo) {
+  Document first = job();
+  first.kits.push_back(
+      {"set", "Set", 3, 2, {{0, 1, std::nullopt}, {1, 2, false}, {2, 1, std::nullopt}, {1, 1, {}}}});
+  first.kits.push_back({"lids", "", 1, 1, {{2, 4, std::nullopt}}});
+  Session session(first);
+  const auto& d = session.document();
+  const auto removed = session.apply(RemovePartCommand{1});
+  ASSERT_TRUE(removed);
+  EXPECT_EQ(removed->job.kits.size(), 2u);
+  EXPECT_EQ(d.kits, (std::vector<Kit>{{"set", "Set", 3, 2, {{0, 1, std::nullopt}, {1, 1, std::nullopt}}},
+                                      {"lids", "", 1, 1, {{1, 4, std::nullopt}}}}));
+  EXPECT_EQ(wanted(d, 1), 2 + 3 * 1 + 4) << "the lid";
+  session.undo();
+  EXPECT_TRUE(d == first);
+  EXPECT_EQ(carry_out(session, "remove-part bar"), "");
+  EXPECT_EQ(carry_out(session, "remove-part lid"), "");
+  EXPECT_EQ(d.kits, (std::vector<Kit>{{"set", "Set", 3, 2, {{0, 1, std::nullopt}}}}));
+  EXPECT_EQ(carry_out(session, "remove-part square"), "");
+  EXPECT_TRUE(d.kits.empty() && d.parts.empty());
+  while (session.can_undo()) session.undo();
+  EXPECT_TRUE(d == first);
 }
 
 TEST(LayoutJob, WhatLiesOnASheetThatGoesIsTakenOff) {
@@ -158,13 +185,15 @@ TEST(LayoutJob, WhatCannotBeIsRefusedInOneSentence) {
   first.placements[0].locked = true;
   Stock strip = strip_of(1400 * mm);
   first.stocks.push_back(strip);
+  first.parts[1].may_mirror = true;
+  first.kits.push_back({"pair", "", 1, 1, {{1, 1, false}, {1, 1, true}}});
   Session session(first);
   const std::pair<const char*, const char*> refused[] = {
       {"quantity lid -1", "a quantity is a whole number from 0 to 1000000000, not -1"},
       {"quantity lid 1000000001", "a quantity is a whole number from 0 to"},
       {"rotations lid 0,3601", "rotations lie within +-3600 degrees"},
       {"rotations lid 90..0", "the first of a range not above its last"},
-      {"remove-part bar", "part 'bar' is a piece of kit 'box', and stays"},
+      {"mirror bar no", "kit 'pair' is made with part 'bar' turned over, so it may be mirrored"},
       {"remove-part square", "placement 1 is locked; unlock it first"},
       {"remove-stock scrap", "placement 1 is locked; unlock it first"},
       {"add-sheet 0x100", "a side of a sheet is from 0.001 to 262144 mm long"},
@@ -235,6 +264,14 @@ TEST(LayoutJob, AChangeThatDoesNotFitIsNoticed) {
   without.placements.clear();
   EXPECT_TRUE(can_take_out(without, {{{0, d.parts[0], std::nullopt}}, {}, std::nullopt}));
   EXPECT_FALSE(can_take_out(without, {{{1, d.parts[1], std::nullopt}}, {}, std::nullopt})) << "in a kit";
+  EXPECT_TRUE(can_take_out(
+      without, {{{1, d.parts[1], std::nullopt}}, {}, std::nullopt, {{0, d.kits[0], std::nullopt}}}));
+  const auto kit = [](std::uint32_t of) { return Kit{"box", "", 1, 1, {{of, 2, std::nullopt}}}; };
+  const std::vector<ItemChange<Part>> first = {{0, std::nullopt, part("new", 1, 1)}};
+  EXPECT_TRUE(fits({first, {}, std::nullopt, {{0, kit(2), kit(0)}}}));
+  EXPECT_FALSE(fits({first, {}, std::nullopt, {{0, kit(1), kit(0)}}})) << "the bar has another number there";
+  EXPECT_FALSE(fits({first, {}, std::nullopt, {{0, kit(2), kit(4)}}})) << "no such part";
+  EXPECT_FALSE(fits({{}, {}, std::nullopt, {{1, kit(1), std::nullopt}}})) << "no such kit";
 }
 
 TEST(LayoutJob, DifferencesLeadFromOneDocumentToTheOther) {
@@ -257,7 +294,7 @@ TEST(LayoutJob, DifferencesLeadFromOneDocumentToTheOther) {
   b.placements[0].part = 3;
   leads(a, b);
   leads(b, a);
-  Document c = a;  // in another order, but for the bar, which a kit needs
+  Document c = a;  // in another order
   std::swap(c.parts[0], c.parts[2]);
   std::swap(c.stocks[0], c.stocks[1]);
   leads(a, c);

@@ -512,6 +512,40 @@ TEST_F(TwoClients, AreToldWhoChangedThePartThatWouldGoBack) {
             "6) since");
 }
 
+TEST_F(TwoClients, APartThatComesBackIsInItsKitsAgainUnlessTheyAreOthersNow) {
+  layout::Additions lids = a_lid();
+  lids.parts.push_back(lids.parts[0]);
+  lids.parts[1].id = "foot";
+  bring_in(first_, added(first_, lids));
+  first_.kits = {{"set", "", 1, 1, {{0, 1, std::nullopt}, {1, 2, std::nullopt}, {2, 1, std::nullopt}}},
+                 {"feet", "", 1, 1, {{2, 4, std::nullopt}}}};
+  id_ = store_->create("kits", first_).value();
+  reopen();
+  const auto done = command(1, "remove-part foot");
+  EXPECT_EQ(done[0]["kits"], Json{"set"});
+  EXPECT_EQ(done[0]["kits_gone"], Json{"feet"});
+  EXPECT_FALSE(done[0].contains("taken_off"));
+  ASSERT_EQ(room_->document().kits.size(), 1u);
+  EXPECT_EQ(store_->load(id_)->document, room_->document());
+  ASSERT_EQ(say(1, UndoMessage{1, false})[0]["type"], "done");
+  EXPECT_EQ(room_->document(), first_);
+  ASSERT_EQ(say(1, UndoMessage{2, true})[0]["type"], "done");
+  // Another client takes a part of the same kit.
+  ASSERT_EQ(command(2, "remove-part lid")[0]["type"], "done");
+  EXPECT_EQ(say(1, UndoMessage{3, false})[0]["message"],
+            "'remove-part \"foot\"' cannot be undone: part 'lid' is not there any more");
+  ASSERT_EQ(say(2, UndoMessage{4, false})[0]["type"], "done");
+  reopen();
+  ASSERT_EQ(say(1, UndoMessage{5, false})[0]["type"], "done");
+  EXPECT_EQ(room_->document(), first_);
+  hear(room_->restore(4).value());
+  EXPECT_EQ(room_->document().kits.size(), 1u);
+  hear(room_->restore(0).value());
+  EXPECT_EQ(room_->document(), first_);
+  EXPECT_EQ(store_->load(id_)->document, first_);
+  EXPECT_TRUE(store_->check()->damage.empty());
+}
+
 TEST_F(TwoClients, PiecesThatWereTakenOffComeBackOnlyWhereTheirPlaceIsFree) {
   command(2, "add-sheet 100x100=1");
   ASSERT_EQ(command(1, "remove-part square")[0]["taken_off"], 2);

@@ -188,32 +188,31 @@ TEST_F(StoreFile, RefusesANewerFormat) {
   { Store store = open(); }
   {
     Database database = Database::open(path_).value();
-    ASSERT_TRUE(database.run("PRAGMA user_version=5"));
+    ASSERT_TRUE(database.run("PRAGMA user_version=6"));
   }
   const Result<Store> store = Store::open(path_);
   ASSERT_FALSE(store);
-  EXPECT_NE(store.error().message.find("format 5"), std::string::npos);
+  EXPECT_NE(store.error().message.find("format 6"), std::string::npos);
 }
 
-TEST_F(StoreFile, OpensAStoreOfFormat3AndMarksItForWhatComes) {
+TEST_F(StoreFile, OpensAStoreOfFormat3Or4AndMarksItForWhatComes) {
   const layout::Document document = cases::two_squares();
   { ASSERT_TRUE(open().create("a", document)); }
   const auto format = [&] { return Database::open(path_)->number("PRAGMA user_version").value(); };
-  {
-    Database database = Database::open(path_).value();
-    ASSERT_TRUE(database.run("PRAGMA user_version=3"));
+  for (const int old : {3, 4}) {
+    ASSERT_TRUE(Database::open(path_)->run(("PRAGMA user_version=" + std::to_string(old)).c_str()));
+    {
+      Store store = Store::open(path_, StoreUse::inspect).value();
+      EXPECT_EQ(store.load(1)->document, document);
+    }
+    EXPECT_EQ(format(), old) << "an inspection changes nothing";
+    {
+      Store store = open();
+      EXPECT_TRUE(store.notices().empty());
+      EXPECT_EQ(store.load(1)->document, document);
+    }
+    EXPECT_EQ(format(), kStoreFormat);
   }
-  {
-    Store store = Store::open(path_, StoreUse::inspect).value();
-    EXPECT_EQ(store.load(1)->document, document);
-  }
-  EXPECT_EQ(format(), 3) << "an inspection changes nothing";
-  {
-    Store store = open();
-    EXPECT_TRUE(store.notices().empty());
-    EXPECT_EQ(store.load(1)->document, document);
-  }
-  EXPECT_EQ(format(), kStoreFormat);
 }
 
 TEST_F(StoreFile, NoticesDamage) {
@@ -386,6 +385,11 @@ TEST(ChangeText, SaysExactlyHowTheJobChanges) {
   }
   EXPECT_GT(jobs, 50u);
   EXPECT_TRUE(change_from_text("1 1\nr1 2 3 4 5 6\n"));
+  EXPECT_TRUE(change_from_text("1 1\nr1 2 3 4 5 6\nc0 7\n"));
+  EXPECT_FALSE(change_from_text("1 1\nc0 7\n"));
+  EXPECT_TRUE(change_from_text("1 1\nk0 {\"id\": \"a\", \"pieces\": [{\"part\": 7}]}\n"));
+  EXPECT_FALSE(change_from_text("1 1\nk0 {\"id\": \"a\", \"pieces\": [{\"part\": \"b\"}]}\n"));
+  EXPECT_FALSE(change_from_text("1 1\nk0 {\"id\": \"a\", \"pieces\": []}\n"));
   EXPECT_FALSE(change_from_text("1 1\nr1 2 3\n"));
   EXPECT_FALSE(change_from_text("1 1\nr1 2 3 4 5 6\nr1 2 3 4 5 6\n"));
   EXPECT_FALSE(change_from_text("1 1\np0 {}\n"));

@@ -18,7 +18,7 @@ Result<int> run_edit(const EditOptions& o) {
   LEKALO_TRY(std::string log, disk::read_file(o.commands));
   LEKALO_TRY(const jobs::Edited edited, jobs::edit(std::move(input.document), {o.commands, std::move(log)}));
   LEKALO_CHECK(deliver(o.output, edited.bytes));
-  std::string said = notes(input.notices);
+  std::string said = notes(input.notices) + notes(edited.notices);
   const std::size_t broken = edited.violations.size();
   said += fmt::format("{} placed, {}\n", edited.document.placements.size(),
                       broken == 0 ? "no rule is broken"

@@ -82,7 +82,7 @@ class NumberTaker {
   [[nodiscard]] bool ok() const { return ok_; }
 
  private:
-  static constexpr std::string_view kSigns = "-+<>pPsSr";
+  static constexpr std::string_view kSigns = "-+<>pPsSkKrc";
   std::string_view text_;
   bool ok_ = true;
 };
@@ -150,6 +150,13 @@ bool take_rules(NumberTaker& numbers, std::optional<layout::RulesChange>& change
   return numbers.ok();
 }
 
+bool take_kerf(NumberTaker& numbers, std::optional<layout::RulesChange>& change) {
+  if (!change) return false;
+  numbers.take(change->before.kerf, ' ');
+  numbers.take(change->after.kerf, '\n');
+  return numbers.ok();
+}
+
 bool take_line(NumberTaker& numbers, char sign, layout::Change& change) {
   switch (sign) {
     case '-':
@@ -164,6 +171,11 @@ bool take_line(NumberTaker& numbers, char sign, layout::Change& change) {
     case 's':
     case 'S':
       return take_item(numbers, sign == 'S', change.job.stocks, io::read_stock);
+    case 'k':
+    case 'K':
+      return take_item(numbers, sign == 'K', change.job.kits, io::read_kit);
+    case 'c':
+      return take_kerf(numbers, change.job.rules);
     default:
       return take_rules(numbers, change.job.rules);
   }
@@ -183,8 +195,12 @@ std::string change_text(const layout::Change& change) {
   }
   append_lines(text, 'p', change.job.parts, io::part_json);
   append_lines(text, 's', change.job.stocks, io::stock_json);
-  if (const auto& rules = change.job.rules)
+  append_lines(text, 'k', change.job.kits, io::kit_json);
+  if (const auto& rules = change.job.rules) {
     text += fmt::format("r{} {}\n", text_of(rules->before), text_of(rules->after));
+    if (rules->before.kerf != 0 || rules->after.kerf != 0)
+      text += fmt::format("c{} {}\n", rules->before.kerf, rules->after.kerf);
+  }
   return text;
 }
 

@@ -175,8 +175,8 @@ Result<void> Store::prepare_file() {
                     said.substr(said.rfind('\n') + 1), path_));
   check.reset();
   if (format == 1 || format == 2) LEKALO_CHECK(bring_forward(format));
-  // Programs that know format 3 cannot read what is written from now on.
-  if (format == 3 && serves) LEKALO_CHECK(mark(database_));
+  // Programs that know format 3 or 4 cannot read what is written from now on.
+  if ((format == 3 || format == 4) && serves) LEKALO_CHECK(mark(database_));
   LEKALO_CHECK(check_schema());
   LEKALO_CHECK(check_revision());
   Result<void> noted = note_damage();

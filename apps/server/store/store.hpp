@@ -23,8 +23,8 @@ using Revision = std::int64_t;
 inline constexpr Revision kSnapshotEvery = 256;
 /// The format that is written. Formats 1 (without photographs) and 2 had no digests; a store of those formats
 /// is brought forward when it is opened, after a copy beside it (PATH.format-2). Format 3 had no changes of
-/// parts, stocks and rules; else it is this one.
-inline constexpr std::int64_t kStoreFormat = 4;
+/// parts, stocks and rules, format 4 none of kits and of the kerf; else they are this one.
+inline constexpr std::int64_t kStoreFormat = 5;
 /// This much is kept free beside a store (PATH-reserve), so that layouts can be removed from a full disk.
 inline constexpr std::int64_t kReserveBytes = std::int64_t{4} << 20;
 

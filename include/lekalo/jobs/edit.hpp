@@ -16,6 +16,7 @@ struct Edited {
   /// The rules that the document breaks, as the engine finds them. Commands in mode free, and a layout that
   /// was given, may break some.
   std::vector<layout::Violation> violations;
+  std::vector<std::string> notices;  ///< the kits that lost parts
 };
 
 /// Carries out a log of commands (layout/command.hpp, docs/design/layout-commands.md) on a layout.

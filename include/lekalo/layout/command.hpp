@@ -177,7 +177,7 @@ struct MirrorCommand {
   bool may_mirror = false;
   friend bool operator==(const MirrorCommand&, const MirrorCommand&) = default;
 };
-/// A part that a kit needs stays.
+/// The part goes from kits too, and a kit that was made of nothing else goes with it.
 struct RemovePartCommand {
   std::uint32_t part = 0;
   friend bool operator==(const RemovePartCommand&, const RemovePartCommand&) = default;
@@ -201,7 +201,7 @@ struct RemoveStockCommand {
   friend bool operator==(const RemoveStockCommand&, const RemoveStockCommand&) = default;
 };
 enum class RuleKind : std::uint8_t {
-  gap,
+  gap,  ///< one that is smaller than the kerf is raised to it
   border,
   kerf  ///< the width of the cut: a smaller gap is raised to it
 };
@@ -278,7 +278,7 @@ void take_back(Workspace& workspace, const Change& change);
 /// Returns the change that takes one back. Numbers of placements are never given again while others may speak
 /// of them, so the next one stays `next_id`.
 [[nodiscard]] Change reversed(const Change& change, std::uint64_t next_id);
-/// Returns the change that leads from one document to another with the same kits.
+/// Returns the change that leads from one document to another.
 [[nodiscard]] Change difference(const Document& from, const Document& to);
 /// Returns a change that fits the document `then` with the numbers that parts and stocks have in `now`, where
 /// others may have come and gone since. Fails with ErrorCode::refuted where it names one that is not there

@@ -149,6 +149,9 @@ struct Rules {
   std::int64_t gap = 0;         ///< part to part
   std::int64_t border_gap = 0;  ///< part to the border of the stock and of its holes
   std::int64_t defect_gap = 0;  ///< part to defects it does not tolerate
+  /// The width of the cut, 0 where nobody said it. Orders and commands keep `gap` no smaller; the rules ask
+  /// for `gap` alone.
+  std::int64_t kerf = 0;
   friend bool operator==(const Rules&, const Rules&) = default;
 };
 

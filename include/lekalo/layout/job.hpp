@@ -12,10 +12,10 @@
 
 namespace lekalo::layout {
 
-/// The job is what is cut, from what, and by which rules: the parts, stocks and rules of a document. This is
-/// how it changes while things lie on it; docs/design/layout-commands.md.
+/// The job is what is cut, from what, and by which rules: the parts, stocks, kits and rules of a document.
+/// This is how it changes while things lie on it; docs/design/layout-commands.md.
 
-/// A part or a stock that comes (no `before`), goes (no `after`) or becomes another. Its `index` counts in
+/// A part, stock or kit that comes (no `before`), goes (no `after`) or becomes another. Its `index` counts in
 /// the list that has both what goes and what comes.
 template <class Item>
 struct ItemChange {
@@ -32,27 +32,33 @@ struct RulesChange {
 
 /// The changes of a job, each list ascending by index. First comes what comes, at its index; then placements
 /// and features are changed, which name parts and stocks as they are numbered at that moment; last goes what
-/// goes. So the same numbers serve for the way there and the way back.
+/// goes. So the same numbers serve for the way there and the way back. Kits name parts by those numbers too.
 struct JobChange {
   std::vector<ItemChange<Part>> parts;
   std::vector<ItemChange<Stock>> stocks;
   std::optional<RulesChange> rules;
-  [[nodiscard]] bool is_nothing() const noexcept { return parts.empty() && stocks.empty() && !rules; }
+  std::vector<ItemChange<Kit>> kits = {};
+  [[nodiscard]] bool is_nothing() const noexcept {
+    return parts.empty() && stocks.empty() && !rules && kits.empty();
+  }
   friend bool operator==(const JobChange&, const JobChange&) = default;
 };
 
 [[nodiscard]] JobChange reversed(const JobChange& change);
 
-/// Puts in what comes, puts what becomes another in its place, and sets the rules. Placements and kits name
-/// the same parts and stocks as before. Cost: O(document) where something comes that is not the last of its
-/// list. \pre can_bring_in
+/// Puts in what comes, puts what becomes another in its place, and sets the rules. Placements and the other
+/// kits name the same parts and stocks as before. Cost: O(document) where something comes that is not the
+/// last of its list. \pre can_bring_in
 void bring_in(Document& document, const JobChange& change);
 /// Takes out what goes.
 /// \pre bring_in was called, and can_take_out
 void take_out(Document& document, const JobChange& change);
-/// Says whether everything is as a change says it was before, and what comes has an id of its own.
+/// Returns the kits with the numbers that parts have when what comes is there.
+[[nodiscard]] std::vector<Kit> kits_beside(const Document& document, const JobChange& change);
+/// Says whether everything is as a change says it was before, what comes has an id of its own, and kits name
+/// parts that are there.
 [[nodiscard]] bool can_bring_in(const Document& document, const JobChange& change);
-/// Says whether no placement and no kit names what goes.
+/// Says whether no placement names what goes, and no kit that stays.
 /// \pre bring_in was called
 [[nodiscard]] bool can_take_out(const Document& document, const JobChange& change);
 

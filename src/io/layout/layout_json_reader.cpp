@@ -62,6 +62,11 @@ class LayoutReader {
   }
   layout::Part read_part() { return part_of(reader_.tree().root()); }
   layout::Stock read_stock() { return stock_of(reader_.tree().root()); }
+  layout::Kit read_kit() {
+    return kit_of(reader_.tree().root(), [this](JsonValue v) {
+      return static_cast<std::uint32_t>(reader_.integer(v, 0, kMostParts - 1));
+    });
+  }
 
  private:
   template <class Take>
@@ -116,10 +121,11 @@ class LayoutReader {
   int quality(JsonValue value) { return value.text_is("best") ? layout::kBestQuality : level(value); }
 
   void rules(JsonValue value) {
-    if (!reader_.expect_object(value, {"gap", "border_gap", "defect_gap"})) return;
+    if (!reader_.expect_object(value, {"gap", "border_gap", "defect_gap", "kerf"})) return;
     optional(value, "gap", [&](JsonValue v) { document_.rules.gap = reader_.gap(v); });
     optional(value, "border_gap", [&](JsonValue v) { document_.rules.border_gap = reader_.gap(v); });
     optional(value, "defect_gap", [&](JsonValue v) { document_.rules.defect_gap = reader_.gap(v); });
+    optional(value, "kerf", [&](JsonValue v) { document_.rules.kerf = reader_.gap(v); });
   }
 
   void stock(JsonValue value) {
@@ -303,31 +309,39 @@ class LayoutReader {
   }
 
   void kit(JsonValue value) {
+    layout::Kit kit = kit_of(value, [this](JsonValue v) { return named(v, part_index_, "part"); });
+    if (reader_.ok()) document_.kits.push_back(std::move(kit));
+  }
+
+  /// \param part_of  the part that a piece names
+  template <class PartOf>
+  layout::Kit kit_of(JsonValue value, const PartOf& part_of) {
     layout::Kit kit;
-    if (!reader_.expect_object(value, {"id", "name", "demand", "value", "pieces"})) return;
+    if (!reader_.expect_object(value, {"id", "name", "demand", "value", "pieces"})) return kit;
     kit.id = id(value, kit_ids_, "kits");
     optional(value, "name", [&](JsonValue v) { kit.name = reader_.text(v); });
     optional(value, "demand", [&](JsonValue v) { kit.demand = reader_.integer(v, 0, limits::kMostKits); });
     optional(value, "value", [&](JsonValue v) { kit.value = reader_.number(v, 0, limits::kMostMoney); });
     const auto pieces = reader_.need(value, "pieces", "what one kit is made of");
-    if (!pieces || !reader_.expect_list(*pieces, kMostParts)) return;
-    if (pieces->size() == 0) return reader_.refuse(*pieces, "a kit of no pieces; name at least one part");
+    if (!pieces || !reader_.expect_list(*pieces, kMostParts)) return kit;
+    if (pieces->size() == 0) reader_.refuse(*pieces, "a kit of no pieces; name at least one part");
     for (const JsonValue item : *pieces) {
       layout::KitPiece piece;
-      if (!reader_.expect_object(item, {"part", "count", "mirrored"})) return;
-      if (const auto p = reader_.need(item, "part", "the id of the part"))
-        piece.part = named(*p, part_index_, "part");
+      if (!reader_.expect_object(item, {"part", "count", "mirrored"})) return kit;
+      if (const auto p = reader_.need(item, "part", "the id of the part")) piece.part = part_of(*p);
       optional(item, "count", [&](JsonValue v) { piece.count = reader_.integer(v, 1, limits::kMostKits); });
       optional(item, "mirrored", [&](JsonValue v) {
         piece.mirrored = reader_.truth(v);
-        if (reader_.ok() && *piece.mirrored && !document_.parts[piece.part].may_mirror)
+        // A kit that is read alone has no parts to ask.
+        if (reader_.ok() && *piece.mirrored && piece.part < document_.parts.size() &&
+            !document_.parts[piece.part].may_mirror)
           reader_.refuse(v, fmt::format("the part {} may not be mirrored; its \"mirror\" must say true",
                                         excerpt(document_.parts[piece.part].id)));
       });
-      if (!reader_.ok()) return;
+      if (!reader_.ok()) return kit;
       kit.pieces.push_back(piece);
     }
-    document_.kits.push_back(std::move(kit));
+    return kit;
   }
 
   void placement(JsonValue value) {
@@ -478,6 +492,10 @@ Result<layout::Part> read_part(std::string_view bytes, const std::string& name) 
 
 Result<layout::Stock> read_stock(std::string_view bytes, const std::string& name) {
   return read_item(bytes, name, [](detail::LayoutReader& layout) { return layout.read_stock(); });
+}
+
+Result<layout::Kit> read_kit(std::string_view bytes, const std::string& name) {
+  return read_item(bytes, name, [](detail::LayoutReader& layout) { return layout.read_kit(); });
 }
 
 }  // namespace lekalo::io

@@ -150,6 +150,23 @@ class ItemWriter {
       list_of_lines(fields.field("marks"), part.marks, 2, [this](const layout::PartMark& m) { mark(m); });
     fields.close();
   }
+  /// \param write_part  writes what a piece calls its part
+  template <class WritePart>
+  void kit(const Kit& kit, const WritePart& write_part) {
+    Fields fields(json_);
+    fields.text("id", kit.id);
+    fields.name(kit.name);
+    fields.integer("demand", kit.demand);
+    fields.number("value", kit.value, 1);
+    fields.field("pieces").list(kit.pieces, [&](const KitPiece& piece) {
+      Fields of(json_);
+      write_part(of.field("part"), piece.part);
+      of.integer("count", piece.count, std::int64_t{1});
+      if (piece.mirrored) of.field("mirrored").value(*piece.mirrored);
+      of.close();
+    });
+    fields.close();
+  }
   [[nodiscard]] std::string take() { return json_.take(); }
 
  protected:
@@ -193,7 +210,9 @@ class Writer : private ItemWriter {
     rules(document_.rules);
     list("stocks", document_.stocks, [this](const Stock& s) { stock(s); });
     list("parts", document_.parts, [this](const Part& p) { part(p); });
-    list("kits", document_.kits, [this](const Kit& k) { kit(k); });
+    list("kits", document_.kits, [this](const Kit& k) {
+      kit(k, [this](JsonWriter& json, std::uint32_t part) { json.value(document_.parts[part].id); });
+    });
     list("placements", document_.placements,
          [this](const Placement& p) { write_placement(json_, document_, p); });
     json_.line(0).field("next_id", document_.next_id).end();
@@ -211,24 +230,7 @@ class Writer : private ItemWriter {
     fields.gap("gap", rules.gap);
     fields.gap("border_gap", rules.border_gap);
     fields.gap("defect_gap", rules.defect_gap);
-    fields.close();
-  }
-
-  void kit(const Kit& kit) {
-    Fields fields(json_);
-    fields.text("id", kit.id);
-    fields.name(kit.name);
-    fields.integer("demand", kit.demand);
-    fields.number("value", kit.value, 1);
-    fields.field("pieces").list(kit.pieces, [this](const KitPiece& p) { piece(p); });
-    fields.close();
-  }
-
-  void piece(const KitPiece& piece) {
-    Fields fields(json_);
-    fields.text("part", document_.parts[piece.part].id);
-    fields.integer("count", piece.count, std::int64_t{1});
-    if (piece.mirrored) fields.field("mirrored").value(*piece.mirrored);
+    if (rules.kerf != 0) fields.gap("kerf", rules.kerf);
     fields.close();
   }
 
@@ -277,6 +279,12 @@ std::string part_json(const Part& part) {
 
 std::string stock_json(const Stock& stock) {
   return line_of([&](ItemWriter& items) { items.stock(stock); });
+}
+
+std::string kit_json(const Kit& kit) {
+  return line_of([&](ItemWriter& items) {
+    items.kit(kit, [](JsonWriter& json, std::uint32_t part) { json.value(part); });
+  });
 }
 
 std::string features_json(const Document& document, const std::vector<FeatureChange>& changes) {

@@ -100,6 +100,7 @@ std::vector<std::string> differences(const WrittenLayout& layout, const WrittenL
   compare("part", layout.parts, given.parts, same_part, found);
   compare(
       "kit", layout.kits, given.kits, [](const auto& a, const auto& b) { return a == b; }, found);
+  if (layout.kerf != given.kerf) found.emplace_back("the kerf is not that of the layout it was made from");
   std::map<std::uint64_t, const WrittenPiece*> pieces;
   for (const WrittenPiece& piece : layout.placements) pieces[piece.id] = &piece;
   for (const WrittenPiece& piece : given.placements) {

@@ -478,8 +478,9 @@ Result<WrittenLayout> read_layout(const Document& document, bool unmade) {
   root.optional_text("name");
   Gaps rules;
   if (root.has("rules")) {
-    Members members(root.get("rules"), "rules", complaint, {"gap", "border_gap", "defect_gap"});
+    Members members(root.get("rules"), "rules", complaint, {"gap", "border_gap", "defect_gap", "kerf"});
     rules = read_gaps(members, {});
+    if (members.has("kerf")) layout.kerf = members.steps("kerf", 0, limits::kLargestOutline, ToStep::up);
   }
   Index stocks, parts;
   root.each("stocks", [&](Json item, const std::string& path) {

@@ -107,6 +107,7 @@ struct WrittenLayout {
   std::vector<WrittenPart> parts;
   std::vector<WrittenKit> kits;
   std::vector<WrittenPiece> placements;
+  std::int64_t kerf = 0;  ///< no rule asks for it
 };
 
 /// Reads a layout. bad_input names the field. Cost: O(n log n).

@@ -42,7 +42,7 @@ export function exportDialog(form: ChosenForm, model: Model, events: ExportEvent
           inputmode: 'decimal',
           'aria-required': field.required ? 'true' : undefined,
           autocomplete: 'off',
-          value: kept[field.name] ?? field.value ?? '',
+          value: (field.name === 'kerf' && model.document.rules?.kerf) || (kept[field.name] ?? field.value ?? ''),
         });
   const rows = fields.map((field) => {
     const input = inputOf(field);

@@ -162,13 +162,16 @@ class JobDialog {
   }
 
   private ruleField(model: Model, name: Rule): HTMLElement {
-    const { gap = 0, border_gap = 0 } = model.document.rules ?? {};
-    const value = name === 'kerf' ? '' : mm(name === 'gap' ? gap : border_gap);
-    const field = textField(`rule.${name}`, value, t(`order.${name}`));
+    const { gap = 0, border_gap = 0, kerf = 0 } = model.document.rules ?? {};
+    const value = name === 'kerf' ? kerf : name === 'gap' ? gap : border_gap;
+    const field = textField(`rule.${name}`, name === 'kerf' && kerf === 0 ? '' : mm(value), t(`order.${name}`));
     field.inputMode = 'decimal';
     if (name === 'kerf') field.placeholder = t('job.kerf');
     field.addEventListener('change', () => {
-      if (name !== 'kerf' || field.value.trim() !== '') this.run(line.rule(name, length(field.value)), field);
+      const typed = length(field.value) || '0';
+      const cut = name === 'kerf' ? Number(typed) : kerf;
+      const raised = name !== 'border' && cut > (name === 'gap' ? Number(typed) : gap);
+      this.run(line.rule(name, typed), field, raised ? t('job.raised', { mm: mm(cut) }) : undefined);
     });
     return h('label', {}, h('span', {}, `${t(`order.${name}`)}, ${t('job.mm')}`), field);
   }
@@ -255,13 +258,21 @@ class JobDialog {
     this.row.hide();
   }
 
-  /** Carries a line out. A field whose value is refused says so, and keeps it. */
-  private run(text: string, field?: HTMLElement): void {
+  /**
+   * Carries a line out. A field whose text is refused says so, and keeps it to be mended; what was chosen goes back.
+   *
+   * @param note what is said where it is done, as the layout will not be quite what was typed
+   */
+  private run(text: string, field?: HTMLElement, note?: string): void {
     void this.events.command(text).then((said) => {
-      this.say(said);
+      const isDone = said.text === '' || said.isNote;
+      const differs = note !== undefined && isDone;
+      const isText = field instanceof HTMLInputElement && field.type === 'text';
+      if (differs || (!isDone && !isText)) this.refresh();
+      this.say(differs ? { text: note, isNote: true } : said);
       const now = field?.dataset.field;
       const shown = now === undefined ? null : this.element.querySelector(`[data-field="${CSS.escape(now)}"]`);
-      shown?.toggleAttribute('aria-invalid', said.text !== '' && !said.isNote);
+      shown?.toggleAttribute('aria-invalid', !isDone && isText);
     });
   }
 

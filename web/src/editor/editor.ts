@@ -1,13 +1,13 @@
 // The state of the page, and the gestures that change it. Drawing and panels look at it and are told when it changes.
 
 import { Checking } from '../tasks/checking';
-import type { FeatureChange, LayoutDocument, Placement, Violation } from '../layout/document';
+import type { FeatureChange, Kit, LayoutDocument, Placement, Violation } from '../layout/document';
 import { snapToGrid } from '../layout/grid';
 import { UNKNOWN, type Kernel, type LiveState } from '../kernel/kernel';
 import type { Mode } from '../layout/commands';
 import { Model, type Change } from '../layout/model';
 import { Photos } from './photos';
-import type { Client, Connection, Course } from '../server/socket';
+import type { Client, Connection, Course, Done } from '../server/socket';
 import { t } from '../i18n';
 import { Transfer, type Answer } from '../tasks/transfer';
 
@@ -40,6 +40,24 @@ export interface Watched {
 export interface Queued {
   placements: Placement[];
 }
+
+/**
+ * What went with a part or a sheet, in words.
+ *
+ * @param before the kits as they were
+ */
+function goneWith({ taken_off = 0, kits = [], kits_gone = [] }: Done, before: readonly Kit[] = []): string {
+  const names = (ids: readonly string[]): string =>
+    ids.map((id) => before.find((kit) => kit.id === id)?.name ?? id).join(', ');
+  return [
+    taken_off > 0 ? t('job.taken', { n: taken_off }) : '',
+    kits.length > 0 ? t('job.kits', { kits: names(kits) }) : '',
+    kits_gone.length > 0 ? t('job.kits.gone', { kits: names(kits_gone) }) : '',
+  ]
+    .filter((one) => one !== '')
+    .join(' · ');
+}
+
 /**
  * A line for the server, or a function that makes one of the layout as it is when its turn comes; the function gives
  * null where the gesture has lost its meaning.
@@ -300,6 +318,7 @@ export class Editor {
     this.tell('connection');
     const verb = type === 'command' ? longVerb(text) : undefined;
     const course = verb && this.beginLong(verb);
+    const { kits } = this.model.document;
     const answer = await client.ask(type === 'command' ? { type, mode: this.mode, text } : { type }, course);
     this.pending -= 1;
     if (answer.type === 'refused') {
@@ -309,9 +328,8 @@ export class Editor {
     } else if (answer.type === 'lost') {
       this.say(t('lost.gesture'));
     } else if (answer.type === 'done') {
-      const taken = answer.taken_off ?? 0;
       const said = answer.nothing ? t('nothing.moved') : answer.stopped ? t('long.stopped') : '';
-      this.note(taken > 0 ? t('job.taken', { n: taken }) : said);
+      this.note(goneWith(answer, kits) || said);
       this.others.delete(-1);
       const fresh = (answer.placements ?? [])
         .filter(({ id, after }) => after && this.fresh.has(id))

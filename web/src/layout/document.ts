@@ -88,7 +88,7 @@ export interface LayoutDocument {
   format: 'lekalo-layout/1';
   units: string;
   name?: string;
-  rules?: { gap?: number; border_gap?: number; defect_gap?: number };
+  rules?: { gap?: number; border_gap?: number; defect_gap?: number; kerf?: number };
   stocks?: Stock[];
   parts?: Part[];
   kits?: Kit[];

@@ -25,18 +25,22 @@ export interface Refusal {
   message: string;
   violations: Violation[];
 }
+export interface Done {
+  type: 'done';
+  seq: number;
+  revision: number;
+  nothing?: boolean;
+  stopped?: boolean;
+  /** The pieces that went with their part or sheet. */
+  taken_off?: number;
+  /** The kits that are made without a part that was removed, and those that were made of nothing else. */
+  kits?: string[];
+  kits_gone?: string[];
+  /** The changes of the command, where this client saw them. */
+  placements?: Change[];
+}
 export type Answer =
-  /** `placements` are the changes of the command, where this client saw them. */
-  | {
-      type: 'done';
-      seq: number;
-      revision: number;
-      nothing?: boolean;
-      stopped?: boolean;
-      /** The pieces that went with their part or sheet. */
-      taken_off?: number;
-      placements?: Change[];
-    }
+  | Done
   | ({ type: 'refused'; seq: number } & Refusal)
   | { type: 'preview'; seq: number; placements: Change[]; violations: Violation[] }
   | { type: 'lost' };

@@ -97,6 +97,15 @@ for (const [width, height] of [
       await page.keyboard.press('Tab');
       await becomes(server, (d) => d.rules.gap === 4);
       await page.waitForFunction(() => document.querySelector('[data-field="rule.gap"]').value === '4');
+      await until(page, 'The gap is no narrower than the cut: it is 4 mm');
+      // The cut is kept, and a gap that would be narrower than it is not.
+      assert.equal(await page.inputValue(field('rule.kerf')), '4');
+      await page.fill(field('rule.gap'), '1');
+      await page.keyboard.press('Tab');
+      await page.waitForFunction(() => document.querySelector('[data-field="rule.gap"]').value === '4');
+      await page.fill(field('rule.kerf'), '0,2');
+      await page.keyboard.press('Tab');
+      await becomes(server, (d) => d.rules.kerf === 0.2 && d.rules.gap === 4);
       assert.deepEqual(await cutOff(page), []);
       await shot(page, `job-${width}-full`);
       // What is wrong is said in one sentence, and stays to be mended.
@@ -146,7 +155,7 @@ for (const [width, height] of [
       await shot(page, `job-${width}-after`);
       await command(page, 'menu.export');
       await command(page, 'export.gcode');
-      await page.fill('dialog [data-field="kerf"]', '0,2');
+      assert.equal(await page.inputValue('dialog [data-field="kerf"]'), '0.2');
       await page.fill('dialog [data-field="feed"]', '2000');
       const sheets = page.locator('dialog select[data-field="sheet"]');
       if ((await sheets.count()) > 0) await sheets.selectOption({ index: 0 });
@@ -157,6 +166,46 @@ for (const [width, height] of [
     },
     { options: { viewport: { width, height }, hasTouch: width < 861 }, expected: ['400'] },
   );
+
+const withKits = {
+  ...smallLayout,
+  kits: [
+    { id: 'set', name: 'Set', pieces: [{ part: 'plate', count: 2 }, { part: 'bracket' }] },
+    {
+      id: 'pair',
+      name: 'Pair',
+      pieces: [
+        { part: 'plate', mirrored: true },
+        { part: 'plate', mirrored: false },
+      ],
+    },
+  ],
+};
+inEditor(
+  'removes a part from its kits too, names them, and brings all of it back in one step',
+  async (page, server) => {
+    await page.click('[data-action="tray.job"]');
+    await page.waitForSelector('dialog.job');
+    await page.click(field('mirror.plate'));
+    await until(page, "kit 'pair' is made with part 'plate' turned over");
+    assert.ok(await page.isChecked(field('mirror.plate')));
+    await page.click(field('remove.plate'));
+    await until(page, '2 pieces were taken off with it · Taken out of kits: Set · Removed with it');
+    await until(page, 'nothing else was in them: Pair');
+    assert.deepEqual((await becomes(server, (d) => d.parts.length === 1)).kits, [
+      { id: 'set', name: 'Set', demand: 1, pieces: [{ part: 'bracket' }] },
+    ]);
+    await shot(page, 'job-kits');
+    await command(page, 'job.undo');
+    await page.waitForSelector(field('quantity.plate'));
+    const back = await becomes(server, (d) => d.parts.length === 2);
+    assert.deepEqual([back.kits.length, back.kits[0].pieces.length, back.placements.length], [2, 2, 3]);
+    await page.keyboard.press('Escape');
+    await page.waitForSelector('dialog', { state: 'detached' });
+    await settled(page);
+  },
+  { layout: withKits, options: {} },
+);
 
 inEditor(
   'changes parts and sheets by the keyboard alone, in Ukrainian, on a phone',

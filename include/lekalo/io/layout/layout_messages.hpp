@@ -32,6 +32,9 @@ namespace lekalo::io {
 /// These fail with ErrorCode::bad_input as read_layout does; `name` stands for the file.
 [[nodiscard]] Result<layout::Part> read_part(std::string_view bytes, const std::string& name);
 [[nodiscard]] Result<layout::Stock> read_stock(std::string_view bytes, const std::string& name);
+/// A kit likewise, but its pieces name their parts by number.
+[[nodiscard]] std::string kit_json(const layout::Kit& kit);
+[[nodiscard]] Result<layout::Kit> read_kit(std::string_view bytes, const std::string& name);
 /// The changes of features as docs/protocol.md has them. Cost: O(points).
 [[nodiscard]] std::string features_json(const layout::Document& document,
                                         const std::vector<layout::FeatureChange>& changes);
