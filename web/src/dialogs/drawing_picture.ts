@@ -15,7 +15,7 @@ const MOST_SHOWN = 3;
 function sizeOf(part: Part): string {
   const { left, right, bottom, top } = boxOf(part.outline.polygon.outer);
   const mm = (value: number): string => String(Number(value.toFixed(1)));
-  return `${mm(right - left)} × ${mm(top - bottom)} mm`;
+  return `${mm(right - left)} × ${mm(top - bottom)} ${t('job.mm')}`;
 }
 
 /** An element that fills when the drawing has been read. */

@@ -37,7 +37,12 @@ class OrderDialog {
       'dialog',
       { class: 'order', 'aria-label': t('order.title') },
       h('h2', {}, t('order.title')),
-      h('form', { submit: (e) => this.submit(e) }, ...this.rows(), this.trouble, this.row.element, this.buttons()),
+      h(
+        'form',
+        { submit: (e) => this.submit(e) },
+        ...this.rows(),
+        h('div', { class: 'footer' }, this.trouble, this.row.element, this.buttons()),
+      ),
     );
     // The browser may close a dialog at the second Escape whatever is said to its `cancel`.
     const giveUp = (e: Event): void => {
@@ -74,7 +79,7 @@ class OrderDialog {
         ...(['gap', 'border', 'kerf'] as const).map((key) => {
           const input = textField(key, this.terms[key], t(`order.${key}`));
           input.addEventListener('input', () => (this.terms[key] = input.value));
-          return h('label', {}, h('span', {}, t(`order.${key}`)), input);
+          return h('label', {}, h('span', {}, `${t(`order.${key}`)}, ${t('job.mm')}`), input);
         }),
       ),
     ];
@@ -98,14 +103,26 @@ class OrderDialog {
   }
 
   private addFiles(files: FileList | null): void {
+    const first = this.files.length;
     for (const file of files ?? [])
       this.files.push({ file, quantity: '1', rotations: this.files[0]?.rotations ?? 'any', mirror: false });
     this.showParts();
+    if (this.files.length > first) this.focus(`quantity.${first}`);
   }
 
   private addStock(): void {
     this.terms.stocks.push({ kind: 'sheet', width: '', height: '', count: '', file: null });
     this.showStocks();
+    this.focus(`width.${this.terms.stocks.length - 1}`);
+  }
+
+  /** Rows are made anew where one changes: the focus goes to the field where it goes on, or to what adds a row. */
+  private focus(field: string, adder?: string): void {
+    const found =
+      this.element.querySelector<HTMLElement>(`[data-field="${field}"]`) ??
+      this.element.querySelector<HTMLElement>(`[data-action="${adder}"]`);
+    found?.focus();
+    if (found instanceof HTMLInputElement) found.select();
   }
 
   private showParts(): void {
@@ -136,7 +153,11 @@ class OrderDialog {
         'tr',
         {},
         ...cells,
-        remover(`remove.${i}`, t('order.remove'), () => (this.files.splice(i, 1), this.showParts())),
+        remover(`remove.${i}`, t('order.remove'), () => {
+          this.files.splice(i, 1);
+          this.showParts();
+          this.focus(`remove.${Math.min(i, this.files.length - 1)}`, 'order.add');
+        }),
       );
     };
     this.parts.replaceChildren(...this.files.map(row));
@@ -162,6 +183,7 @@ class OrderDialog {
         change: () => {
           stock.kind = kind.value as StockKind;
           this.showStocks();
+          this.focus(`kind.${i}`);
         },
       },
       ...KINDS.map((value) => option(value, t(`order.kind.${value}`), stock.kind)),
@@ -188,6 +210,7 @@ class OrderDialog {
     const remove = (): void => {
       this.terms.stocks.splice(i, 1);
       this.showStocks();
+      this.focus(`stock.remove.${Math.min(i, this.terms.stocks.length - 1)}`, 'order.stock.add');
     };
     return h('tr', {}, h('td', {}, kind), ...cells, remover(`stock.remove.${i}`, t('order.remove'), remove));
   }

@@ -86,11 +86,23 @@ export function showBar(bar: HTMLElement, tools: HTMLElement, editor: Editor, sh
   tools.replaceChildren(
     ...names.map((name) => button(`tool.${name}` as Key, () => editor.setTool(name), editor.tool === name)),
   );
+  if (editor.layoutId === 0) sleep([bar, tools]);
   if (focused) document.querySelector<HTMLElement>(`[data-action="${focused}"]`)?.focus();
   showWords(bar);
 }
 
-/** Shows the words of the buttons where the line of the bar that they stand in has room for them. */
+/** The buttons that do something without a layout, and the menus that have some of them. */
+const AWAKE = ['new.layout', 'open.file', 'language', 'help', 'theme', 'menu.main', 'menu.view'];
+/** Without a layout most buttons have nothing to work on. */
+function sleep(elements: readonly HTMLElement[]): void {
+  for (const one of elements.flatMap((e) => [...e.querySelectorAll<HTMLElement>('button, input, select, summary')])) {
+    if (AWAKE.includes(one.dataset.action ?? '')) continue;
+    one.setAttribute('disabled', '');
+    one.inert = one.tagName === 'SUMMARY';
+  }
+}
+
+/** Shows the words of as many buttons as the line of the bar has room for, from its beginning. */
 export function showWords(bar: HTMLElement): void {
   const [files, ends, commands] = [...bar.children] as [Element, Element, Element];
   const middle = (e: Element): number => (e.getBoundingClientRect().top + e.getBoundingClientRect().bottom) / 2;
@@ -99,9 +111,9 @@ export function showWords(bar: HTMLElement): void {
     return seen.every((e) => Math.abs(middle(e) - middle(seen[0]!)) < 8) && row.scrollWidth <= row.clientWidth + 1;
   };
   for (const line of [[files, ends], [commands]]) {
-    for (const row of line) row.classList.add('words');
-    const fits = line.every(isOneLine);
-    for (const row of line) row.classList.toggle('words', fits);
+    const buttons = line.flatMap((row) => [...row.children]);
+    for (const one of buttons) one.classList.add('worded');
+    while (buttons.length > 0 && !line.every(isOneLine)) buttons.pop()!.classList.remove('worded');
   }
 }
 

@@ -135,16 +135,23 @@ export class Layouts {
     const drawings = all.filter(({ name }) => /\.(dxf|svg)$/i.test(name));
     // A drawing that comes alone may have its sheets with it, as those have that lekalo exported.
     const together = drawings.length > 1 ? drawings : [];
-    for (const file of all.filter((one) => !together.includes(one))) await this.takeFile(file);
+    const refused: string[] = [];
+    for (const file of all.filter((one) => !together.includes(one))) {
+      const said = await this.takeFile(file);
+      if (said !== null) refused.push(said);
+    }
+    if (refused.length > 0) this.editor.say(refused.join(' · '));
     if (together.length > 0) this.begin(together);
   }
 
-  private async takeFile(file: File): Promise<void> {
+  /** @returns the reason why a file was refused */
+  private async takeFile(file: File): Promise<string | null> {
     const made = await this.take(file.name, '', file);
-    if (typeof made === 'string') this.editor.say(made);
-    else if (made === null) this.editor.note(t('transfer.cancelled'));
+    if (typeof made === 'string') return made;
+    if (made === null) this.editor.note(t('transfer.cancelled'));
     // Outlines alone: they are ordered with something to cut them from, in place of the layout without it.
     else if (made.stocks === 0) this.begin([file], made.id);
+    return null;
   }
 
   /** Asks for a new layout of these drawings, which takes the place of the layout `without` stock. */

@@ -170,7 +170,8 @@ export class Page {
     this.welcome = welcome({
       begin: () => this.layouts.begin([]),
       open: () => this.bar.querySelector<HTMLInputElement>('input[type="file"]')?.click(),
-      sample: (file) => void this.layouts.takeFiles([file]),
+      // How a sample was read tells nothing to who tries it.
+      sample: (file) => void this.layouts.takeFiles([file]).then(() => this.editor.note('')),
     });
     this.pane.element.append(this.welcome);
     if (!isThere) this.welcome.querySelector('button')?.focus();
@@ -187,6 +188,7 @@ export class Page {
       { class: 'small', 'data-action': 'tray.job', click: () => this.layouts.editJob() },
       t('job'),
     );
+    job.disabled = editor.layoutId === 0;
     this.left.replaceChildren(h('h2', {}, t('tray')), job, parts);
   }
   private showSide(): void {

@@ -23,7 +23,7 @@ export class StatusLine {
 
   showPlace([x, y]: Point): void {
     const sheet = this.editor.model.sheetAt(x, y);
-    this.where.textContent = `${(x - (sheet?.x ?? 0)).toFixed(2)}  ${(y - (sheet?.y ?? 0)).toFixed(2)} mm`;
+    this.where.textContent = `${(x - (sheet?.x ?? 0)).toFixed(2)}  ${(y - (sheet?.y ?? 0)).toFixed(2)} ${t('job.mm')}`;
   }
 
   show(): void {

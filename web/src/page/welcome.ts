@@ -35,7 +35,7 @@ export function welcome(events: WelcomeEvents): HTMLElement {
       'div',
       { class: 'buttons' },
       ...SAMPLES.map(([key, json]) =>
-        big(key, () => events.sample(new File([json], `${t(key)}.json`, { type: 'application/json' }))),
+        big(key, () => events.sample(new File([json], t(key), { type: 'application/json' }))),
       ),
     ),
   );

@@ -59,7 +59,7 @@ export function violations(editor: Editor, show: (v: Violation) => void): HTMLEl
                 {},
                 v.b !== null ? `${name(v.a)} – ${name(v.b)}` : v.feature ? `${name(v.a)} – ${v.feature}` : name(v.a),
               ),
-              v.amount_mm > 0 ? h('small', {}, `${v.amount_mm.toFixed(3)} mm`) : null,
+              v.amount_mm > 0 ? h('small', {}, `${v.amount_mm.toFixed(3)} ${t('job.mm')}`) : null,
             ),
           ),
         ),

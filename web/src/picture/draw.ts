@@ -1,6 +1,7 @@
 // The picture: two canvases. The lower holds sheets and parts at rest, the upper what moves while a part is
 // dragged, so that a drag costs as much as the parts in hand, not as the layout.
 
+import { t } from '../i18n';
 import { isGap, type Part, type Placement, type Point, type Violation } from '../layout/document';
 import { boxesMeet, innerPoint, placedAt, placedBox, type Model, type Sheet } from '../layout/model';
 import { Backdrop, type Painter } from './backdrop';
@@ -173,7 +174,7 @@ export class Picture implements Painter {
           scene,
           [n.from[0] + sheet.x, n.from[1] + sheet.y],
           [n.to[0] + sheet.x, n.to[1] + sheet.y],
-          `${n.distance.toFixed(3)} mm`,
+          `${n.distance.toFixed(3)} ${t('job.mm')}`,
           theme.good,
         );
       }
@@ -416,6 +417,6 @@ export class Picture implements Painter {
       ctx.lineTo(x + 5, y - 5);
     }
     ctx.stroke();
-    if (v.amount_mm > 0) drawTag(ctx, theme, `${v.amount_mm.toFixed(3)} mm`, x, y - 16, colour);
+    if (v.amount_mm > 0) drawTag(ctx, theme, `${v.amount_mm.toFixed(3)} ${t('job.mm')}`, x, y - 16, colour);
   }
 }

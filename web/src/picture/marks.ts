@@ -1,5 +1,6 @@
 // Marks of one size at any zoom. The canvas counts in pixels of the page.
 
+import { t } from '../i18n';
 import type { Point } from '../layout/document';
 import type { Box } from '../layout/model';
 import type { Scene, Theme } from './scene';
@@ -7,7 +8,7 @@ import type { Scene, Theme } from './scene';
 /** A distance and its two shares, in words. */
 export function measured(from: Point, to: Point): string {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
-  return `${Math.hypot(dx, dy).toFixed(3)} mm  (${dx.toFixed(2)}, ${dy.toFixed(2)})`;
+  return `${Math.hypot(dx, dy).toFixed(3)} ${t('job.mm')}  (${dx.toFixed(2)}, ${dy.toFixed(2)})`;
 }
 
 /** A double arrow along the grain. */

@@ -95,12 +95,12 @@ export class Mirror {
     const degrees = (Math.atan2(p.s, p.c) * 180) / Math.PI;
     const says = [
       `${part.name ?? part.id} ${p.id}`,
-      `${p.x.toFixed(2)} ${p.y.toFixed(2)} mm`,
+      `${p.x.toFixed(2)} ${p.y.toFixed(2)} ${t('job.mm')}`,
       `${degrees.toFixed(1)}°`,
       p.mirrored ? t('kits.mirrored') : '',
       p.locked ? t('locked') : '',
       t(`live.${level}`),
-      ...(broken ?? []).map((v) => `${t(`kind.${v.kind}` as Key)} ${v.amount_mm.toFixed(3)} mm`),
+      ...(broken ?? []).map((v) => `${t(`kind.${v.kind}` as Key)} ${v.amount_mm.toFixed(3)} ${t('job.mm')}`),
     ]
       .filter(Boolean)
       .join(', ');

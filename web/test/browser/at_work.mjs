@@ -197,9 +197,21 @@ for (const [width, height] of [
       await tabTo('order.add');
       await page.keyboard.press('Enter');
       await page.waitForSelector('[data-field="quantity.1"]');
-      await tabTo('quantity.1', true);
-      await page.keyboard.press('Control+a');
+      // The focus is where one goes on, and stays there where rows are made anew.
+      assert.equal(await focus(), 'quantity.0');
+      await tabTo('quantity.1');
       await page.keyboard.type('3');
+      await tabTo('order.stock.add');
+      await page.keyboard.press('Enter');
+      assert.equal(await focus(), 'width.1');
+      await page.keyboard.press('Shift+Tab');
+      await page.keyboard.press('ArrowDown'); // a strip
+      await page.waitForSelector('[data-field="width.1"]', { state: 'detached' });
+      assert.equal(await focus(), 'kind.1');
+      await tabTo('stock.remove.1');
+      await page.keyboard.press('Enter');
+      assert.equal(await focus(), 'stock.remove.0');
+      await tabTo('gap');
       await page.keyboard.press('Enter'); // makes the layout
       await page.waitForSelector('dialog', { state: 'detached' });
       await page.waitForSelector('[data-id="part-base"]');

@@ -370,52 +370,69 @@ inEditor(
   { options: {}, expected: ['400'] },
 );
 
-inEditor('makes one job of five dropped drawings, from an empty page to G-code', async (page, server) => {
-  for (const { id } of (await (await fetch(new URL('/api/layouts', server.url))).json()).layouts)
-    await page.evaluate((one) => fetch(`/api/layouts/${one}`, { method: 'DELETE' }), id);
-  await page.goto(server.url);
-  await page.waitForSelector('.welcome');
-  assert.equal(await page.locator('.welcome [data-action^="sample."]').count(), 3);
-  const data = await page.evaluateHandle((text) => {
-    const transfer = new DataTransfer();
-    for (let i = 1; i <= 5; ++i) transfer.items.add(new File([text], `tray${i}.svg`));
-    return transfer;
-  }, tray);
-  await page.dispatchEvent('.picture', 'drop', { dataTransfer: data });
-  await page.waitForSelector('dialog [data-field="quantity.4"]');
-  // Each drawing is shown in small, with its parts: a wide lid and a disc.
-  await page.waitForFunction(() => document.querySelectorAll('dialog .drawing .thumbnail').length === 10);
-  const small = (i) => page.locator('dialog .drawing path').nth(i);
-  const box = (e) => [e.getBBox().width, e.getBBox().height].map(Math.round);
-  assert.deepEqual(
-    [await small(0).evaluate(box), await small(1).evaluate(box)],
-    [
-      [60, 30],
-      [40, 40],
-    ],
-  );
-  assert.match(await page.textContent('dialog .drawing'), /2 parts/);
-  await page.fill('dialog [data-field="quantity.1"]', '3');
-  await page.selectOption('dialog [data-field="rotations.0"]', '0');
-  await page.fill('dialog [data-field="width.0"]', '600');
-  await page.fill('dialog [data-field="height.0"]', '400');
-  await page.fill('dialog [data-field="count.0"]', '');
-  await command(page, 'order.make');
-  await page.waitForSelector('dialog', { state: 'detached' });
-  await page.waitForSelector('[data-id="part-tray5-2"]');
-  assert.equal(await page.locator('.welcome').count(), 0);
-  assert.match(await page.textContent('[data-id="part-tray2"]'), /0\/3/);
-  await page.click('[data-id="part-tray1"] .piece');
-  await settled(page);
-  await command(page, 'menu.export');
-  await command(page, 'export.gcode');
-  await page.fill('dialog [data-field="kerf"]', '0,2');
-  await page.fill('dialog [data-field="feed"]', '2000');
-  const [download] = await Promise.all([page.waitForEvent('download'), command(page, 'export.save')]);
-  const file = join(server.folder, 'out.nc');
-  await download.saveAs(file);
-  assert.match(readFileSync(file, 'utf8'), /F2000/);
-});
+inEditor(
+  'makes one job of five dropped drawings, from an empty page to G-code',
+  async (page, server) => {
+    for (const { id } of (await (await fetch(new URL('/api/layouts', server.url))).json()).layouts)
+      await page.evaluate((one) => fetch(`/api/layouts/${one}`, { method: 'DELETE' }), id);
+    await page.goto(server.url);
+    await page.waitForSelector('.welcome');
+    assert.equal(await page.locator('.welcome [data-action^="sample."]').count(), 3);
+    // What would have nothing to work on cannot be pressed; what begins something can.
+    for (const name of ['job', 'undo', 'nest', 'copy.layout', 'tool.defect', 'tray.job'])
+      assert.ok(await page.locator(`[data-action="${name}"]`).isDisabled(), name);
+    for (const name of ['new.layout', 'open.file', 'language', 'help'])
+      assert.ok(await page.locator(`.bar [data-action="${name}"]`).isEnabled(), name);
+    // Each of several files that are refused is named.
+    await page.setInputFiles('.bar .files input[type="file"]', [
+      { name: 'photo.jpg', mimeType: 'image/jpeg', buffer: Buffer.from([0xff, 0xd8, 0xff, 0xe0]) },
+      { name: 'part.dwg', mimeType: '', buffer: Buffer.from('AC1027\0\0') },
+    ]);
+    await page.waitForFunction(() =>
+      /photo\.jpg.* · part\.dwg.*DXF/.test(document.querySelector('.message').textContent),
+    );
+    const data = await page.evaluateHandle((text) => {
+      const transfer = new DataTransfer();
+      for (let i = 1; i <= 5; ++i) transfer.items.add(new File([text], `tray${i}.svg`));
+      return transfer;
+    }, tray);
+    await page.dispatchEvent('.picture', 'drop', { dataTransfer: data });
+    await page.waitForSelector('dialog [data-field="quantity.4"]');
+    // Each drawing is shown in small, with its parts: a wide lid and a disc.
+    await page.waitForFunction(() => document.querySelectorAll('dialog .drawing .thumbnail').length === 10);
+    const small = (i) => page.locator('dialog .drawing path').nth(i);
+    const box = (e) => [e.getBBox().width, e.getBBox().height].map(Math.round);
+    assert.deepEqual(
+      [await small(0).evaluate(box), await small(1).evaluate(box)],
+      [
+        [60, 30],
+        [40, 40],
+      ],
+    );
+    assert.match(await page.textContent('dialog .drawing'), /2 parts/);
+    await page.fill('dialog [data-field="quantity.1"]', '3');
+    await page.selectOption('dialog [data-field="rotations.0"]', '0');
+    await page.fill('dialog [data-field="width.0"]', '600');
+    await page.fill('dialog [data-field="height.0"]', '400');
+    await page.fill('dialog [data-field="count.0"]', '');
+    await command(page, 'order.make');
+    await page.waitForSelector('dialog', { state: 'detached' });
+    await page.waitForSelector('[data-id="part-tray5-2"]');
+    assert.equal(await page.locator('.welcome').count(), 0);
+    assert.match(await page.textContent('[data-id="part-tray2"]'), /0\/3/);
+    await page.click('[data-id="part-tray1"] .piece');
+    await settled(page);
+    await command(page, 'menu.export');
+    await command(page, 'export.gcode');
+    await page.fill('dialog [data-field="kerf"]', '0,2');
+    await page.fill('dialog [data-field="feed"]', '2000');
+    const [download] = await Promise.all([page.waitForEvent('download'), command(page, 'export.save')]);
+    const file = join(server.folder, 'out.nc');
+    await download.saveAs(file);
+    assert.match(readFileSync(file, 'utf8'), /F2000/);
+  },
+  { expected: ['400'] },
+);
 
 /** What of the bar, the tools and the tabs cannot be seen, or reaches out of the window. */
 const cutOff = (page, rows) =>
@@ -452,11 +469,15 @@ for (const [width, height] of [
           assert.deepEqual(await cutOff(page, rowsOfThePage), [], menu);
           await command(page, `menu.${menu}`);
         }
+        const words = await page.locator('.bar .word:visible').count();
+        if (narrow) assert.equal(words, 0);
+        // The words of the last buttons may have no room; those of what is hard to guess have.
+        if (width >= 1400)
+          for (const name of ['job', 'open.file', 'undo', 'snap', 'nest'])
+            assert.ok(await page.locator(`.bar [data-action="${name}"] .word`).isVisible(), `${language} ${name}`);
         if (narrow && language === 'en') await command(page, 'menu.main');
         if (language === 'en') await command(page, 'language');
       }
-      const words = await page.locator('.bar .word:visible').count();
-      assert.equal(words > 0, width >= 1180, `${words} words`);
       // The action lies in the menu on a narrow screen, and does there what the button does.
       await press(page, 2);
       if (narrow) await command(page, 'menu.more');
