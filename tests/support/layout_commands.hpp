@@ -59,6 +59,22 @@ inline layout::Command some_feature_command(const layout::Document& document, Ra
   }
 }
 
+/// The layout with kits of its parts.
+inline layout::Document with_kits(layout::Document document, Random& random) {
+  for (std::uint64_t k = 1 + random.below(3); k > 0; --k) {
+    layout::Kit kit;
+    kit.id = "kit" + std::to_string(k);
+    for (std::uint64_t i = 1 + random.below(3); i > 0; --i) {
+      layout::KitPiece piece;
+      piece.part = static_cast<std::uint32_t>(random.below(document.parts.size()));
+      if (document.parts[piece.part].may_mirror && random.below(2) == 0) piece.mirrored = true;
+      kit.pieces.push_back(piece);
+    }
+    document.kits.push_back(std::move(kit));
+  }
+  return document;
+}
+
 /// A change of the job; some are to be refused.
 inline layout::Command some_job_command(const layout::Document& document, Random& random) {
   const auto part = static_cast<std::uint32_t>(random.below(document.parts.size()));

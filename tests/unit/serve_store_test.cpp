@@ -365,8 +365,8 @@ TEST(ChangeText, SaysExactlyHowTheJobChanges) {
   std::size_t jobs = 0;
   for (std::size_t i = 0; i < cases::case_count(20); ++i) {
     SCOPED_TRACE(testing::Message() << "case " << i << " seed " << cases::seed());
-    layout::Session session(cases::random_layout(cases::seed(), 40 + i, 10));
     Random random(cases::seed(), 60 + i);
+    layout::Session session(cases::with_kits(cases::random_layout(cases::seed(), 40 + i, 10), random));
     for (int step = 0; step < 12; ++step) {
       const auto change = session.apply(cases::some_job_command(session.document(), random));
       if (!change) continue;
