@@ -206,6 +206,18 @@ TEST_F(Criteria, WhatIsMissingAtTheEndsOfEdgesBesideAFinishedOneCounts) {
   EXPECT_GE(made->document.shortfall, 1);
 }
 
+/// The part's origin, about which it turns then, lies in the rims of two edges, and no placement is near
+/// enough to be searched. The checker looked for the material behind one rim at a time.
+TEST_F(Criteria, ALockedPartMayTurnAboutACornerThatIsFinished) {
+  job_.features = jobs::File{
+      "f.json",
+      R"({"features": [{"name": "corner", "edges": [0], "finished": 2}, {"name": "left", "edges": [3], "finished": 1}]})"};
+  job_.options.locked.x = 15;
+  const auto made = jobs::locate(job_);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->document.status, "infeasible");
+}
+
 TEST_F(Criteria, TheFirstOfTheListDoesNotGoOnAndAllOthersDo) {
   for (const locate::Criterion& criterion : locate::criteria()) {
     EXPECT_EQ(criterion.choose == nullptr, &criterion == &locate::criteria().front()) << criterion.name;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "verify/read/json.hpp"
 
@@ -100,6 +101,28 @@ TEST(GrownBall, ARimThatIsTakenOffCountsWhereNothingGrowsOverIt) {
   EXPECT_LE(ball(12, 8, 7, 30, 0, -2), 6);
   // It reaches into the bore and the slot, which are grown over, and touches the rim.
   expect_ball(70, 20, 18, 9, 9, -2);
+}
+
+double off(double x, double y, std::vector<double> growth) {
+  return off_rims(plate(), growth, {just(x), just(y)});
+}
+
+TEST(OffRims, IsTheDistanceFromWhatIsLeftOfThePart) {
+  const double inf = kInfinity, diagonal = std::sqrt(2.0);
+  EXPECT_EQ(off(20, 20, {-2, 0, 0, 0, 0, 0, 0, 0, 0}), 0);
+  EXPECT_EQ(off(20, 20, {0, 0, 0, 0, 0, 0, 0, 0, 0}), 0);
+  EXPECT_EQ(off(20, -1, {0, 0, 0, 0, 0, 0, 0, 0, 0}), inf);  // without a rim its sides tell
+  // Behind one rim, to both sides of it, behind two, and behind one of a corner and the end of another.
+  EXPECT_NEAR(off(20, 0.5, {-2, 0, 0, 0, 0, 0, 0, 0, 0}), 1.5, 1e-9);
+  EXPECT_NEAR(off(20, -0.5, {-2, 0, 0, 0, 0, 0, 0, 0, 0}), 2.5, 1e-9);
+  EXPECT_NEAR(off(0, 0, {-2, 0, 0, -2, 0, 0, 0, 0, 0}), 2 * diagonal, 1e-9);
+  EXPECT_NEAR(off(0.5, 0.5, {-2, 0, 0, -2, 0, 0, 0, 0, 0}), 1.5 * diagonal, 1e-9);
+  EXPECT_NEAR(off(0, 0, {-3, 0, 0, -4, 0, 0, 0, 0, 0}), 5, 1e-9);
+  // The rim of the bore is a ring; between it and that of the edge below it nothing is left at x = 50.
+  EXPECT_NEAR(off(50, 10, {0, 0, 0, 0, -2, 0, 0, 0, 0}), 8, 1e-9);
+  EXPECT_NEAR(off(50, 3, {-2, 0, 0, 0, -3, 0, 0, 0, 0}), std::hypot(std::sqrt(17.0), 1), 1e-9);
+  EXPECT_GE(off(50, 3, {-2, 0, 0, 0, -3, 0, 0, 0, 0}), std::hypot(std::sqrt(17.0), 1));
+  EXPECT_EQ(off(50, 20, {-50, 0, 0, 0, 0, 0, 0, 0, 0}), inf);
 }
 
 }  // namespace

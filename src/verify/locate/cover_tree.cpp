@@ -206,48 +206,21 @@ double CoverTree::part_radius(Json x, Json y, Json radius, const Vec& centre, do
 /// as far as that side is grown. The radius may be too small, never too large.
 double CoverTree::grown_radius(const Vec& centre, double written) const {
   const std::vector<Side>& sides = problem_.part.sides;
-  double through = kInfinity, grown = -kInfinity, nearest = kInfinity, in_rim = -kInfinity;
+  double through = kInfinity, grown = -kInfinity;
+  bool any_rim = false;
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const Span d = distance(centre, sides[k]);
     const double by = growth_[k];
     through = std::min(through, (just(d.low) + just(by)).low);
-    nearest = std::min(nearest, d.high);
-    if (by >= 0) {
-      grown = std::max(grown, (just(by) - just(d.high)).low);
-    } else {
-      in_rim = std::max(in_rim, (just(-by) - just(d.low)).high);
-    }
+    any_rim = any_rim || by < 0;
+    if (by >= 0) grown = std::max(grown, (just(by) - just(d.high)).low);
   }
   const std::optional<bool> in = holds(problem_.part, centre);
   const bool inside = in && *in;
   double radius = inside && through >= 0 ? std::max(grown, through) : grown;
   if (radius < written) radius = std::max(radius, grown_ball(problem_.part, growth_, centre, written));
-  if (radius < 0 && in_rim > -kInfinity)
-    radius = std::max(radius, -off_rims(centre, std::max(0.0, in_rim) + (inside ? 0 : nearest)));
+  if (radius < 0 && any_rim) radius = std::max(radius, -off_rims(problem_.part, growth_, centre));
   return radius;
-}
-
-/// Returns a distance from the centre at which a point surely lies in the part's material and in no rim that
-/// is taken off. Such points are looked for from `least` on. Between two rims they are further than either is
-/// wide.
-double CoverTree::off_rims(const Vec& centre, double least) const {
-  constexpr int kDoublings = 6;
-  constexpr double kDirections[][2] = {
-      {1, 0},   {0.75, 0.75}, {0, 1},    {-0.75, 0.75}, {-1, 0},    {-0.75, -0.75}, {0, -1},   {0.75, -0.75},
-      {1, 0.5}, {0.5, 1},     {-0.5, 1}, {-1, 0.5},     {-1, -0.5}, {-0.5, -1},     {0.5, -1}, {1, -0.5}};
-  const auto in_no_rim = [&](const Vec& p) {
-    for (std::size_t k = 0; k < growth_.size(); ++k)
-      if (growth_[k] < 0 && !((just(distance(p, problem_.part.sides[k]).low) + just(growth_[k])).low >= 0))
-        return false;
-    return true;
-  };
-  double far = (1 + 0x1p-4) * least + 0x1p-48 * largest_coordinate(problem_.part);
-  for (int k = 0; k < kDoublings; ++k, far *= 2)
-    for (const auto& [x, y] : kDirections) {
-      const Vec p = centre + Vec{just(x), just(y)} * just(far);
-      if (in_no_rim(p) && holds(problem_.part, p) == true) return length(p - centre).high;
-    }
-  return kInfinity;
 }
 
 double CoverTree::off_cap(const Vec& point, const Cap& cap) const {

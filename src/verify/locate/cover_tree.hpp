@@ -65,7 +65,6 @@ class CoverTree {
   bool read_leaf(Json contacts, std::vector<Term>& terms, std::string& complaint, const std::string& path);
   double part_radius(Json x, Json y, Json radius, const Vec& centre, double written);
   [[nodiscard]] double grown_radius(const Vec& centre, double written) const;
-  [[nodiscard]] double off_rims(const Vec& centre, double least) const;
   [[nodiscard]] double off_cap(const Vec& point, const Cap& cap) const;
   double material_radius(Json x, Json y, Json radius, const Vec& centre, double written);
   double blank_radius(Json x, Json y, Json radius, const Vec& centre, double written);

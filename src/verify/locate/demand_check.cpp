@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "document.hpp"
+#include "grown_ball.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "verify/number/interval.hpp"
 #include "verify/number/span.hpp"
@@ -431,64 +432,13 @@ std::vector<CoverTree::Cap> DemandCheck::caps(Span shift, const std::optional<Sp
   return caps;
 }
 
-namespace {
-
-/// Returns points that are as far from the side as the rim along it is wide, and further by no more than
-/// rounding asks for: those on the perpendicular from p to the side's line or circle, to both sides of it,
-/// and those on the lines from the side's ends through p.
-std::vector<Vec> beyond_rim(const Vec& p, const Side& side, double rim) {
-  constexpr double kPast = 0x1p-40, kPastOfCoordinates = 0x1p-46;
-  const Span far = just(rim * (1 + kPast) + kPastOfCoordinates * length(p).high);
-  std::vector<Vec> points;
-  const auto add = [&](const Vec& from, const Vec& towards) {
-    if (length(towards).low > 0) points.push_back(from + unit(towards) * far);
-  };
-  for (const Vec* end : {&side.from, &side.to}) add(*end, p - *end);
-  Vec foot = side.from, across = p - side.centre;
-  if (side.arc) {
-    if (!(length(across).low > 0)) return points;
-    foot = side.centre + unit(across) * side.radius;
-  } else {
-    const Vec along = side.to - side.from;
-    if (!(dot(along, along).low > 0)) return points;
-    foot = side.from + along * (dot(p - side.from, along) / dot(along, along));
-    across = {-along.y, along.x};
-  }
-  add(foot, across), add(foot, -across);
-  return points;
-}
-
-}  // namespace
-
 double DemandCheck::off_grown_part(const Vec& p, Span grown_for) const {
   const std::vector<double> by = growth(grown_for);
-  // A point counts as off the rims when no finished side is as near to it as its rim is wide.
-  std::vector<std::size_t> rims;
+  double off = off_rims(part_, by, p);
+  // Every point of a side demands something, also one that lies in the rim of another side.
   for (std::size_t k = 0; k < by.size(); ++k)
-    if (by[k] < 0) rims.push_back(k);
-  const auto beside_rims = [&](const Box& box, const auto& distance_from) {
-    return std::all_of(rims.begin(), rims.end(), [&](std::size_t k) {
-      return gap(box, part_.tree->box(k)) >= -by[k] ||
-             (just(distance_from(part_.sides[k]).low) + just(by[k])).low >= 0;
-    });
-  };
-  const std::optional<bool> in = holds(part_, p);
-  if (in && *in && beside_rims(box_of(p), [&](const Side& side) { return distance(p, side); })) return 0;
-  double off = kInfinity;
-  for (std::size_t k = 0; k < by.size(); ++k) {
-    if (by[k] < 0) {
-      for (const Vec& q : beyond_rim(p, part_.sides[k], -by[k])) {
-        const std::optional<bool> q_in = holds(part_, q);
-        if (q_in && *q_in && beside_rims(box_of(q), [&](const Side& side) { return distance(q, side); }))
-          off = std::min(off, length(q - p).high);
-      }
-      continue;
-    }
-    if (by[k] == 0 &&
-        !beside_rims(part_.tree->box(k), [&](const Side& side) { return distance(part_.sides[k], side); }))
-      continue;
-    off = std::min(off, std::max(0.0, (just(distance(p, part_.sides[k]).high) - just(by[k])).high));
-  }
+    if (by[k] >= 0)
+      off = std::min(off, std::max(0.0, (just(distance(p, part_.sides[k]).high) - just(by[k])).high));
   return off;
 }
 

@@ -204,7 +204,108 @@ class GrownBall {
   std::vector<Piece> open_;  ///< a heap, the nearest first
 };
 
+/// A line through (x, y) in the unit direction (dx, dy), or a circle about (x, y): in doubles, because what
+/// is derived from it is looked at again.
+struct Carrier {
+  double x = 0, y = 0, dx = 0, dy = 0, radius = 0;
+};
+struct Place {
+  double x = 0, y = 0;
+};
+
+Place middle_of(const Vec& p) { return {middle_of(p.x), middle_of(p.y)}; }
+
+/// Returns the lines and circles that bound a rim.
+std::vector<Carrier> bounds_of_rim(const Side& side, double by) {
+  const Place from = middle_of(side.from), to = middle_of(side.to);
+  std::vector<Carrier> bounds{{from.x, from.y, 0, 0, by}, {to.x, to.y, 0, 0, by}};
+  if (side.arc) {
+    const Place centre = middle_of(side.centre);
+    for (const double radius : {middle_of(side.radius) - by, middle_of(side.radius) + by})
+      if (radius > 0) bounds.push_back({centre.x, centre.y, 0, 0, radius});
+    return bounds;
+  }
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  if (!(length > 0)) return bounds;
+  const double dx = (to.x - from.x) / length, dy = (to.y - from.y) / length;
+  for (const double side_by : {-by, by})
+    bounds.push_back({from.x - side_by * dy, from.y + side_by * dx, dx, dy, 0});
+  return bounds;
+}
+
+/// Returns the point of a line or circle that is nearest to p.
+Place foot_on(const Carrier& a, const Place& p) {
+  if (a.radius == 0) {
+    const double along = (p.x - a.x) * a.dx + (p.y - a.y) * a.dy;
+    return {a.x + along * a.dx, a.y + along * a.dy};
+  }
+  const double far = std::hypot(p.x - a.x, p.y - a.y);
+  if (!(far > 0)) return {a.x + a.radius, a.y};
+  return {a.x + a.radius / far * (p.x - a.x), a.y + a.radius / far * (p.y - a.y)};
+}
+
+/// Returns where two of them meet: none of it is a number where they do not.
+std::array<Place, 2> meetings(const Carrier& a, const Carrier& b) {
+  if (a.radius == 0 && b.radius == 0) {
+    const double t = ((b.x - a.x) * b.dy - (b.y - a.y) * b.dx) / (a.dx * b.dy - a.dy * b.dx);
+    const Place at{a.x + t * a.dx, a.y + t * a.dy};
+    return {at, at};
+  }
+  if (b.radius == 0) return meetings(b, a);
+  // The chord that the line, or that both circles have in common, about the foot of b's centre.
+  Place foot = foot_on(a, {b.x, b.y});
+  double dx = a.dx, dy = a.dy;
+  if (a.radius > 0) {
+    const double apart = std::hypot(b.x - a.x, b.y - a.y);
+    const double along = (apart * apart + a.radius * a.radius - b.radius * b.radius) / (2 * apart);
+    dx = -(b.y - a.y) / apart, dy = (b.x - a.x) / apart;
+    foot = {a.x + along * dy, a.y - along * dx};
+  }
+  const double off = std::hypot(foot.x - b.x, foot.y - b.y);
+  const double half = std::sqrt((b.radius - off) * (b.radius + off));
+  return {Place{foot.x + half * dx, foot.y + half * dy}, {foot.x - half * dx, foot.y - half * dy}};
+}
+
 }  // namespace
+
+double off_rims(const Shape& part, const std::vector<double>& growth, const Vec& p) {
+  // A point of the rims' outline is looked for a little beyond it, where it is surely off them.
+  constexpr double kPast = 0x1p-40, kPastOfCoordinates = 0x1p-48;
+  std::vector<std::size_t> rims;
+  for (std::size_t k = 0; k < growth.size(); ++k)
+    if (growth[k] < 0) rims.push_back(k);
+  const auto in_rest = [&](const Vec& q) {
+    const auto is_off = [&](std::size_t k) {
+      return gap(box_of(q), part.tree->box(k)) >= -growth[k] ||
+             (just(distance(q, part.sides[k]).low) + just(growth[k])).low >= 0;
+    };
+    return std::all_of(rims.begin(), rims.end(), is_off) && holds(part, q) == true;
+  };
+  if (in_rest(p)) return 0;
+
+  const Place at = middle_of(p);
+  const double past = kPastOfCoordinates * std::max({part.high_x, -part.low_x, part.high_y, -part.low_y});
+  double off = kInfinity;
+  const auto try_at = [&](const Place& q) {
+    if (!(std::hypot(q.x - at.x, q.y - at.y) < off)) return;
+    const Vec there{just(q.x), just(q.y)};
+    if (in_rest(there)) off = std::min(off, length(there - p).high);
+  };
+  std::vector<std::vector<Carrier>> bounds;
+  for (const std::size_t k : rims) {
+    bounds.push_back(bounds_of_rim(part.sides[k], -growth[k] * (1 + kPast) + past));
+    for (const Carrier& bound : bounds.back()) try_at(foot_on(bound, at));
+  }
+  // The nearest point may lie where two rims meet, both of which are no further from p then.
+  for (std::size_t i = 0; i < rims.size(); ++i) {
+    if (distance(p, part.sides[rims[i]]).low + growth[rims[i]] > off) continue;
+    for (std::size_t j = 0; j < i; ++j)
+      for (const Carrier& a : bounds[i])
+        for (const Carrier& b : bounds[j])
+          for (const Place& q : meetings(a, b)) try_at(q);
+  }
+  return off;
+}
 
 double grown_ball(const Shape& part, const std::vector<double>& growth, const Vec& c, double wanted) {
   return GrownBall(part, growth, c, wanted).radius();

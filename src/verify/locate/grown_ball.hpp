@@ -18,4 +18,9 @@ namespace lekalo::verify {
 [[nodiscard]] double grown_ball(const Shape& part, const std::vector<double>& growth, const Vec& c,
                                 double wanted);
 
+/// Returns a number that the distance of a point from the part less its rims, what lies within -growth of a
+/// side with a negative one, does not exceed. Where there is a rim about the point it is that distance but
+/// for rounding. It is infinite where there is no point of the part beside its rims, or none was found.
+[[nodiscard]] double off_rims(const Shape& part, const std::vector<double>& growth, const Vec& p);
+
 }  // namespace lekalo::verify
