@@ -206,6 +206,18 @@ TEST_F(Criteria, WhatIsMissingAtTheEndsOfEdgesBesideAFinishedOneCounts) {
   EXPECT_GE(made->document.shortfall, 1);
 }
 
+/// Steps that nothing says anything about led to an angle that was no number.
+TEST_F(Criteria, APartThatIsAllFinishedLiesAsEvenlyAsItLies) {
+  job_.part.bytes = job_.blank.bytes = box(10, 10);
+  job_.features =
+      jobs::File{"f.json", R"({"features": [{"name": "all", "edges": [0, 1, 2, 3], "finished": 1}]})"};
+  job_.options.criterion = *locate::criterion_named("even");
+  job_.options.window_to_deg = 1;
+  const auto made = jobs::locate(job_);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_GE(made->document.demands->margin, 0);
+}
+
 /// The part's origin, about which it turns then, lies in the rims of two edges, and no placement is near
 /// enough to be searched. The checker looked for the material behind one rim at a time.
 TEST_F(Criteria, ALockedPartMayTurnAboutACornerThatIsFinished) {

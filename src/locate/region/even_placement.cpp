@@ -148,6 +148,7 @@ EvenPose most_even(const EvenSamples& samples, const phi::RegionClearance& clear
     return BlankFromPart::from_angle(p.theta, {p.x, p.y}, mirrored);
   };
   EvenPose best{start, deviation_at(samples, clearance, pose_of(start))};
+  if (samples.samples.empty()) return best;  // all of the part is finished
   const double floor = clearance.at(pose_of(start)).distance - give_up;
   double trust = 0.05 * reach;
   for (int step = 0; step < kMostSteps && trust > kShortest; ++step) {
