@@ -71,6 +71,28 @@ bool RegionClearance::inside(const BlankFromPart& pose) const {
   return true;
 }
 
+/// Says the same where the boundaries may touch, so that one point may lie on another contour and tell
+/// nothing, and where they may even cross at ends of edges: all ends and middles are asked that are not in
+/// doubt.
+bool RegionClearance::touches_from_inside(const BlankFromPart& pose, double doubt) const {
+  const auto all_on_one_side = [&](const geom::RegionIndex& of, const geom::RegionIndex& other,
+                                   const auto& moved, bool in) {
+    return std::all_of(of.curves().begin(), of.curves().end(), [&](const Curve& curve) {
+      const geom::Edge& edge = curve.edge;
+      Point middle = 0.5 * (edge.from + edge.to);
+      if (edge.kind != geom::EdgeKind::line) {
+        const double turn = (edge.kind == geom::EdgeKind::arc_ccw ? 0.5 : -0.5) * geom::arc_sweep(edge);
+        middle = edge.centre + BlankFromPart::from_angle(turn, {}).rotate(edge.from - edge.centre);
+      }
+      const auto fits = [&](Point p) {
+        return other.nearest(p).distance <= doubt || other.contains(p) == in;
+      };
+      return fits(moved(edge.from)) && fits(moved(middle));
+    });
+  };
+  return all_on_one_side(part_, blank_, pose, true) && all_on_one_side(blank_, part_, pose.inverse(), false);
+}
+
 RegionClearance::Value RegionClearance::at(const BlankFromPart& pose, double margin,
                                            std::vector<RegionContact>* contacts) const {
   if (contacts != nullptr) contacts->clear();
@@ -96,7 +118,11 @@ RegionClearance::Value RegionClearance::at(const BlankFromPart& pose, double mar
     contacts->erase(std::remove_if(contacts->begin(), contacts->end(),
                                    [&](const RegionContact& c) { return c.distance > limit; }),
                     contacts->end());
-  return {least, least > 0 && inside(pose)};
+  double size = std::max(std::abs(pose.translation.x), std::abs(pose.translation.y));
+  for (const geom::Box& box : {part_.bounds(), blank_.bounds()})
+    size = std::max({size, -box.low.x, -box.low.y, box.high.x, box.high.y});
+  const double doubt = geom::kEdgeDistanceError * size;
+  return {least, least > 0 && (least > doubt ? inside(pose) : touches_from_inside(pose, doubt))};
 }
 
 RegionContact RegionClearance::nearest(const BlankFromPart& pose, std::uint32_t part_edge) const {

@@ -230,6 +230,28 @@ TEST_F(Criteria, ALockedPartMayTurnAboutACornerThatIsFinished) {
   EXPECT_EQ(made->document.status, "infeasible");
 }
 
+/// Beside its blank, which it touches, a part was taken to lie inside: the one point that was asked lies on
+/// the outline.
+TEST_F(Criteria, APartThatTouchesItsBlankFromOutsideDoesNotLieInIt) {
+  job_.part.bytes =
+      R"({"outer": [{"line": {"from": [0, 0], "to": [99.5, 0]}}, {"line": {"from": [99.5, 0], "to": [99.5, 9.25]}},
+      {"line": {"from": [99.5, 9.25], "to": [24.875, 9.25]}}, {"line": {"from": [24.875, 9.25], "to": [24.875, 18.5]}},
+      {"line": {"from": [24.875, 18.5], "to": [0, 18.5]}}, {"line": {"from": [0, 18.5], "to": [0, 0]}}]})";
+  job_.blank.bytes =
+      R"({"outer": [{"line": {"from": [0, 0], "to": [99.5, 0]}}, {"line": {"from": [99.5, 0], "to": [99.5, 58.5]}},
+      {"line": {"from": [99.5, 58.5], "to": [0, 58.5]}}, {"line": {"from": [0, 58.5], "to": [0, 0]}}]})";
+  job_.features = jobs::File{
+      "f.json",
+      R"({"features": [{"name": "thin", "edges": [0, 1, 2, 3], "maximum": 0.001}, {"name": "left", "edges": [5], "scale": 2}]})"};
+  job_.options.locked.x = 0;
+  job_.options.window_to_deg = 360;
+  RunControl run;
+  run.work_limit = 1000;
+  const auto made = jobs::locate(job_, run);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_LT(made->document.placement.clearance, 0);
+}
+
 TEST_F(Criteria, TheFirstOfTheListDoesNotGoOnAndAllOthersDo) {
   for (const locate::Criterion& criterion : locate::criteria()) {
     EXPECT_EQ(criterion.choose == nullptr, &criterion == &locate::criteria().front()) << criterion.name;

@@ -71,6 +71,7 @@ class RegionClearance {
     double radius = 0;
   };
   [[nodiscard]] bool inside(const geom::BlankFromPart& pose) const;
+  [[nodiscard]] bool touches_from_inside(const geom::BlankFromPart& pose, double doubt) const;
 
   geom::RegionIndex part_, blank_;
   /// A disc around each edge of the part.
