@@ -240,6 +240,13 @@ TEST(VerifyDemands, ThePartIsInsideTheBlankAsAWhole) {
   EXPECT_EQ(placement(finished(60), square(-3, 103), 0, blank), "");
 }
 
+/// Pieces had to be shorter than the two are apart.
+TEST(VerifyDemands, AnOutlineCloseAlongAnEdgeIsNotBesideWhatIsFinished) {
+  Tree one = demands();
+  one["features"].push_back(feature("[1]", R"({"finished": 0.1})"));
+  EXPECT_EQ(placement(one, rectangle(1e-6, 1e-6, 99.95, 100 - 1e-6)), "");
+}
+
 // ---- what is missing --------------------------------------------------------------------------------------
 
 Tree lacking(double minimum, double margin) {

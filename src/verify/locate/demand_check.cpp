@@ -211,11 +211,8 @@ bool DemandCheck::beside_finished(const Side& whole, std::size_t& looked) const 
     if (++looked > kMostPieces) return false;
     const Side piece = open.back();
     open.pop_back();
-    const Vec middle = piece.arc ? piece.from : (piece.from + piece.to) * just(0.5);
-    const double reach = farthest(piece, middle);
-    const Span from_part = distance(middle, placed_);
-    if (from_part.low > reach) {
-      const auto in = holds(placed_, middle);
+    if (distance(piece, placed_).low > 0) {
+      const auto in = holds(placed_, piece.from);
       // No point of this piece lies in the part.
       if (in && !*in) continue;
     }
@@ -261,9 +258,8 @@ bool DemandCheck::is_depth_kept(const std::vector<std::size_t>& sides, double mo
       near_enough = near_enough || farthest(piece, corners, blank_.sides[k]) <= most;
     });
     if (near_enough) continue;
-    const Vec middle = (piece.from + piece.to) * just(0.5);
-    if (distance(middle, blank_).low > farthest(piece, middle)) {
-      const auto in = holds(blank_, middle);
+    if (distance(piece, blank_).low > 0) {
+      const auto in = holds(blank_, piece.from);
       // No point of this piece lies in the blank.
       if (in && !*in) continue;
     }
