@@ -252,6 +252,33 @@ TEST_F(Criteria, APartThatTouchesItsBlankFromOutsideDoesNotLieInIt) {
   EXPECT_LT(made->document.placement.clearance, 0);
 }
 
+/// The search places a part that touches its blank to some last digits, and the checker encloses what sticks
+/// out to 1e-9 mm.
+TEST_F(Criteria, OfATurnedPartThatTouchesNoMoreIsClaimedThanTheCheckerProves) {
+  job_.part.bytes =
+      R"({"outer": [{"line": {"from": [0, 0], "to": [20.73111960320265, 28.817888194621528]}},
+      {"line": {"from": [20.73111960320265, 28.817888194621528], "to": [10.583975872702112, 36.117578195749225]}},
+      {"line": {"from": [10.583975872702112, 36.117578195749225], "to": [0.21841607110078698, 21.70863409843846]}},
+      {"line": {"from": [0.21841607110078698, 21.70863409843846], "to": [7.8287738689761905, 16.233866597592687]}},
+      {"line": {"from": [7.8287738689761905, 16.233866597592687], "to": [2.645993968175528, 9.029394548937306]}},
+      {"line": {"from": [2.645993968175528, 9.029394548937306], "to": [-4.9643638296998756, 14.504162049783076]}},
+      {"line": {"from": [-4.9643638296998756, 14.504162049783076], "to": [-10.147143730500538, 7.299690001127694]}},
+      {"line": {"from": [-10.147143730500538, 7.299690001127694], "to": [0, 0]}}]})";
+  job_.blank.bytes =
+      R"({"outer": [{"line": {"from": [0, 0], "to": [36.5, 0]}}, {"line": {"from": [36.5, 0], "to": [36.5, 20.222254376098473]}},
+      {"line": {"from": [36.5, 20.222254376098473], "to": [0, 20.222254376098473]}},
+      {"line": {"from": [0, 20.222254376098473], "to": [0, 0]}}]})";
+  job_.features =
+      jobs::File{"f.json", R"({"features": [{"name": "notch", "edges": [3, 4, 5, 6], "minimum": 0.001}]})"};
+  job_.options.locked.x = 0;
+  job_.options.window_from_deg = -57.269374455428462, job_.options.window_to_deg = -51.269374455428462;
+  RunControl run;
+  run.work_limit = 100;
+  const auto made = jobs::locate(job_, run);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_NEAR(made->document.placement.clearance, -1e-9, 1e-10);
+}
+
 TEST_F(Criteria, TheFirstOfTheListDoesNotGoOnAndAllOthersDo) {
   for (const locate::Criterion& criterion : locate::criteria()) {
     EXPECT_EQ(criterion.choose == nullptr, &criterion == &locate::criteria().front()) << criterion.name;

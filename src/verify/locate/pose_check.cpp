@@ -99,6 +99,8 @@ class PoseCheck {
   void check_shape(const char* role, const Shape& shape);
   Origin check_input(const char* role, const RegionClaim& claim);
   void check_clearance();
+  [[nodiscard]] std::optional<ExactShift> exact_shift(const Decimal& x, const Decimal& y,
+                                                      const Decimal& theta, bool mirrored) const;
   /// Returns the exact clearance less the tolerances.
   Span check_clearance(const std::string& whose, const Shape& placed, const std::optional<ExactShift>& shift,
                        Span written);
@@ -162,13 +164,18 @@ Origin PoseCheck::check_input(const char* role, const RegionClaim& claim) {
 }
 
 void PoseCheck::check_clearance() {
-  std::optional<ExactShift> shift;
-  if (sgn(r_.theta.digits) == 0) shift = ExactShift{r_.x, r_.y, r_.mirrored};
-  // Findings are already there for an outline with a fault, and such an outline proves nothing.
-  if (!report_.findings.empty()) shift.reset();
-  const Span exact = check_clearance("", placed_, shift, r_.clearance);
+  const Span exact =
+      check_clearance("", placed_, exact_shift(r_.x, r_.y, r_.theta, r_.mirrored), r_.clearance);
   report_.clearance_low = fmt::format("{}", exact.low);
   report_.clearance_high = fmt::format("{}", exact.high);
+}
+
+/// Returns a placement without rotation as it is written, and nothing for another one.
+std::optional<ExactShift> PoseCheck::exact_shift(const Decimal& x, const Decimal& y, const Decimal& theta,
+                                                 bool mirrored) const {
+  // Findings are already there for an outline with a fault, and such an outline proves nothing.
+  if (sgn(theta.digits) != 0 || !report_.findings.empty()) return std::nullopt;
+  return ExactShift{x, y, mirrored};
 }
 
 Span PoseCheck::check_clearance(const std::string& whose, const Shape& placed,
@@ -240,7 +247,7 @@ void PoseCheck::check_curve() {
     here.margin = point.margin, here.largest = point.largest;
     const Shape at = placed(r_.part, motion_of(Interval(point.theta, 96 + angle_bits(point.theta)),
                                                enclosed(point.x), enclosed(point.y), point.mirrored));
-    check_clearance(whose, at, std::nullopt, point.clearance);
+    check_clearance(whose, at, exact_shift(point.x, point.y, point.theta, point.mirrored), point.clearance);
     std::vector<std::string> findings;
     DemandCheck(here, r_.part, at, r_.blank, r_.part_tolerance + r_.blank_tolerance, findings)
         .check_placement();
