@@ -90,8 +90,9 @@ std::string placement(const Tree& tree, const std::string& part, double off = 0,
 }
 
 /// `shown`, `open`, or the findings.
-std::string missing(const Tree& tree, const std::string& part, double off = 0) {
-  Checked one(tree, part, off);
+std::string missing(const Tree& tree, const std::string& part, double off = 0,
+                    const std::string& blank = kBlank) {
+  Checked one(tree, part, off, blank);
   const bool shown = one.check->check_missing();
   return one.findings.empty() ? (shown ? "shown" : "open") : one.said();
 }
@@ -269,6 +270,25 @@ TEST(VerifyDemands, NoMoreIsMissingThanTheMarginSays) {
   EXPECT_EQ(missing(lacking(1, -3), rectangle(10, -1.999, 90, 50)), "shown");
   EXPECT_TRUE(is_more(lacking(1, -3), rectangle(10, -2.001, 90, 50)));
   EXPECT_TRUE(is_more(lacking(1, -3), square(200, 300)));
+}
+
+/// What edge 1 demands covers a hole of radius 5 beside it, whose middle sticks out furthest, and a notch 4
+/// wide.
+TEST(VerifyDemands, WhatIsDemandedMayEndInAHoleOrANotchOfTheBlank) {
+  const std::string hole =
+      R"({"outer": [{"line": {"from": [0, 0], "to": [100, 0]}}, {"line": {"from": [100, 0], "to": [100, 100]}},
+       {"line": {"from": [100, 100], "to": [0, 100]}}, {"line": {"from": [0, 100], "to": [0, 0]}}],
+       "holes": [[{"arc": {"from": [81, 50], "to": [81, 50], "centre": [76, 50], "ccw": false}}]]})";
+  EXPECT_EQ(missing(lacking(20, -5.01), square(30, 70), 0, hole), "shown");
+  EXPECT_EQ(missing(lacking(20, -5.02), square(30, 70), 0.01, hole), "shown");
+  EXPECT_NE(missing(lacking(20, -4.99), square(30, 70), 0, hole), "shown");
+  const std::string notch =
+      R"({"outer": [{"line": {"from": [0, 0], "to": [100, 0]}}, {"line": {"from": [100, 0], "to": [100, 48]}},
+       {"line": {"from": [100, 48], "to": [72, 48]}}, {"line": {"from": [72, 48], "to": [72, 52]}},
+       {"line": {"from": [72, 52], "to": [100, 52]}}, {"line": {"from": [100, 52], "to": [100, 100]}},
+       {"line": {"from": [100, 100], "to": [0, 100]}}, {"line": {"from": [0, 100], "to": [0, 0]}}]})";
+  EXPECT_EQ(missing(lacking(20, -2.01), square(30, 70), 0, notch), "shown");
+  EXPECT_NE(missing(lacking(20, -1.99), square(30, 70), 0, notch), "shown");
 }
 
 TEST(VerifyDemands, OfAFeatureNoMoreIsMissingThanItsMinimumSays) {

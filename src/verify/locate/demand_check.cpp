@@ -16,6 +16,8 @@ namespace {
 
 /// A claim counts as not confirmed when it takes more pieces of outlines than this.
 constexpr std::size_t kMostPieces = 200'000;
+/// What is missing counts as not shown when it takes more squares than this.
+constexpr std::size_t kMostSquares = 200'000;
 
 bool is_positive(Span value) { return value.low > 0; }
 
@@ -299,6 +301,39 @@ bool DemandCheck::keeps(const Side& whole, Span needed) const {
   return true;
 }
 
+/// Says whether no point within `by` of a side of the placed part sticks out of the blank by more than
+/// `most`. What a side demands may reach into a hole or a notch of the blank and end there, however little
+/// allowance the side has.
+bool DemandCheck::sticks_out_less(const Side& side, double by, double most, std::size_t& looked) const {
+  struct Square {
+    Vec centre;
+    double half = 0;
+  };
+  const Box box = box_of(side);
+  const double half = 0.5 * std::max(box.high_x - box.low_x, box.high_y - box.low_y) + by;
+  std::vector<Square> open{
+      {{just(0.5 * (box.low_x + box.high_x)), just(0.5 * (box.low_y + box.high_y))}, half * (1 + 0x1p-40)}};
+  while (!open.empty()) {
+    if (++looked > kMostSquares) return false;
+    const Square square = open.back();
+    open.pop_back();
+    const double radius = 1.4142136 * square.half;
+    if (distance(square.centre, side).low > (just(by) + just(radius)).high) continue;
+    const Span out = distance(square.centre, blank_);
+    if ((out + just(radius)).high <= most) continue;
+    if (out.low > std::min(radius, most)) {
+      const auto in = holds(blank_, square.centre);
+      if (out.low > radius && in && *in) continue;
+      if (out.low > most && in && !*in && distance(square.centre, side).high <= by) return false;
+    }
+    const double quarter = 0.5 * square.half;
+    for (const double dx : {-quarter, quarter})
+      for (const double dy : {-quarter, quarter})
+        open.push_back({square.centre + Vec{just(dx), just(dy)}, quarter});
+  }
+  return true;
+}
+
 /// Says whether a point within `by` of a side of the part surely sticks out by more.
 bool DemandCheck::grown_sticks_out(std::size_t side, Span by, double more_than) const {
   for (const Vec& p : points_of(placed_.sides[side])) {
@@ -318,7 +353,8 @@ bool DemandCheck::grown_sticks_out(std::size_t side, Span by, double more_than) 
 bool DemandCheck::check_missing() {
   if (!(d_.margin.low < 0)) return true;
   bool shown = true;
-  const double missing = (off_ - d_.margin).low;
+  const double missing = (off_ - d_.margin).low, most = (-d_.margin - off_).low;
+  std::size_t looked = 0;
   for (std::size_t edge = 0; edge < sides_of_edge_.size(); ++edge) {
     const WrittenFeature* const f = feature_of_edge_[edge];
     const Span minimum = f == nullptr ? d_.minimum : (f->finished ? -*f->finished : f->minimum);
@@ -328,7 +364,7 @@ bool DemandCheck::check_missing() {
         find("at edge {} more is missing than the {} mm that the margin says", edge, -d_.margin.high);
         return true;
       }
-      shown = false;
+      shown = shown && minimum.low >= 0 && sticks_out_less(placed_.sides[k], minimum.high, most, looked);
     }
   }
   for (const WrittenFeature& f : d_.features) {

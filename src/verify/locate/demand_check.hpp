@@ -99,6 +99,7 @@ class DemandCheck {
   void check_minima();
   void check_material();
   [[nodiscard]] bool keeps(const Side& side, Span needed) const;
+  [[nodiscard]] bool sticks_out_less(const Side& side, double by, double most, std::size_t& looked) const;
   [[nodiscard]] bool grown_sticks_out(std::size_t side, Span by, double more_than) const;
   [[nodiscard]] bool is_depth_kept(const std::vector<std::size_t>& sides, double most, bool& refuted) const;
   void check_depth(const std::vector<std::size_t>& sides, double most, const std::string& whose);
