@@ -119,6 +119,20 @@ TEST(JobsLocate, BytesGoInAndAProvedDocumentComesOut) {
   }
 }
 
+/// Along a spike each box of placements was made as short as the part reaches before the part turned less in
+/// it, so that the work was gone before anything was proved.
+TEST(JobsLocate, OnePointOfTheBlankFarAwayDoesNotUseUpTheWork) {
+  LocateJob job;
+  job.part = {"part.json", io_cases::region(kPart, 0)};
+  job.blank = {
+      "blank.csv",
+      io_cases::csv({{100, 100}, {190, 100}, {190, 110}, {1'000'000, 112}, {190, 150}, {100, 150}}, 0)};
+  const Located located = made(job);
+  EXPECT_EQ(located.document.status, "optimal");
+  EXPECT_NEAR(located.document.placement.clearance, 5, 0.01);
+  EXPECT_LT(located.document.work, 100'000U);
+}
+
 TEST(JobsLocate, ConvexPolygonsAreTakenAsSuchUnlessSomethingNeedsRegions) {
   LocateJob job = plate_job();
   EXPECT_TRUE(made(job).document.convex());

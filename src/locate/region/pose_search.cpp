@@ -18,6 +18,8 @@ constexpr double kFine = 1.0 / 128;
 /// The points of the part that bound large cells are no further apart along an edge than this part of its
 /// reach. Two points on a circle would say nothing about shifts across them.
 constexpr double kSampleSpacing = 0.2;
+/// A cell that is bounded by programs is turned by halves to this first, rad, however long it is.
+constexpr double kFirstTurn = 0.25;
 /// Contacts are looked for in one cell this many times before it is split.
 constexpr int kRounds = 3;
 /// A cell hands at most this many pairs on to its halves.
@@ -534,7 +536,10 @@ void PoseSearch::polish(MeasuredPose found, double trust) {
 
 std::array<PoseSearch::Node, 2> PoseSearch::split(const Node& node) {
   const PoseCell& cell = node.cell;
-  const double turn = reach_ * cell.half_theta;
+  // Programs bound a cell well that is much longer than the part, as a spike of the blank is, once the part
+  // hardly turns in it, and never while it turns all round.
+  const bool turns_first = size(cell) <= fine_ && cell.half_theta > kFirstTurn;
+  const double turn = turns_first ? kInfinity : reach_ * cell.half_theta;
   std::array<Node, 2> half{node, node};
   CoverTree::Axis axis;
   double at = 0;
