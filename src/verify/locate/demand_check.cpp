@@ -16,7 +16,7 @@ namespace {
 
 /// A claim counts as not confirmed when it takes more pieces of outlines than this.
 constexpr std::size_t kMostPieces = 200'000;
-/// What is missing counts as not shown when it takes more squares than this.
+/// A margin below 0 counts as not shown when it takes more squares than this.
 constexpr std::size_t kMostSquares = 200'000;
 
 bool is_positive(Span value) { return value.low > 0; }
