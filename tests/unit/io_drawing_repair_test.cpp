@@ -114,17 +114,20 @@ TEST(DrawingRepair, PartsThatShareAnEdgeAreTwo) {
 }
 
 TEST(DrawingRepair, WhatTouchingLinesEncloseOfTheSizeOfAMendIsLinesAndACircleOfThatSizeAHole) {
-  const auto roof = [](double width) {
+  const auto roof = [](double width, double height) {
     Sketch sketch;
-    sketch.line({0, 0}, {30, 0}).polyline({{10, 0}, {10 + width / 2, width}, {10 + width, 0}}, false);
+    sketch.line({0, 0}, {30, 0}).polyline({{10, 0}, {10 + width / 2, height}, {10 + width, 0}}, false);
     sketch.polyline({{0, 20}, {10, 20}, {10, 30}, {0, 30}}).circle({5, 25}, 0.1);
     return made(sketch);
   };
-  const auto small = roof(0.2);
-  ASSERT_EQ(small.regions.size(), 1u);
-  EXPECT_EQ(small.regions[0].holes.size(), 1u);
-  EXPECT_FALSE(small.marks.empty());
-  EXPECT_EQ(roof(0.5).regions.size(), 2u);
+  // Something small, or long and nowhere wider than a mend.
+  for (const auto& found : {roof(0.2, 0.2), roof(5, 0.2)}) {
+    ASSERT_EQ(found.regions.size(), 1u);
+    EXPECT_EQ(found.regions[0].holes.size(), 1u);
+    EXPECT_FALSE(found.marks.empty());
+  }
+  EXPECT_EQ(roof(0.5, 0.5).regions.size(), 2u);
+  EXPECT_EQ(roof(5, 0.3).regions.size(), 2u);
 }
 
 TEST(DrawingRepair, PartsThatTouchInACornerAreTwo) {
@@ -313,6 +316,28 @@ TEST(DrawingRepair, ASliverIsCutOffAsASpikeIs) {
   EXPECT_NEAR(geom::area(found.regions[0]), 100, 1e-2);
   EXPECT_LE(found.repaired, 0.011);
   EXPECT_FALSE(found.marks.empty()) << "0.3 mm is more than may be lost of a spike";
+}
+
+TEST(DrawingRepair, ACrackAtAFoldIsLinesAndWhatIsDrawnOfItsWidthAHole) {
+  // As a box maker draws a fold: the way back is 0.2 mm beside the end of the way there, and crosses it.
+  const auto folded = [](double beside) {
+    Sketch sketch;
+    sketch.polyline(
+        {{0, 0}, {100, 0}, {100, 46}, {50, 50}, {50, 50 - beside}, {100, 50 - beside}, {100, 100}, {0, 100}});
+    sketch.polyline({{10, 10}, {12.5, 10}, {12.5, 10.2}, {10, 10.2}})
+        .circle({20, 20}, 0.25)
+        .circle({30, 20}, 0.1);
+    EXPECT_TRUE(refused_when_strict(sketch));
+    return made(sketch);
+  };
+  const auto crack = folded(0.2);
+  ASSERT_EQ(crack.regions.size(), 1u);
+  EXPECT_EQ(crack.regions[0].holes.size(), 3u) << "the slot and the two round ones";
+  EXPECT_FALSE(crack.marks.empty());
+  EXPECT_LE(crack.repaired, 0.0101) << "whatever is farther from the outline is a mark";
+  const auto hole = folded(0.5);
+  ASSERT_EQ(hole.regions.size(), 1u);
+  EXPECT_EQ(hole.regions[0].holes.size(), 4u);
 }
 
 TEST(DrawingRepair, HolesThatCrossAreOneHole) {

@@ -69,6 +69,15 @@ TEST(PartFile, ACrackThatClosesAlongATangentLeavesAPartOfLines) {
   EXPECT_NE(told_notices(file).find("outlines are within"), std::string::npos) << told_notices(file);
 }
 
+TEST(PartFile, ACrackThatChordsCloseLeavesNoHole) {
+  // A box maker goes along the quarter of a corner and back: between chords beside the two arcs 0.05 mm of
+  // the crack were left.
+  const PartsFile file =
+      read(R"(<path d="M0 0V20H40V10C40 10.056 39.955 10.1 39.9 10.1C39.955 10.1 40 10.056 40 10V0Z"/>)");
+  EXPECT_EQ(told(file), "side_panel=1 \"cut\" 0 holes 1 marks, ");
+  EXPECT_NE(told_notices(file).find("outlines are within"), std::string::npos) << told_notices(file);
+}
+
 TEST(PartFile, LinesThatBoundNothingAreMarksOfTheirPart) {
   const PartsFile file =
       read(square(0, 0, 10) + R"(<path d="M2 2H8" stroke="blue"/>)" + square(20, 0, 10) +

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lekalo/base/stop.hpp"
+#include "lekalo/geom/offset.hpp"
 #include "lekalo/geom/region_check.hpp"
 #include "near_edges.hpp"
 
@@ -54,6 +55,18 @@ Point right_of(const Edge& in, const Edge& out) {
   return (-1 / norm(sum)) * perpendicular(sum);
 }
 
+double size_of(const Contour& contour) {
+  const geom::Box box = geom::bounds(contour);
+  return norm(box.high - box.low);
+}
+
+/// The width of a strip of the same area and circumference, if it is long.
+double mean_width(const Contour& contour) {
+  double around = 0;
+  for (const Edge& edge : contour) around += 2 * bisected(edge).half_length;
+  return 2 * std::abs(geom::signed_area(contour)) / around;
+}
+
 class Mender {
  public:
   Mender(const std::vector<LooseContour>& contours, geom::FillRule rule, const MendLimits& limits)
@@ -73,6 +86,7 @@ class Mender {
       return marks_alone();
     }
     for (const geom::CutContour& loop : cut_.contours) area_.push_back(geom::signed_area(loop.contour));
+    find_small();
     // A neck may close something near it, and then its loop is cut off instead: those that are seen to do so
     // first, then all.
     cut_off_loop_.assign(cut_.contours.size(), 0);
@@ -100,8 +114,9 @@ class Mender {
         if (!add(i)) return std::nullopt;
       } else if (kind_[i] == Kind::dropped) {
         const geom::CutContour& loop = cut_.contours[i];
-        // A sliver is a spike whose ways out and back are not quite the same.
-        std::vector<LooseEdge>& to = is_sliver(loop.contour) ? left_ : cut_off_;
+        // A sliver is a spike whose ways out and back are not quite the same, and a crack is lines to be cut.
+        const bool is_loop = size_of(loop.contour) <= 2 * repair_ && !is_sliver(loop.contour);
+        std::vector<LooseEdge>& to = is_loop ? cut_off_ : left_;
         for (std::size_t k = 0; k < loop.contour.size(); ++k)
           to.push_back({loop.contour[k], curves_[loop.origins[k]]});
       }
@@ -127,33 +142,36 @@ class Mender {
 
   enum class Kind { stays, joined, dropped };
 
+  /// Finds the loops that do not stay as they are.
+  void find_small() {
+    const std::vector<geom::CutContour>& loops = cut_.contours;
+    std::size_t largest = 0;
+    double most = 0;
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      const double size = size_of(loops[i].contour);
+      small_.push_back(is_by_product(loops[i].contour, {speck_, repair_}) ? 1 : 0);
+      if (size > most) most = size, largest = i;
+    }
+    // Something stays of what is small as a whole, unless it is a sliver.
+    if (!is_sliver(loops[largest].contour)) small_[largest] = 0;
+  }
+
   /// Says which loops stay, which are joined to another at a corner, and which are dropped.
   void sort_loops() {
     const std::vector<geom::CutContour>& loops = cut_.contours;
     kind_.assign(loops.size(), Kind::stays);
     hung_.clear();
-    std::vector<char> small(loops.size(), 0);
-    std::size_t largest = 0;
-    double most = 0;
-    for (std::size_t i = 0; i < loops.size(); ++i) {
-      const geom::Box box = geom::bounds(loops[i].contour);
-      const double size = norm(box.high - box.low);
-      small[i] = size <= 2 * repair_;
-      if (size > most) most = size, largest = i;
-    }
-    // Something stays of what is small as a whole, unless it is a crack.
-    if (!is_sliver(loops[largest].contour)) small[largest] = 0;
     std::map<Point, std::size_t, PointOrder> place;
     for (std::size_t i = 0; i < loops.size(); ++i)
-      if (small[i] == 0)
+      if (small_[i] == 0)
         for (const Edge& edge : loops[i].contour) place.emplace(edge.from, i);
     for (std::size_t i = 0; i < loops.size(); ++i) {
-      if (small[i] == 0) continue;
+      if (small_[i] == 0) continue;
       const Contour& loop = loops[i].contour;
       std::size_t hangs = 0;  // the edge that begins in the corner by which it hangs
       while (hangs < loop.size() && place.count(loop[hangs].from) == 0) ++hangs;
       // A sliver, a loop that hangs on other small ones alone, and one that reaches too far from its corner
-      // to be joined, is cut off: with its loss, or its lines are marks.
+      // to be joined, as a crack does, is cut off: with its loss, or its lines are marks.
       kind_[i] = Kind::dropped;
       if (hangs == loop.size() || is_sliver(loop)) continue;
       const Point corner = loop[hangs].from;
@@ -168,10 +186,7 @@ class Mender {
 
   /// Says whether a loop is nowhere much wider than a speck.
   [[nodiscard]] bool is_sliver(const Contour& loop) const {
-    double around = 0;
-    for (const Edge& edge : loop) around += 2 * bisected(edge).half_length;
-    return 2 * std::abs(geom::signed_area(loop)) <= speck_ * around ||
-           lies_within(loop, loop.front().from, speck_);
+    return mean_width(loop) <= speck_ || lies_within(loop, loop.front().from, speck_);
   }
 
   [[nodiscard]] static bool lies_within(const Contour& loop, Point of, double reach) {
@@ -313,6 +328,7 @@ class Mender {
   std::vector<std::uint32_t> curves_;  ///< by given edge
   geom::CutFaces cut_;
   std::vector<double> area_;  ///< by loop, with its sign
+  std::vector<char> small_;   ///< by loop: it does not stay as it is
   std::vector<Kind> kind_;
   std::map<Point, Hung, PointOrder> hung_;
   std::vector<char> cut_off_loop_;        ///< by loop: not to be joined
@@ -325,6 +341,17 @@ class Mender {
 };
 
 }  // namespace
+
+bool is_by_product(const Contour& contour, const MendLimits& limits) {
+  const double width = limits.repair + limits.speck;
+  if (size_of(contour) <= 2 * limits.repair) return true;
+  // A disc as wide as the contour in the mean fits into it.
+  if (mean_width(contour) > width) return false;
+  const auto region = geom::make_region(geom::signed_area(contour) > 0 ? contour : geom::reversed(contour));
+  if (!region) return false;
+  const auto shrunk = geom::offset({*region}, -width / 2);
+  return shrunk && shrunk->regions.empty();
+}
 
 std::optional<Mended> mended(const std::vector<LooseContour>& contours, geom::FillRule rule,
                              const MendLimits& limits) {

@@ -29,13 +29,18 @@ struct MendLimits {
   double repair = 0.2;  ///< no outline moves further
 };
 
+/// Says whether a contour that lines make where they cross is no larger than twice `repair`, or nowhere wider
+/// than `repair` and a speck, so that no larger disc fits into it: then nobody drew it as a part or a hole.
+[[nodiscard]] bool is_by_product(const geom::Contour& contour, const MendLimits& limits);
+
 /// Makes contours that meet nowhere but in corners out of contours that cross or touch themselves or each
 /// other, by the rule. Loops that lie within `repair` of the corner by which they hang on the rest are joined
-/// to it through a neck, or cut off if they are specks or no neck will do; larger ones of no more than twice
-/// `repair` are marks, and still larger ones contours of their own. Spikes and slivers are cut off up to the
-/// size of a speck, and marks beyond it. Where a hole touches, its corner is moved into the hole.
+/// to it through a neck, or cut off if they are specks or no neck will do; other by-products are marks, and
+/// larger loops contours of their own. Spikes and slivers are cut off up to the size of a speck, and marks
+/// beyond it. Where a hole touches, its corner is moved into the hole.
 ///
-/// Loops that enclose nothing, or no more than slivers, are marks alone. Nothing where that leaves a contour with a fault.
+/// Loops that enclose nothing, or no more than slivers, are marks alone. Nothing where that leaves a contour
+/// with a fault.
 [[nodiscard]] std::optional<Mended> mended(const std::vector<LooseContour>& contours, geom::FillRule rule,
                                            const MendLimits& limits);
 

@@ -981,9 +981,9 @@ class Assembly {
     return {};
   }
 
-  /// Contours that lines enclose only together, and that are no larger than what is mended, are by-products
-  /// of lines that run past each other: their lines are marks. A circle of that size is a hole as it is
-  /// drawn.
+  /// Contours that lines enclose only together are by-products of lines that run past each other where they
+  /// are no larger or no wider than what is mended: their lines are marks. A circle of that size is a hole as
+  /// it is drawn.
   void mark_small_faces() {
     std::vector<char> of_faces(worked_.size(), 0);
     for (const BranchChain& branch : branches_)
@@ -996,10 +996,12 @@ class Assembly {
     const auto stays = [&](const geom::Contour& contour, bool on_what_stays) {
       const std::size_t first = edge;
       edge += contour.size();
-      const geom::Box box = geom::bounds(contour);
-      bool kept = on_what_stays && norm(box.high - box.low) > 2 * options_.repair;
-      for (std::size_t k = first; k < edge && on_what_stays; ++k)
-        kept = kept || of_faces[result_.curve_of_edge[k]] == 0;
+      bool of_faces_alone = true;
+      for (std::size_t k = first; k < edge; ++k)
+        of_faces_alone = of_faces_alone && of_faces[result_.curve_of_edge[k]] != 0;
+      const bool kept =
+          on_what_stays &&
+          !(of_faces_alone && is_by_product(contour, {options_.join_tolerance, options_.repair}));
       for (std::size_t k = first; k < edge; ++k) {
         if (kept)
           curve_of_edge.push_back(result_.curve_of_edge[k]);

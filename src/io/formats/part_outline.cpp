@@ -54,8 +54,9 @@ std::optional<geom::Region> as_lines(const geom::Region& region, double toleranc
   return made ? std::optional(*std::move(made)) : std::nullopt;
 }
 
-/// Returns the largest piece of what contours wind around, without the holes that the grid loses.
-std::optional<geom::Region> filled(const geom::Region& lines) {
+/// Returns the largest piece of what contours wind around, without the holes that the grid loses, and without
+/// those of at most `most_loss` that the outer contour alone closes about: they are left of a crack in it.
+std::optional<geom::Region> filled(const geom::Region& lines, double most_loss) {
   std::vector<Contour> contours{lines.outer};
   contours.insert(contours.end(), lines.holes.begin(), lines.holes.end());
   const auto cut = geom::contours_around(contours, geom::FillRule::nonzero);
@@ -66,9 +67,16 @@ std::optional<geom::Region> filled(const geom::Region& lines) {
       });
   geom::Region region{largest->contour, {}};
   const geom::RegionIndex inside({region});
+  const auto is_of_crack = [&](const geom::CutContour& hole) {
+    const geom::Box box = geom::bounds(hole.contour);
+    return norm(box.high - box.low) <= most_loss &&
+           std::all_of(hole.origins.begin(), hole.origins.end(),
+                       [&](std::uint32_t edge) { return edge < lines.outer.size(); });
+  };
   for (const geom::CutContour& one : cut->contours) {
     const Edge& first = one.contour.front();
     if (geom::signed_area(one.contour) < 0 && inside.contains(0.5 * (first.from + first.to)) &&
+        !is_of_crack(one) &&
         geom::grid_region_of_curves({geom::reversed(one.contour), {}}, geom::ChordSide::grow,
                                     kFinerChords[0]))
       region.holes.push_back(one.contour);
@@ -109,7 +117,7 @@ Result<PartOutline> outline_of_part(const geom::Region& region, double chord_tol
   }
   auto lines = as_lines(region, std::min(chord_tolerance, most_loss / 2));
   for (const bool fill : {false, true}) {
-    if (lines && fill) lines = filled(*lines);
+    if (lines && fill) lines = filled(*lines, most_loss);
     if (!lines) break;
     auto made = detail::outline_of_curves(*lines, geom::ChordSide::grow, chord_tolerance);
     if (!made) continue;
