@@ -16,6 +16,10 @@ pixels wide, and each pixel that one touches is drawn.
 (b) Every drawn pixel has a point of a part, a mark or a line on the list of what was set aside within the loss, half
     the width and SLACK pixels.
 
+(c) The lines of the drawing and those of the layout, drawn alike, enclose the same area: the parts with their holes
+    filled, and what loose lines enclose. It may differ along the rim by the loss and by TWICE, because the drawing
+    may have a line twice. What lines cover of a pixel is known to 1 / 255 of it.
+
 SLACK is what pixels cost: the point and the stroke are each within half a diagonal of the middle of their pixel
 (1.42 pixels), the rasteriser's chords within 0.1 pixel of the curve. Texts, images, fills, dimensions and whatever
 else is no line are left out of the raster and counted.
@@ -36,7 +40,8 @@ from drawings_oracle import open_dxf
 
 PIXEL, MOST, WIDTH, SLACK = 0.2, 16e6, 1.2, 1.6
 CHORD = 0.01  # mm, of the polygons in a layout: they are asked for so
-SPOILED = 0.5  # mm
+SPOILED, LARGER = 0.5, 0.15  # mm
+TWICE = 0.25  # of a pixel, that is all by which two lines over each other cover it more than one
 CURVES = {'LINE', 'ARC', 'CIRCLE', 'ELLIPSE', 'LWPOLYLINE', 'POLYLINE', 'SPLINE', 'MLINE'}
 STYLE = '''* { stroke: #000 !important; stroke-opacity: 1 !important; stroke-dasharray: none !important;
   stroke-linecap: round !important; stroke-linejoin: round !important; fill: none !important;
@@ -159,6 +164,13 @@ def loops_of(outline):
     if curves:
         loops += [[edge_of(edge) for edge in loop] for loop in [curves['outer'], *curves.get('holes', [])]]
     return loops
+
+
+def curves_of(outline):
+    curves = outline.get('curves')
+    if not curves:
+        return loops_of(outline)
+    return [[edge_of(edge) for edge in loop] for loop in [curves['outer'], *curves.get('holes', [])]]
 
 
 def layout_of(lekalo, path, work):
@@ -310,7 +322,8 @@ class Dxf:
 
         class Fine(Frontend):
             """Arcs in pieces of at most 12 degrees, so that their Bezier curves are exact to 1e-8 of the radius; lines
-            with a width as their middle; what is seen at an angle is left out, as lekalo leaves it out."""
+            with a width as their middle; splines whose knots are not clamped through points of theirs, because ezdxf
+            0.18 draws other curves for them; what is seen at an angle is left out, as lekalo leaves it out."""
 
             def draw_entity(self, entity, properties):
                 if entity.dxftype() in CURVES - {'LINE', 'SPLINE', 'MLINE'}:
@@ -321,7 +334,10 @@ class Dxf:
                 super().draw_entity(entity, properties)
 
             def draw_curve_entity(self, entity, properties):
-                self.out.draw_path(paths.make_path(entity, segments=32), properties)
+                if entity.dxftype() == 'SPLINE' and not entity.construction_tool().is_clamped:
+                    self.out.draw_path(paths.from_vertices(entity.flattening(1e-4)), properties)
+                else:
+                    self.out.draw_path(paths.make_path(entity, segments=32), properties)
 
             def draw_polyline_entity(self, entity, properties):
                 if entity.dxftype() == 'POLYLINE' and (entity.is_polygon_mesh or entity.is_poly_face_mesh):
@@ -365,6 +381,42 @@ class Dxf:
             file.write('</svg>\n')
 
 
+class Lines:
+    """Lines and arcs of lekalo, to be drawn as those of a drawing are."""
+
+    def __init__(self, lines):
+        self.lines, self.width = lines, WIDTH
+
+    def write(self, frame, path):
+        words = []
+        for edges, shift in self.lines:
+            last = None
+            for edge in edges:
+                if edge[:2] != last:
+                    words.append(('M', edge[:2], shift))
+                words += [(word, point, shift) for word, point in self.steps(edge, frame.pixel)]
+                last = edge[2:4]
+        places = frame.pixels(np.array([point for _, point, _ in words]) + np.array([shift for *_, shift in words]))
+        data = ' '.join(f'{word}{x:.4f} {y:.4f}' for (word, *_), (x, y) in zip(words, places))
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(f'<svg xmlns="http://www.w3.org/2000/svg" width="{frame.columns}" height="{frame.rows}" '
+                       f'stroke-width="{self.width:.6g}"><path d="{data}"/></svg>\n')
+
+    @staticmethod
+    def steps(edge, pixel):
+        """Arcs in two halves, of which none is a whole turn."""
+        if len(edge) == 4:
+            return [('L', edge[2:4])]
+        begin, end = (math.atan2(edge[k + 1] - edge[5], edge[k] - edge[4]) for k in (0, 2))
+        sweep = (end - begin if edge[6] else begin - end) % (2 * math.pi)
+        if edge[:2] == edge[2:4]:
+            sweep = 2 * math.pi
+        radius, half = math.dist(edge[:2], edge[4:6]), begin + (0.5 if edge[6] else -0.5) * sweep
+        middle = [edge[4] + radius * math.cos(half), edge[5] + radius * math.sin(half)]
+        arc = f'A{radius / pixel:.6f} {radius / pixel:.6f} 0 0 {0 if edge[6] else 1} '
+        return [(arc, middle), (arc, edge[2:4])]
+
+
 def raster(drawing, frame, work):
     svg, css, png = (os.path.join(work, name) for name in ('raster.svg', 'raster.css', 'raster.png'))
     drawing.write(frame, svg)
@@ -373,9 +425,41 @@ def raster(drawing, frame, work):
     subprocess.run(['rsvg-convert', '--unlimited', '-s', css, '-w', str(frame.columns), '-h', str(frame.rows), svg, '-o', png],
                    check=True, capture_output=True)
     with Image.open(png) as image:
-        drawn = np.asarray(image.getchannel('A')) > 0
-    assert drawn.shape == (frame.rows, frame.columns)
-    return drawn
+        alpha = np.asarray(image.getchannel('A'))
+    assert alpha.shape == (frame.rows, frame.columns)
+    return alpha
+
+
+def reached(free):
+    """The free pixels that a way from the border of the raster leads to, along rows and columns."""
+    def runs_of(free):
+        begins = free.copy()
+        begins[:, 1:] &= ~free[:, :-1]
+        return np.cumsum(begins, dtype=np.int32).reshape(free.shape)
+
+    rows, columns = runs_of(free), runs_of(np.ascontiguousarray(free.T)).T
+    found = np.zeros_like(free)
+    found[0], found[-1] = free[0], free[-1]
+    before = None
+    while not np.array_equal(found, before):
+        before = found
+        for runs in (rows, columns):
+            hit = np.zeros(runs[-1, -1] + 1, bool)
+            hit[runs[found]] = True
+            found = free & hit[runs]
+    return found
+
+
+def enclosed(alpha):
+    """How many pixels lines enclose, and how many are on their rim: of these as much counts as lines cover."""
+    outside = reached(alpha == 0)
+    near = np.zeros_like(outside)
+    for axis in (0, 1):
+        for way in (1, -1):
+            near |= np.roll(outside, way, axis)
+    rim = near & ~outside
+    inner = alpha.size - int(outside.sum()) - int(rim.sum())
+    return inner + int(alpha[rim].sum(dtype=np.int64)) / 255, int(rim.sum())
 
 
 # The comparison.
@@ -383,8 +467,8 @@ def raster(drawing, frame, work):
 class Piece:
     """A part as the layout has it, with its marks, at one of its places."""
 
-    def __init__(self, name, points, shift, missing):
-        self.name, self.points, self.shift, self.missing = name, points, shift, missing
+    def __init__(self, part, points, shift, missing):
+        self.part, self.points, self.shift, self.missing = part, points, shift, missing
 
 
 def place_parts(layout, regions, frame, drawn, step, radius):
@@ -419,7 +503,7 @@ def place_parts(layout, regions, frame, drawn, step, radius):
         found.sort(key=lambda one: one[:4])
         for _, _, _, number, shift, missing in found[:part['demand']]:
             free.discard(number)
-            pieces.append(Piece(part['id'], points, shift, missing))
+            pieces.append(Piece(part, points, shift, missing))
         if len(found) < part['demand']:
             unplaced.append(f"{part['id']}: {len(found)} of {part['demand']}")
     return pieces, unplaced, free
@@ -446,6 +530,19 @@ def spoiled(layout, frame, drawn, step, radius):
     return any(told)
 
 
+def compare_areas(lines, alpha, frame, work, width):
+    """What the lines of the layout enclose against what the drawing's do, which may differ along them by `width`
+    pixels; and whether it is told that all outlines are LARGER: None where `width` is too wide for that."""
+    area, rim = enclosed(alpha)
+    said = enclosed(raster(lines, frame, work))[0]
+    larger = None
+    if width * frame.pixel < LARGER / 2:
+        lines.width = WIDTH + 2 * LARGER / frame.pixel
+        larger = bool(abs(enclosed(raster(lines, frame, work))[0] - area) > rim * width)
+    return {'area': round(said * frame.pixel ** 2, 2), 'area_off': round((said - area) * frame.pixel ** 2, 3),
+            'area_may': round(rim * width * frame.pixel ** 2, 3), 'larger_told': larger}
+
+
 def compare(lekalo, line, work):
     path = line['file']
     layout, says = layout_of(lekalo, path, work)
@@ -456,7 +553,8 @@ def compare(lekalo, line, work):
     corners += [] if drawing.extent is None else list(drawing.extent)
     corners = np.array(corners)
     frame = Frame(corners.min(axis=0), corners.max(axis=0))
-    drawn = raster(drawing, frame, work)
+    alpha = raster(drawing, frame, work)
+    drawn = alpha > 0
     step = 0.1 * frame.pixel
     loss = max(loss_of(says), line['loose_error'])
     wide = (loss + CHORD) / frame.pixel + SLACK
@@ -481,11 +579,14 @@ def compare(lekalo, line, work):
                                          for k, piece in enumerate(pieces) if k != largest] + others[1:]
                                         or [np.zeros(0, np.int64)]))
         lost = not covered(frame, rest, wide + WIDTH / 2)[ink].all()
+    loose = [(edges, (0, 0)) for edges in line['loose'] + [line['regions'][number] for number in sorted(unused)]]
+    lines = Lines([(loop, piece.shift) for piece in pieces for loop in curves_of(piece.part['outline'])] + loose)
+    area = compare_areas(lines, alpha, frame, work, loss / frame.pixel + TWICE)
     return {'verdict': 'compared', 'pixel': round(frame.pixel, 4), 'pixels': int(len(ink)), 'loss': round(loss, 5),
             'pieces': len(pieces), 'unplaced': unplaced, 'aside': aside, 'told_aside': told_aside(says),
             'off': int(len(off)), 'off_at': [place_of(frame, cell) for cell in off[:3]],
             'bare': int(len(bare)), 'bare_at': [place_of(frame, cell) for cell in bare[:3]],
-            'spoiled_told': spoiled(layout, frame, drawn, step, wide), 'lost_told': lost,
+            'spoiled_told': spoiled(layout, frame, drawn, step, wide), 'lost_told': lost, **area,
             'left_out': drawing.left_out}
 
 
