@@ -178,6 +178,20 @@ TEST(VerifyShapeReader, ArcsThatMissTheirEndsAreJoined) {
   EXPECT_LT(near.sides[0].off, 1e-14);
 }
 
+TEST(VerifyShapeReader, AnEdgeWithMoreMembersIsReadLikeOneWithout) {
+  const std::string half = arc("10, 0", "-10, 0", "0, 0"), chord = line("-10, 0", "10, 0");
+  const Shape usual = shape(region({half, chord}));
+  std::string noted = half;
+  noted.insert(1, R"("note": ["}", "]"], )");
+  const std::string twice = R"({"line": {"from": [-10, 0], "to": [10, 0], "to": [10, 0]}})";
+  for (const std::vector<std::string>& edges :
+       {std::vector<std::string>{noted, chord}, {half, line("-10, 0", "10, 0", R"(, "open": false)")}}) {
+    const Shape other = shape(region(edges));
+    EXPECT_TRUE(same_edges(usual, other, 0));
+  }
+  EXPECT_EQ(complaint(region({half, twice})), "field r.outer[1].to is given twice");
+}
+
 TEST(VerifyShapeReader, OpenSidesAreMarked) {
   const Shape s = shape(region({line("0, 0", "9, 0", R"(, "open": true)"),
                                 line("9, 0", "9, 9", R"(, "open": false)"), line("9, 9", "0, 0")}));

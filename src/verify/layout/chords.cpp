@@ -135,12 +135,13 @@ std::optional<std::string> fault_of_walk(Walk walk, const std::vector<DrawnEdge>
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto steps = steps_to(walk, edges[e]);
     if (!steps) return fmt::format("no point is where edge {} of the drawing ends", e);
-    std::vector<Vec> chain;
-    for (std::size_t i = 0; i <= *steps; ++i) chain.push_back(walk.point(i));
-    const bool outside = (edges[e].ccw == material_left) == (side == ChordSide::outside);
-    if (edges[e].arc && *steps > 0)
+    if (edges[e].arc && *steps > 0) {
+      std::vector<Vec> chain;
+      for (std::size_t i = 0; i <= *steps; ++i) chain.push_back(walk.point(i));
+      const bool outside = (edges[e].ccw == material_left) == (side == ChordSide::outside);
       if (auto fault = fault_of_arc(chain, edges[e], outside, tolerance))
         return fmt::format("{} (edge {} of the drawing)", *fault, e);
+    }
     if (edges[e].arc && *steps == 0 && length(edges[e].from - edges[e].centre).high > 64 * kStep &&
         !near(edges[e].from, edges[e].to))
       return fmt::format("the arc of edge {} of the drawing is missing", e);

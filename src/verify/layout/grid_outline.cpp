@@ -86,12 +86,12 @@ bool before(const Ray& a, const Ray& b) {
   return cross(a.direction, b.direction) > 0;
 }
 
-/// Edges and a tree over their boxes, whose numbers doubles hold exactly.
+/// Edges and a tree over their boxes, whose numbers doubles hold exactly. The tree is made when it is first
+/// asked, as that of a part which lies well inside its sheet never is.
 struct IndexedEdges {
   std::vector<GridEdge> edges;
-  SideTree tree;
 
-  explicit IndexedEdges(std::vector<GridEdge> all) : edges(std::move(all)), tree(boxes_of(edges)) {}
+  explicit IndexedEdges(std::vector<GridEdge> all) : edges(std::move(all)) {}
 
   static Box wide(const GridBox& box, std::int64_t by = 0) {
     return {static_cast<double>(box.low_x - by), static_cast<double>(box.low_y - by),
@@ -107,7 +107,7 @@ struct IndexedEdges {
   template <class Visit>
   void visit_near(const GridBox& box, std::int64_t gap, const Visit& visit) const {
     const Box room = wide(box, gap);
-    tree.visit([&](const Box& other) { return meet(room, other); }, visit);
+    tree().visit([&](const Box& other) { return meet(room, other); }, visit);
   }
   /// Calls visit(k) for the edges that a ray from the event to the right may meet.
   template <class Visit>
@@ -115,9 +115,16 @@ struct IndexedEdges {
     // The event's coordinates are rounded by less than the step that the box is larger.
     const double x = static_cast<double>(v.x) / static_cast<double>(v.w) - 1;
     const double y = static_cast<double>(v.y) / static_cast<double>(v.w);
-    tree.visit([&](const Box& box) { return box.high_x >= x && box.low_y <= y + 1 && box.high_y >= y - 1; },
-               visit);
+    tree().visit([&](const Box& box) { return box.high_x >= x && box.low_y <= y + 1 && box.high_y >= y - 1; },
+                 visit);
   }
+
+ private:
+  [[nodiscard]] const SideTree& tree() const {
+    if (!tree_) tree_.emplace(boxes_of(edges));
+    return *tree_;
+  }
+  mutable std::optional<SideTree> tree_;
 };
 
 /// Returns the edge in the plane with x and y exchanged, material on the left again.
@@ -195,6 +202,11 @@ class Question {
         edges_.emplace_back(std::move(kept));
       }
     }
+    order_.resize(edges_.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::stable_sort(order_.begin(), order_.end(), [this](std::size_t i, std::size_t j) {
+      return edges_[i].edges.size() < edges_[j].edges.size();
+    });
   }
 
   [[nodiscard]] bool answer() {
@@ -234,7 +246,7 @@ class Question {
     if (!in_box(v, window_)) return false;
     rays_.clear();
     material_.assign(edges_.size(), false);
-    for (std::size_t k = 0; k < edges_.size(); ++k) {
+    for (const std::size_t k : order_) {
       const std::size_t rays_before = rays_.size();
       material_[k] = look_around(edges_[k], k, v, rays_);
       const bool elsewhere = rays_.size() == rays_before && material_[k] != (k < ins_);
@@ -261,6 +273,8 @@ class Question {
   std::size_t ins_;
   GridBox window_;
   std::vector<IndexedEdges> edges_;
+  /// The outlines, that of the fewest edges first: it is the cheapest to ask, and often the answer.
+  std::vector<std::size_t> order_;
   std::vector<Ray> rays_;
   std::vector<bool> material_;
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -120,9 +121,13 @@ GridLoop read_loop(Json list, const std::string& path, Members& members) {
     return loop;
   }
   JsonItems items(list);
+  std::string at = path + '[';
+  const std::size_t stem = at.size();
   for (std::size_t i = 0; const auto item = items.next(); ++i) {
     if (!members.complaint().empty()) return loop;
-    loop.push_back(read_point(*item, fmt::format("{}[{}]", path, i), members));
+    at.resize(stem);
+    fmt::format_to(std::back_inserter(at), "{}]", i);
+    loop.push_back(read_point(*item, at, members));
   }
   return loop;
 }

@@ -64,7 +64,7 @@ std::optional<Decimal> parse_decimal(std::string_view text) {
   if (first == std::string::npos) return Decimal{};
   const std::size_t last = digits.find_last_not_of('0');
   const long exponent = *written - static_cast<long>(decimals) + static_cast<long>(digits.size() - 1 - last);
-  digits = digits.substr(first, last - first + 1);
+  digits.erase(last + 1).erase(0, first);
   const long magnitude = exponent + static_cast<long>(digits.size());
   // The number lies in [10^(magnitude - 1), 10^magnitude).
   constexpr long kMost = limits::kMostPlaces;
@@ -101,7 +101,11 @@ Integer power_of_ten(unsigned long exponent) {
 Integer in_units(const Decimal& value, long exponent) {
   if (value.digits == 0) return 0;
   LEKALO_ASSERT(exponent <= value.exponent);
-  return value.digits * power_of_ten(static_cast<unsigned long>(value.exponent - exponent));
+  const auto zeros = static_cast<unsigned long>(value.exponent - exponent);
+  if (zeros > 18) return value.digits * power_of_ten(zeros);
+  unsigned long power = 1;
+  for (unsigned long k = 0; k < zeros; ++k) power *= 10;
+  return value.digits * power;
 }
 
 Fraction to_fraction(const Decimal& value) {
@@ -162,9 +166,14 @@ double approximate(const Decimal& value) {
   // The quotient of two doubles is rounded to the nearest.
   if (const auto few = small(value); few && few->is_double())
     return static_cast<double>(few->digits) / few->power;
-  const std::string text = value.digits.fits_slong_p()
-                               ? fmt::format("{}e{}", to_long(value.digits), value.exponent)
-                               : value.digits.get_str() + "e" + std::to_string(value.exponent);
+  // Digits, e and an exponent, as from_chars reads them.
+  std::string text =
+      value.digits.fits_slong_p() ? std::to_string(to_long(value.digits)) : value.digits.get_str();
+  text += 'e';
+  text += std::to_string(value.exponent);
+  double nearest = 0;
+  if (std::from_chars(text.data(), text.data() + text.size(), nearest).ec == std::errc{}) return nearest;
+  // The library says on which side of the doubles a number beyond them is.
   return std::strtod(text.c_str(), nullptr);
 }
 

@@ -81,8 +81,54 @@ class ShapeReader {
     shape_.piece_starts.push_back(shape_.contour_starts.size() - 1);
   }
 
-  WrittenPoint point(Fields& fields, std::string_view key) {
-    if (auto usual = two_numbers(fields.get(key))) return *std::move(usual);
+  /// One edge as it is written.
+  struct WrittenEdge {
+    bool arc = false;
+    Json inner, from, to, centre, ccw, open;
+    std::string_view path;
+    std::size_t index = 0;
+    /// Made for complaints alone, as there are many edges.
+    [[nodiscard]] std::string name() const { return fmt::format("{}[{}]", path, index); }
+  };
+
+  /// Fills in an edge with the usual members and no others, of which nobody has to be told anything. Returns
+  /// false for any other edge.
+  static bool take_usual(Json value, WrittenEdge& edge) {
+    if (!value.is_object()) return false;
+    JsonItems kinds(value);
+    const auto inner = kinds.next();
+    if (!inner || !inner->is_object()) return false;
+    edge.arc = kinds.key() == "arc";
+    if ((!edge.arc && kinds.key() != "line") || kinds.next()) return false;
+    edge.inner = *inner;
+    JsonItems members(*inner);
+    while (const auto member = members.next()) {
+      Json* const to = members.key() == "from"     ? &edge.from
+                       : members.key() == "to"     ? &edge.to
+                       : members.key() == "centre" ? &edge.centre
+                       : members.key() == "ccw"    ? &edge.ccw
+                                                   : nullptr;
+      if (to == nullptr || !to->text.empty()) return false;
+      *to = *member;
+    }
+    return true;
+  }
+
+  void take_any(Json value, WrittenEdge& edge) {
+    const std::string name = edge.name();
+    Fields fields(value, name, complaint_);
+    edge.arc = !fields.get("arc").text.empty();
+    if (edge.arc && !fields.get("line").text.empty()) return complain(name + " is a line and an arc");
+    edge.inner = fields.get(edge.arc ? "arc" : "line");
+    edge.open = fields.get("open");
+    Fields inner(edge.inner, name, complaint_);
+    edge.from = inner.get("from"), edge.to = inner.get("to");
+    edge.centre = inner.get("centre"), edge.ccw = inner.get("ccw");
+  }
+
+  WrittenPoint point(const WrittenEdge& edge, Json value, std::string_view key) {
+    if (auto usual = two_numbers(value)) return *std::move(usual);
+    Fields fields(edge.inner, edge.name(), complaint_);
     std::vector<Decimal> numbers;
     fields.each(key, [&](Json item, const std::string& path) {
       if (numbers.size() < 3) numbers.push_back(fields.number_of(item, path));
@@ -123,44 +169,56 @@ class ShapeReader {
     if (!value.is_array()) return complain(path + " is not a list of edges");
     std::vector<Json> edges;
     for (JsonItems items(value); const auto item = items.next();) edges.push_back(*item);
+    if (shape_.sides.empty()) shape_.sides.reserve(edges.size()), shape_.exact.reserve(edges.size());
     std::optional<WrittenPoint> begin, at;
     // The end of the edge before, as it is written: as a rule the next edge begins in the same words.
     std::string_view end;
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      const std::string name = fmt::format("{}[{}]", path, i);
-      Fields edge(edges[i], name, complaint_);
-      const bool arc = !edge.get("arc").text.empty();
-      if (arc && !edge.get("line").text.empty()) return complain(name + " is a line and an arc");
-      Fields inner(edge.get(arc ? "arc" : "line"), name, complaint_);
+      WrittenEdge edge;
+      edge.path = path, edge.index = i;
+      if (!take_usual(edges[i], edge)) {
+        edge = {};
+        edge.path = path, edge.index = i;
+        take_any(edges[i], edge);
+        if (!complaint_.empty()) return;
+      }
       if (loose) at = begin = std::nullopt;
-      WrittenPoint from = at && inner.get("from").text == end ? *at : point(inner, "from");
-      WrittenPoint to = point(inner, "to");
-      end = inner.get("to").text;
+      WrittenPoint from = at && edge.from.text == end ? *at : point(edge, edge.from, "from");
+      WrittenPoint to = point(edge, edge.to, "to");
+      end = edge.to.text;
       if (at && !same_as_doubles(*at, from))
-        return complain(name + " does not begin where the edge before it ends");
+        return complain(edge.name() + " does not begin where the edge before it ends");
       // Decimals of one double may differ; what counts is closed exactly.
       if (at) from = *at;
       if (!begin) begin = from;
       if (!loose && i + 1 == edges.size() && same_as_doubles(to, *begin)) to = *begin;
       at = to;
-      const Json open = edge.get("open");
-      if (!open.text.empty() && !open.is_bool()) complain(name + ".open is neither true nor false");
+      if (!edge.open.text.empty() && !edge.open.is_bool())
+        complain(edge.name() + ".open is neither true nor false");
       if (!complaint_.empty()) return;
       const std::size_t first = shape_.sides.size();
-      const WrittenPoint centre = arc ? point(inner, "centre") : WrittenPoint{};
-      arc ? add_arc(inner, from, to, centre, name) : add_line(from, to, name);
-      for (std::size_t s = first; s < shape_.sides.size(); ++s) shape_.sides[s].open = open.is_true();
+      WrittenPoint centre = edge.arc ? point(edge, edge.centre, "centre") : WrittenPoint{};
+      edge.arc ? add_arc(edge, from, to, centre) : add_line(edge, from, to);
+      for (std::size_t s = first; s < shape_.sides.size(); ++s) shape_.sides[s].open = edge.open.is_true();
       // Lines that join an arc to its ends have the arc's decimals.
-      shape_.exact.resize(shape_.sides.size(), {arc, !arc || inner.get("ccw").is_true(), from.x, from.y, to.x,
-                                                to.y, centre.x, centre.y});
+      WrittenSide side{edge.arc,
+                       !edge.arc || edge.ccw.is_true(),
+                       std::move(from.x),
+                       std::move(from.y),
+                       std::move(to.x),
+                       std::move(to.y),
+                       std::move(centre.x),
+                       std::move(centre.y)};
+      while (shape_.exact.size() + 1 < shape_.sides.size()) shape_.exact.push_back(side);
+      if (shape_.exact.size() < shape_.sides.size()) shape_.exact.push_back(std::move(side));
     }
     if (loose) return;
     if (!begin || !(*begin == *at)) return complain(path + " is not closed");
     shape_.contour_starts.push_back(shape_.sides.size());
   }
 
-  void add_line(const WrittenPoint& from, const WrittenPoint& to, const std::string& name) {
-    if (from == to) return complain(name + " has no length");
+  void add_line(const WrittenEdge& edge, const WrittenPoint& from, const WrittenPoint& to) {
+    if (from == to) return complain(edge.name() + " has no length");
     add_line(from.enclosed(), to.enclosed(), true);
   }
 
@@ -171,23 +229,22 @@ class ShapeReader {
     shape_.sides.push_back(side);
   }
 
-  void add_arc(Fields& fields, const WrittenPoint& from, const WrittenPoint& to, const WrittenPoint& centre,
-               const std::string& name) {
-    const Json ccw = fields.get("ccw");
-    if (!ccw.is_bool()) return complain(name + ".ccw is neither true nor false");
+  void add_arc(const WrittenEdge& edge, const WrittenPoint& from, const WrittenPoint& to,
+               const WrittenPoint& centre) {
+    if (!edge.ccw.is_bool()) return complain(edge.name() + ".ccw is neither true nor false");
     Side side;
     side.arc = true;
-    side.ccw = ccw.is_true();
+    side.ccw = edge.ccw.is_true();
     side.from = side.written_from = from.enclosed(), side.to = side.written_to = to.enclosed();
     if (!complaint_.empty()) return;
     side.centre = centre.enclosed();
     const auto sweep = sweep_of(side.ccw ? from : to, side.ccw ? to : from, centre);
-    if (!sweep) return complain(name + " is an arc that is a full circle or nothing");
+    if (!sweep) return complain(edge.name() + " is an arc that is a full circle or nothing");
     side.sweep = *sweep;
     const Vec a = side.from - side.centre, b = side.to - side.centre;
     const Span ra = length(a), rb = length(b);
     side.radius = just(0.5) * (ra + rb);
-    if (!(ra.low > 0 && rb.low > 0)) return complain(name + " is an arc without a radius");
+    if (!(ra.low > 0 && rb.low > 0)) return complain(edge.name() + " is an arc without a radius");
     const Vec ua = unit(a), ub = unit(b);
     side.first = side.ccw ? ua : ub, side.last = side.ccw ? ub : ua;
     add_joined(side, ua, ub, ra, rb);
@@ -240,6 +297,13 @@ Span enclosed(const Decimal& value) {
     const double digits = static_cast<double>(few->digits), quotient = digits / few->power;
     const double above = std::fma(quotient, few->power, -digits);
     return {above > 0 ? step_down(quotient) : quotient, above < 0 ? step_up(quotient) : quotient};
+  }
+  if (const auto few = small(value)) {
+    // The product is a whole number as the digits are, and what its rounding cut off is a double, too.
+    const double nearest = approximate(value), product = nearest * few->power;
+    const double above = static_cast<double>(static_cast<long>(product) - few->digits) +
+                         std::fma(nearest, few->power, -product);
+    return {above > 0 ? step_down(nearest) : nearest, above < 0 ? step_up(nearest) : nearest};
   }
   const Interval interval(value, 64);
   return {interval.low_double(), interval.high_double()};
