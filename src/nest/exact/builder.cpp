@@ -1,16 +1,17 @@
 #include "builder.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
-#include <set>
 
 #include "nest/tuning/tuning.hpp"
 
 namespace lekalo::nest {
 namespace {
 
-/// Bins by price of their area, the cheapest first; of equal ones the larger first.
-std::vector<std::uint32_t> cheapest_first(const Problem& problem) {
+/// The bins that are not open: by stock the copies that are left, the next one last. The stock comes first of
+/// which area is cheapest, of equal ones the larger.
+std::vector<std::vector<std::uint32_t>> closed_bins(const Problem& problem, const State& state) {
   const auto& bins = problem.bins();
   const auto price = [&](std::uint32_t b) {
     return problem.document().stocks[bins[b].stock].cost / bins[b].area;
@@ -20,7 +21,16 @@ std::vector<std::uint32_t> cheapest_first(const Problem& problem) {
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return price(a) != price(b) ? price(a) < price(b) : bins[a].area > bins[b].area;
   });
-  return order;
+  std::vector<bool> is_open(bins.size(), false);
+  for (const std::uint32_t b : state.open_bins) is_open[b] = true;
+  std::vector<std::vector<std::uint32_t>> closed;
+  for (const std::uint32_t b : order) {
+    if (is_open[b]) continue;
+    if (closed.empty() || bins[closed.back().front()].stock != bins[b].stock) closed.emplace_back();
+    closed.back().push_back(b);
+  }
+  for (std::vector<std::uint32_t>& copies : closed) std::reverse(copies.begin(), copies.end());
+  return closed;
 }
 
 }  // namespace
@@ -81,11 +91,11 @@ State built(const Problem& problem, const Items& items, Placer& placer, const St
     const auto& all = placer.state().open_bins;
     return std::find(all.begin(), all.end(), bin) != all.end();
   };
-  const std::vector<std::uint32_t> stock_order = cheapest_first(problem);
+  std::vector<std::vector<std::uint32_t>> closed = closed_bins(problem, state);
   // Pieces with partners are not alike, because each has to lie near its own.
   const bool alike = items.partners.empty();
-  // Bin and first form of pieces that found no place there.
-  std::set<std::pair<std::uint32_t, std::uint32_t>> full;
+  // By first form of pieces: on so many of the bins opened first they found no place.
+  std::map<std::uint32_t, std::size_t> full;
   std::vector<Forms> hopeless;  // forms of pieces that found no place on any bin
   for (const std::uint32_t i : order) {
     if (placer.state().spots[i].bin != kNowhere) continue;
@@ -93,13 +103,12 @@ State built(const Problem& problem, const Items& items, Placer& placer, const St
     if (enough && enough()) break;
     bool placed = false;
     const auto try_open = [&] {
-      const std::vector<std::uint32_t> in_use = placer.state().open_bins;
-      return std::any_of(in_use.begin(), in_use.end(), [&](std::uint32_t bin) {
-        if (full.contains({bin, items.forms[i].first})) return false;
-        const bool found = placer.place_low(i, bin, of_one);
-        if (!found && !strip && alike) full.insert({bin, items.forms[i].first});
-        return found;
-      });
+      const std::vector<std::uint32_t>& in_use = placer.state().open_bins;
+      std::size_t first = 0;
+      std::size_t& next = strip || !alike ? first : full[items.forms[i].first];
+      for (; next < in_use.size(); ++next)
+        if (placer.place_low(i, in_use[next], of_one)) return true;
+      return false;
     };
     while (!(placed = try_open()) && strip && (!open(0) || placer.state().ends[0] < bins[0].box.x1)) {
       if (!open(0))
@@ -108,15 +117,12 @@ State built(const Problem& problem, const Items& items, Placer& placer, const St
         placer.set_end(0, std::min(bins[0].box.x1, placer.state().ends[0] + widest));
     }
     // One more copy of each stock is tried, because the others are the same.
-    std::vector<std::uint32_t> tried;
-    for (std::size_t k = 0; !placed && !strip && k < stock_order.size(); ++k) {
-      const std::uint32_t bin = stock_order[k];
-      if (open(bin) || std::find(tried.begin(), tried.end(), bins[bin].stock) != tried.end()) continue;
-      tried.push_back(bins[bin].stock);
-      if (!placer.can_hold(bin, i)) continue;
+    for (std::size_t k = 0; !placed && !strip && k < closed.size(); ++k) {
+      if (closed[k].empty() || !placer.can_hold(closed[k].back(), i)) continue;
+      const std::uint32_t bin = closed[k].back();
       placer.open_bin(bin);
       placed = placer.place_low(i, bin, tries.most);
-      if (!placed) placer.close_bin(bin);
+      placed ? closed[k].pop_back() : placer.close_bin(bin);
     }
     if (!placed && alike) hopeless.push_back(items.forms[i]);
   }

@@ -27,6 +27,13 @@ struct Piece {
   GridBox box;
 };
 
+/// Pieces of one part that wait for a place.
+struct Alike {
+  std::uint32_t part;
+  Piece piece;
+  std::size_t count;
+};
+
 /// The angle to which the columns turn a part: upright, lying, or the first that is allowed.
 std::optional<Piece> turned_piece(const layout::Part& part, const layout::Stock& on) {
   std::vector<double> angles{0, 90, 180, 270};
@@ -64,7 +71,7 @@ class Columns {
 
 /// A copy is full when so many pieces in a row find no room on it: otherwise each copy would be asked about
 /// each piece.
-constexpr int kMostMissed = 500;
+constexpr std::size_t kMostMissed = 500;
 
 /// Places pieces on the copies of one stock, one copy after the other; what finds no room is given back.
 class Filler {
@@ -98,23 +105,28 @@ class Filler {
       };
       return rank(a) < rank(b);
     });
-    std::list<std::uint32_t> open(fitting.begin(), fitting.end());
+    // Pieces of one part follow one another, and where one finds no room the others find none.
+    std::list<Alike> open;
+    for (const std::uint32_t part : fitting) {
+      if (open.empty() || open.back().part != part) open.push_back({part, pieces.at(part), 0});
+      ++open.back().count;
+    }
     for (std::int64_t copy = 0; copy < stock.count && !open.empty(); ++copy) {
       Columns columns(room_of(copy), gap_);
-      int missed = 0;
+      std::size_t missed = 0;
       for (auto at = open.begin(); at != open.end() && missed < kMostMissed;) {
-        const Piece& piece = pieces.at(*at);
-        const auto corner = columns.take(piece.box);
+        const auto corner = columns.take(at->piece.box);
         if (!corner) {
-          ++at, ++missed;
+          missed += at->count, ++at;
           continue;
         }
-        document_.placements.push_back(
-            {document_.next_id++, *at, stock_, copy, piece.rotation, false, *corner - piece.box.low, false});
-        at = open.erase(at), missed = 0;
+        document_.placements.push_back({document_.next_id++, at->part, stock_, copy, at->piece.rotation,
+                                        false, *corner - at->piece.box.low, false});
+        missed = 0;
+        if (--at->count == 0) at = open.erase(at);
       }
     }
-    left.insert(left.end(), open.begin(), open.end());
+    for (const Alike& rest : open) left.insert(left.end(), rest.count, rest.part);
     return left;
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "lekalo/base/stop.hpp"
 #include "lekalo/layout/check.hpp"
@@ -18,11 +19,16 @@ std::int64_t in_steps(double mm) { return std::llround(mm * static_cast<double>(
 }  // namespace
 
 Placer::Placer(const Problem& problem, const Items& items, Random random, Counts counts)
-    : problem_(problem), items_(items), random_(random), counts_(counts), scenes_(problem.bins().size()) {}
+    : problem_(problem), items_(items), random_(random), counts_(counts), scenes_(problem.bins().size()) {
+  for (std::size_t i = 0; i < items.movable(); ++i) area_ += problem.area_of(items.parts[i]);
+}
 
 void Placer::load(const State& state) {
   state_ = state;
   for (auto& scene : scenes_) scene.reset();
+  loaded_.clear();
+  for (std::size_t i = 0; i < items_.movable(); ++i)
+    if (state_.spots[i].bin != kNowhere) loaded_[state_.spots[i].bin].push_back(i);
 }
 
 Placer::BinScene& Placer::scene_of(std::uint32_t b) {
@@ -37,9 +43,11 @@ Placer::BinScene& Placer::scene_of(std::uint32_t b) {
     const double length = std::max(state_.ends[b] - bin.box.x0, 2 * area / (bin.box.y1 - bin.box.y0));
     world.high.x = std::min(world.high.x, world.low.x + in_steps(length) + 1);
   }
-  BinScene& made = scenes_[b].emplace(BinScene{phi::Scene(world, 2 * items_.movable() + 64),
-                                               std::vector<phi::ShapeIndex>(problem_.forms().size(), kNone),
-                                               {}});
+  // Most bins hold a small share of all items.
+  const double share = std::min(1.0, bin.area / area_);
+  const auto most = static_cast<std::size_t>(share * static_cast<double>(items_.movable()));
+  BinScene& made = scenes_[b].emplace(BinScene{
+      phi::Scene(world, 2 * most + 64), std::vector<phi::ShapeIndex>(problem_.forms().size(), kNone), {}});
   made.scene.put(
       {.shape = made.scene.add_shape(stock.outline.polygon), .layers = kBorder, .container = true});
   if (counts_ == Counts::border) return made;
@@ -55,7 +63,8 @@ Placer::BinScene& Placer::scene_of(std::uint32_t b) {
     made.zones[body] = z;
   }
   if (counts_ == Counts::features) return made;
-  for (const layout::Placement& p : document.placements) {
+  const std::span<const layout::Placement> placements(document.placements);
+  for (const layout::Placement& p : placements.first(bin.holds_locked ? placements.size() : 0)) {
     if (!p.locked || p.stock != bin.stock || p.copy != bin.copy) continue;
     const layout::Part& part = document.parts[p.part];
     made.scene.put({.shape = made.scene.add_shape(geom::turned(part.outline.polygon, p.rotation, p.mirrored)),
@@ -63,8 +72,9 @@ Placer::BinScene& Placer::scene_of(std::uint32_t b) {
                     .gap = layout::gap_between(document, part, part),
                     .layers = kPart});
   }
-  for (std::size_t i = 0; i < items_.movable(); ++i)
-    if (state_.spots[i].bin == b) put(i);
+  // Items that came later have found the scene made.
+  if (const auto lying = loaded_.find(b); lying != loaded_.end())
+    for (const std::size_t i : lying->second) put(i);
   return made;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -58,7 +59,9 @@ class Placer {
   Random random_;
   Counts counts_;
   State state_;
-  std::vector<std::optional<BinScene>> scenes_;  ///< by bin, made when first asked about
+  std::map<std::uint32_t, std::vector<std::size_t>> loaded_;  ///< by bin: the items that lay there at first
+  double area_ = 0;                                           ///< of all items that move, mm^2
+  std::vector<std::optional<BinScene>> scenes_;               ///< by bin, made when first asked about
   std::uint64_t work_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "lekalo/layout/completeness.hpp"
 
@@ -16,6 +17,36 @@ double missing_value(const Problem& problem, const Items& items, const State& st
   for (std::size_t k = 0; k < complete.size(); ++k)
     missing += document.kits[k].value * static_cast<double>(document.kits[k].demand - complete[k]);
   return missing;
+}
+
+/// How far from the lower left corner of its bin something reaches, with its border gap.
+struct Reach {
+  double x = 0, y = 0;
+  void add(const Problem& problem, std::uint32_t part, const Spot& spot) {
+    const Bin& bin = problem.bins()[spot.bin];
+    const Box& box = problem.forms()[spot.form].box;
+    const double gap = problem.border_gap_of(part);
+    x = std::max(x, gap + (spot.x + box.x1 - bin.box.x0));
+    y = std::max(y, gap + (spot.y + box.y1 - bin.box.y0));
+  }
+};
+
+Reach reach_of_locked(const Bin& bin) { return {bin.locked_reach - bin.box.x0, bin.locked_top - bin.box.y0}; }
+
+/// The box in use of a bin on which things reach so far.
+BoxSize box_of(const Problem& problem, std::uint32_t b, const Reach& reach) {
+  const Bin& bin = problem.bins()[b];
+  const Remnant remnant = problem.remnant();
+  const BoxSize along_x = {reach.x, bin.box.y1 - bin.box.y0};
+  if (bin.open || remnant == Remnant::strip) return along_x;
+  if (remnant == Remnant::corner) return {reach.x, reach.y};
+  const BoxSize along_y = {bin.box.x1 - bin.box.x0, reach.y};
+  return along_y.area() < along_x.area() ? along_y : along_x;
+}
+
+double left_beside(const Problem& problem, std::uint32_t b, const BoxSize& box) {
+  const Bin& bin = problem.bins()[b];
+  return (bin.box.x1 - bin.box.x0) * (bin.box.y1 - bin.box.y0) - box.area();
 }
 
 }  // namespace
@@ -53,40 +84,32 @@ double strip_length(const Problem& problem, const Items& items, const State& sta
 }
 
 double reach_of(const Problem& problem, const Items& items, const State& state, std::uint32_t b, int axis) {
-  const Bin& bin = problem.bins()[b];
-  double reach = axis == 0 ? bin.locked_reach - bin.box.x0 : bin.locked_top - bin.box.y0;
-  for (std::size_t i = 0; i < items.movable(); ++i) {
-    const Spot& spot = state.spots[i];
-    if (spot.bin != b) continue;
-    const Box& box = problem.forms()[spot.form].box;
-    const double gap = problem.border_gap_of(items.parts[i]);
-    reach = std::max(reach, gap + (axis == 0 ? spot.x + box.x1 - bin.box.x0 : spot.y + box.y1 - bin.box.y0));
-  }
-  return std::max(0.0, reach);
+  Reach reach = reach_of_locked(problem.bins()[b]);
+  for (std::size_t i = 0; i < items.movable(); ++i)
+    if (state.spots[i].bin == b) reach.add(problem, items.parts[i], state.spots[i]);
+  return std::max(0.0, axis == 0 ? reach.x : reach.y);
 }
 
 BoxSize box_in_use(const Problem& problem, const Items& items, const State& state, std::uint32_t b) {
-  const Bin& bin = problem.bins()[b];
-  const Remnant remnant = problem.remnant();
-  const double height = bin.box.y1 - bin.box.y0;
-  const BoxSize along_x = {reach_of(problem, items, state, b, 0), height};
-  if (bin.open || remnant == Remnant::strip) return along_x;
-  const double top = reach_of(problem, items, state, b, 1);
-  if (remnant == Remnant::corner) return {along_x.w, top};
-  const BoxSize along_y = {bin.box.x1 - bin.box.x0, top};
-  return along_y.area() < along_x.area() ? along_y : along_x;
+  return box_of(problem, b, {reach_of(problem, items, state, b, 0), reach_of(problem, items, state, b, 1)});
 }
 
 double leftover_of(const Problem& problem, const Items& items, const State& state, std::uint32_t b) {
-  const Bin& bin = problem.bins()[b];
-  return (bin.box.x1 - bin.box.x0) * (bin.box.y1 - bin.box.y0) - box_in_use(problem, items, state, b).area();
+  return left_beside(problem, b, box_in_use(problem, items, state, b));
 }
 
+/// Looks at every item once, since sheets may be as many as items.
 std::uint32_t emptiest(const Problem& problem, const Items& items, const State& state) {
+  std::vector<Reach> reaches(problem.bins().size());
+  for (const std::uint32_t bin : state.open_bins) reaches[bin] = reach_of_locked(problem.bins()[bin]);
+  for (std::size_t i = 0; i < items.movable(); ++i)
+    if (const Spot& spot = state.spots[i]; spot.bin != kNowhere)
+      reaches[spot.bin].add(problem, items.parts[i], spot);
   std::uint32_t found = state.open_bins.front();
   double most = -std::numeric_limits<double>::infinity();
   for (const std::uint32_t bin : state.open_bins) {
-    const double leftover = leftover_of(problem, items, state, bin);
+    const Reach reach{std::max(0.0, reaches[bin].x), std::max(0.0, reaches[bin].y)};
+    const double leftover = left_beside(problem, bin, box_of(problem, bin, reach));
     if (leftover > most) {
       most = leftover;
       found = bin;

@@ -32,6 +32,9 @@ Result<void> check_document(const layout::Document& document, bool from_given) {
                                                    [](const layout::Placement& p) { return !p.locked; });
   if (pieces == 0 && !has_given)
     return failure(ErrorCode::bad_input, "nothing to nest: no part has a demand and no kit is wanted");
+  if (std::none_of(document.placements.begin(), document.placements.end(),
+                   [](const layout::Placement& p) { return p.locked; }))
+    return {};
   layout::Document locked = document;
   std::erase_if(locked.placements, [](const layout::Placement& p) { return !p.locked; });
   const auto violations = layout::check(locked);

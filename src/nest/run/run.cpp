@@ -48,7 +48,7 @@ class Run {
     // A stop takes down whatever goes on, and the best stays as it was shown last. The work since the last
     // merge does not count then, so that the same work gives the same result again.
     try {
-      if (!is_over()) search();
+      if (!is_over() && wanted_.items.movable() <= tuning::kMostToSearch) search();
     } catch (const Stopped&) {
     }
     return best_;

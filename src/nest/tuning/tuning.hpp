@@ -178,9 +178,12 @@ struct Tries {
 };
 /// Those of a first layout. 200 to 400 places left 75 of the 280 pieces of Test7 out where 10,000 leave 60.
 inline constexpr Tries kBuildTries = {2'000'000, 200, 10'000};
-/// Those of the sketch before it, which is made where that would take a second and more. More: a large order shows
-/// nothing for seconds. Fewer: what it shows lies loosely, until the first layout comes.
+/// Those of the sketch before it, which is made where that would take a second and more. More: a large order
+/// shows nothing for seconds. Fewer: what it shows lies loosely, until the first layout comes.
 inline constexpr Tries kSketchTries = {40'000, 10, 200};
+/// The most items that are searched: a strand has a weight of 4 bytes for every pair, 1.6 GB of these. With
+/// more there is a first layout alone.
+inline constexpr std::size_t kMostToSearch = 20'000;
 /// Items, and corners of all of them together, from which on there is a sketch.
 inline constexpr std::size_t kManyToBuild = 30, kManyCorners = 5000;
 /// Places tried of a piece on empty stock, to say why it is not placed. Fewer: "too large" of what is not.
