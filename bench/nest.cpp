@@ -204,7 +204,7 @@ Figures run(const layout::Document& document, const Words& words, std::uint64_t 
     std::ofstream file(std::filesystem::path(words.save) / fmt::format("{}-{}.json", name, seed));
     file << text;
   }
-  const layout::Completeness done = layout::completeness(layout::Workspace(found->document));
+  const layout::Completeness done = layout::completeness(found->document);
   double parts = 0, material = 0;
   for (const layout::SheetUse& use : done.sheets) {
     parts += use.parts_area;

@@ -541,7 +541,7 @@ std::int32_t lekalo_outline(std::int32_t handle, std::int32_t kind, double a, do
 std::int32_t lekalo_completeness(std::int32_t handle) {
   const Workspace* layout = begin(handle);
   if (layout == nullptr) return kFailed;
-  text = io::completeness_json(layout->document(), completeness(*layout));
+  text = io::completeness_json(layout->document(), completeness(layout->document()));
   return 0;
 }
 

@@ -86,7 +86,7 @@ Result<void> confirm_layout(const layout::Document& document, std::string_view b
   std::vector<layout::Violation> violations;
   Result<verify::LayoutVerdict> verdict;
   share_out(2, kUsualThreads, [&](std::size_t task) {
-    if (task == 0) verdict = verify::verify_layout({"the layout found", std::string(bytes)});
+    if (task == 0) verdict = verify::verify_layout({"the layout found", bytes});
     if (task == 1) violations = layout::check(document);
   });
   if (!violations.empty())

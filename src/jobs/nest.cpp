@@ -76,19 +76,6 @@ NestStanding standing_of(const Document& document) {
   return standing;
 }
 
-/// A document that both checks confirmed, and its bytes.
-struct Confirmed {
-  Document document;
-  std::string bytes;
-};
-
-Result<Confirmed> confirmed(const Document& given, const Document& found) {
-  Confirmed layout{placed_as(given, found), {}};
-  layout.bytes = io::write_layout(layout.document);
-  LEKALO_CHECK(confirm_layout(layout.document, layout.bytes));
-  return layout;
-}
-
 void write(io::JsonWriter& json, const layout::SheetUse& use, const Document& document) {
   json.begin_object().fields({{"stock", document.stocks[use.sheet.stock].id},
                               {"copy", use.sheet.copy},
@@ -139,10 +126,11 @@ Result<Nested> nest_checked(const Nester& nester, const Document& document, cons
   // This stays without an error until a check refutes a better layout, or the caller does not take it.
   Result<void> fine;
   search.improved = [&](const nest::Nested& better) {
-    if (options.improved && fine)
-      fine = confirmed(document, better.document).and_then([&](const Confirmed& layout) {
-        return options.improved(layout.document, layout.bytes);
-      });
+    if (options.improved && fine) {
+      const Document layout = placed_as(document, better.document);
+      const std::string bytes = io::write_layout(layout);
+      fine = confirm_layout(layout, bytes).and_then([&] { return options.improved(layout, bytes); });
+    }
     if (options.standing) options.standing(standing_of(better.document));
   };
   LEKALO_TRY(nest::Nested found, options.only.empty()
@@ -152,17 +140,20 @@ Result<Nested> nest_checked(const Nester& nester, const Document& document, cons
   // The best until a stop is checked and told all the same, and what is being checked is, too.
   const RunControl nobody;
   const Listening to_the_end(nobody);
-  Result<Confirmed> best = Confirmed{};
-  layout::Completeness completeness;
+  Nested best{
+      placed_as(document, found.document), {}, std::move(found.unplaced), found.work, found.merges, {}};
   share_out(2, kUsualThreads, [&](std::size_t task) {
-    if (task == 0) best = confirmed(document, found.document);
-    if (task == 1)
-      completeness = layout::completeness(layout::Workspace(placed_as(document, found.document)));
+    if (task == 0) best.bytes = io::write_layout(best.document);
+    if (task == 1) best.completeness = layout::completeness(best.document);
   });
-  LEKALO_CHECK(best);
-  return Nested{
-      std::move(best->document), std::move(best->bytes), std::move(found.unplaced), found.work, found.merges,
-      std::move(completeness)};
+  Result<void> taken;
+  share_out(2, kUsualThreads, [&](std::size_t task) {
+    if (task == 0) fine = confirm_layout(best.document, best.bytes);
+    if (task == 1 && options.while_checked) taken = options.while_checked(best.bytes);
+  });
+  LEKALO_CHECK(fine);
+  LEKALO_CHECK(taken);
+  return best;
 }
 
 Result<Nested> nest(const Document& document, const NestOptions& options, const RunControl& control) {

@@ -9,7 +9,7 @@
 namespace lekalo::jobs {
 
 Shown show(const layout::Document& document) {
-  return {layout::completeness(layout::Workspace(document)), layout::check(document)};
+  return {layout::completeness(document), layout::check(document)};
 }
 
 std::string show_json(const Layout& layout, const Shown& shown) {
@@ -22,7 +22,7 @@ std::string show_json(const Layout& layout, const Shown& shown) {
 
 Result<std::string> layout_picture(const layout::Document& document, std::string_view title,
                                    const std::vector<layout::Violation>& violations, PictureForm form) {
-  const layout::Completeness completeness = layout::completeness(layout::Workspace(document));
+  const layout::Completeness completeness = layout::completeness(document);
   const draw::LayoutPicture picture{io::as_utf8(title), document, completeness, violations};
   switch (form) {
     case PictureForm::svg:

@@ -67,18 +67,19 @@ double lost_to_defects(const Stock& stock, const geom::GridRegion& material) {
   return lost ? geom::area(lost->regions) : 0;
 }
 
-SheetUse use_of(const Workspace& workspace, Sheet sheet, const std::vector<const Placement*>& placements) {
-  const Document& document = workspace.document();
+SheetUse use_of(const Document& document, Sheet sheet, const std::vector<const Placement*>& placements) {
   const Stock& stock = document.stocks[sheet.stock];
   SheetUse use;
   use.sheet = sheet;
   use.parts = placements.size();
   std::int64_t last = 0;
+  std::vector<geom::GridRegion> taken;
   for (const Placement* placement : placements) {
-    const geom::GridRegion outline = placed_outline(document.parts[placement->part], *placement);
-    use.parts_area += geom::area_mm2(outline);
-    last = std::max(last, bounds(outline).high.x);
+    taken.push_back(placed_outline(document.parts[placement->part], *placement));
+    use.parts_area += geom::area_mm2(taken.back());
+    last = std::max(last, bounds(taken.back()).high.x);
   }
+  for (const Defect& defect : stock.defects) taken.push_back(defect.outline.polygon);
   use.used_length_mm = geom::mm_from_grid(last);
   geom::GridRegion material = stock.outline.polygon;
   geom::GridBox within = bounds(material);
@@ -89,7 +90,7 @@ SheetUse use_of(const Workspace& workspace, Sheet sheet, const std::vector<const
   }
   use.material_area = geom::area_mm2(material);
   use.defect_area = lost_to_defects(stock, material);
-  use.remnant = free_rectangle(workspace, sheet, within);
+  use.remnant = free_rectangle(stock.outline.polygon, taken, within);
   return use;
 }
 
@@ -138,8 +139,7 @@ KitsServed kits_served(const Document& document) {
   return served;
 }
 
-Completeness completeness(const Workspace& workspace) {
-  const Document& document = workspace.document();
+Completeness completeness(const Document& document) {
   Completeness result;
   std::map<Sheet, std::vector<const Placement*>> sheets;
   for (const Placement& placement : document.placements)
@@ -164,7 +164,7 @@ Completeness completeness(const Workspace& workspace) {
   for (const auto& [sheet, placements] : sheets) {
     if (sheet.copy < 0 || sheet.copy >= document.stocks[sheet.stock].count) continue;
     const auto [like, is_new] = known.try_emplace({sheet.stock, lying_on(placements)});
-    if (is_new) like->second = use_of(workspace, sheet, placements);
+    if (is_new) like->second = use_of(document, sheet, placements);
     SheetUse& use = result.sheets.emplace_back(like->second);
     use.sheet = sheet;
     parts_area += use.parts_area;

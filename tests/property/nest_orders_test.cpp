@@ -63,7 +63,7 @@ struct Filled {
 };
 
 Filled counted(const Document& document, std::size_t unplaced) {
-  const layout::Completeness done = layout::completeness(layout::Workspace(document));
+  const layout::Completeness done = layout::completeness(document);
   return {unplaced, done.sheets.size(), done.cost};
 }
 
@@ -168,7 +168,7 @@ TEST(NestOrders, TheMostValuableKitsWhereNotAllHaveRoom) {
   }
   document.kits = {{"large", "", 2, 1, {{0, 1, std::nullopt}}}, {"small", "", 1, 5, {{1, 2, std::nullopt}}}};
   const Nested found = nested(document, 2'000'000);
-  const layout::Completeness done = layout::completeness(layout::Workspace(found.document));
+  const layout::Completeness done = layout::completeness(found.document);
   EXPECT_EQ(done.kits[0].complete, 1);
   EXPECT_EQ(done.kits[1].complete, 1);
   ASSERT_EQ(found.unplaced.size(), 1u);
@@ -222,7 +222,7 @@ TEST(NestOrders, TheValueOfTheKitsIsThatOfABruteForce) {
           if (sum <= room) best = std::max(best, value);
         }
     const Nested found = nested(document, 1'000'000);
-    const layout::Completeness done = layout::completeness(layout::Workspace(found.document));
+    const layout::Completeness done = layout::completeness(found.document);
     double value = 0;
     for (std::size_t k = 0; k < 3; ++k)
       value += static_cast<double>(done.kits[k].complete) * document.kits[k].value;
@@ -246,7 +246,7 @@ TEST(NestOrders, AFullSheetGivesOtherKitsTheirTurnAtOnce) {
                    {"frame", "", 1, 9, {{0, 1, std::nullopt}, {1, 2, std::nullopt}}}};
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const Nested found = nested(document, 300'000, seed);
-    const layout::Completeness done = layout::completeness(layout::Workspace(found.document));
+    const layout::Completeness done = layout::completeness(found.document);
     EXPECT_EQ(done.kits[0].complete, 1) << "seed " << seed;
     EXPECT_EQ(done.kits[1].complete, 0) << "seed " << seed;
     EXPECT_EQ(done.kits[2].complete, 1) << "seed " << seed;
@@ -266,7 +266,7 @@ TEST(NestOrders, ACheapKitThatComesFirstDoesNotTakeSharedPieces) {
   document.kits = {{"cheap", "", 2, 1, {{0, 2, std::nullopt}}},
                    {"dear", "", 1, 5, {{0, 2, std::nullopt}, {1, 1, std::nullopt}}}};
   const Nested found = nested(document, 2'000'000);
-  const layout::Completeness done = layout::completeness(layout::Workspace(found.document));
+  const layout::Completeness done = layout::completeness(found.document);
   EXPECT_EQ(done.kits[0].complete, 0);
   EXPECT_EQ(done.kits[1].complete, 1);
 }
@@ -316,7 +316,7 @@ TEST(NestOrders, PairsLieNearOneAnotherWhenAsked) {
   ASSERT_TRUE(found);
   EXPECT_TRUE(layout::check(found->document).empty());
   // As many pairs of brackets within the distance as kits that are complete: each piece in one pair.
-  const layout::Completeness done = layout::completeness(layout::Workspace(found->document));
+  const layout::Completeness done = layout::completeness(found->document);
   for (std::size_t k = 0; k < document.kits.size(); ++k) {
     const std::uint32_t part = document.kits[k].pieces[0].part;
     std::vector<const layout::Placement*> left, right;

@@ -318,7 +318,7 @@ TEST(Nest, PuzzlesClose) {
   ASSERT_TRUE(found);
   EXPECT_TRUE(layout::check(found->document).empty());
   EXPECT_TRUE(found->unplaced.empty());
-  const layout::Completeness done = layout::completeness(layout::Workspace(found->document));
+  const layout::Completeness done = layout::completeness(found->document);
   EXPECT_EQ(done.sheets[0].used_length_mm, 10);
 }
 

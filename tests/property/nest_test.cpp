@@ -81,7 +81,7 @@ TEST(Nest, KitsGetTheirLeftAndRightPieces) {
   document.placements[0].locked = true;  // one of the four upright ones
   const Nested found = nested(document, 1, 100'000);
   EXPECT_TRUE(found.unplaced.empty());
-  const layout::Completeness done = layout::completeness(layout::Workspace(found.document));
+  const layout::Completeness done = layout::completeness(found.document);
   EXPECT_EQ(done.kits[0].complete, 4);
   EXPECT_EQ(done.surplus[0], 0);
   EXPECT_EQ(done.placed[0].total(), 13);

@@ -108,6 +108,39 @@ TEST(JobsNest, HandsOutTheBytesThatBothChecksConfirmed) {
   EXPECT_TRUE(check(again)->valid());
 }
 
+TEST(JobsNest, TheBytesOfTheResultAreTakenOnceWhileTheyAreChecked) {
+  std::vector<std::string> taken;
+  NestOptions options;
+  options.while_checked = [&](std::string_view bytes) -> Result<void> {
+    taken.emplace_back(bytes);
+    return {};
+  };
+  const auto nested =
+      nest_checked(finding({wanted_squares(), wanted_squares()}), wanted_squares(), options, {});
+  ASSERT_TRUE(nested) << nested.error().message;
+  EXPECT_EQ(taken, std::vector<std::string>{nested->bytes});
+  // A layout that breaks a rule may be taken, and is no result.
+  taken.clear();
+  const auto broken = nest_checked(finding({broken_squares()}), wanted_squares(), options, {});
+  ASSERT_FALSE(broken);
+  EXPECT_EQ(broken.error().code, ErrorCode::refuted);
+  EXPECT_LE(taken.size(), 1u);
+}
+
+TEST(JobsNest, AFailureOfWhoTakesTheBytesIsOneOfNest) {
+  NestOptions options;
+  options.while_checked = [](std::string_view) -> Result<void> {
+    return failure(ErrorCode::environment, "the disk is full");
+  };
+  const auto nested = nest_checked(finding({wanted_squares()}), wanted_squares(), options, {});
+  ASSERT_FALSE(nested);
+  EXPECT_EQ(nested.error().message, "the disk is full");
+  // That a rule is broken is said first.
+  const auto broken = nest_checked(finding({broken_squares()}), wanted_squares(), options, {});
+  ASSERT_FALSE(broken);
+  EXPECT_EQ(broken.error().code, ErrorCode::refuted);
+}
+
 TEST(JobsNest, AStopThatComesDuringTheCheckDoesNotThrowTheLayoutAway) {
   // The stop comes when the search hands its layout over; who stops the command listens on this thread.
   const Document squares = wanted_squares();

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "lekalo/base/stop.hpp"
+#include "lekalo/phi/outline_relation.hpp"
 #include "support/layout_cases.hpp"
 
 namespace lekalo::layout::layout_completeness_test {
@@ -49,7 +51,7 @@ void place_many(Document& document, std::uint32_t part, int upright, int mirrore
   for (int i = 0; i < upright + mirrored; ++i) place(document, part, 0, 0, i >= upright);
 }
 
-Completeness of(const Document& document) { return completeness(Workspace(document)); }
+Completeness of(const Document& document) { return completeness(document); }
 
 Kit kit(std::int64_t demand, std::vector<KitPiece> pieces) {
   Kit result;
@@ -230,6 +232,86 @@ TEST(LayoutCompleteness, TheRemnantIsFreeAndTouchesSomethingOnEverySide) {
       EXPECT_EQ(closed, 4);
     }
   }
+}
+
+/// Cells asked one by one, by the relations of whole outlines.
+double largest_rectangle_of_cells(const Document& document, const SheetUse& use) {
+  const Stock& stock = document.stocks[use.sheet.stock];
+  geom::GridBox within = geom::bounds(stock.outline.polygon);
+  if (stock.open_length) within.high.x = geom::grid_from_mm(use.used_length_mm);
+  std::vector<geom::GridRegion> taken;
+  for (const Placement& p : document.placements)
+    if (p.stock == use.sheet.stock && p.copy == use.sheet.copy)
+      taken.push_back(placed_outline(document.parts[p.part], p));
+  for (const Defect& defect : stock.defects) taken.push_back(defect.outline.polygon);
+  const std::int64_t width = within.high.x - within.low.x, height = within.high.y - within.low.y;
+  const std::int64_t cell = std::max(width, height) / 192 + 1;
+  std::vector<std::int64_t> free_below(static_cast<std::size_t>(width / cell), 0);
+  double most = 0;
+  for (std::int64_t y = 0; y < height / cell; ++y) {
+    for (std::int64_t x = 0; x < width / cell; ++x) {
+      const geom::GridPoint low = within.low + geom::GridPoint{x * cell, y * cell};
+      const geom::GridRegion square = geom::rectangle({low, low + geom::GridPoint{cell, cell}});
+      std::int64_t& below = free_below[static_cast<std::size_t>(x)];
+      const bool is_free = phi::lies_within(stock.outline.polygon, square) &&
+                           std::none_of(taken.begin(), taken.end(), [&](const geom::GridRegion& one) {
+                             return phi::interiors_meet(one, square);
+                           });
+      below = is_free ? below + 1 : 0;
+    }
+    for (std::size_t x = 0; x < free_below.size(); ++x) {
+      std::int64_t least = free_below[x];
+      for (std::size_t from = x + 1; from-- > 0 && least > 0;) {
+        least = std::min(least, free_below[from]);
+        const double area = static_cast<double>(least) * static_cast<double>(x + 1 - from);
+        most = std::max(most, area * geom::mm_from_grid(cell) * geom::mm_from_grid(cell));
+      }
+    }
+  }
+  return most;
+}
+
+/// The raster is filled in edge by edge.
+TEST(LayoutCompleteness, TheRemnantIsNoSmallerThanAnyRectangleOfFreeCells) {
+  int known = 0;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Document document = cases::random_layout(9, i, 6);
+    const Completeness c = of(document);
+    for (const SheetUse& use : c.sheets) {
+      SCOPED_TRACE(i);
+      const geom::Point size = geom::mm_from_grid(use.remnant.high - use.remnant.low);
+      const double cells = largest_rectangle_of_cells(document, use);
+      EXPECT_GE(size.x * size.y, cells);
+      known += cells > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(known, 5);
+}
+
+/// Four outlines of 4,000 corners each cost a look at each corner and each cell, and not one for both.
+TEST(LayoutCompleteness, TheRemnantBesideLongOutlinesTakesStepsForTheirCornersAndForItsCells) {
+  Document document = order();
+  std::vector<geom::GridPoint> loop;
+  for (int k = 0; k < 2000; ++k) loop.push_back({k * mm / 50, k % 2 * mm / 100});
+  for (int k = 2000; k > 0; --k) loop.push_back({k * mm / 50, 40 * mm + k % 2 * mm / 100});
+  document.parts[0].outline = outline_of({loop});
+  for (const double x : {0.0, 50.0, 100.0, 150.0}) place(document, 0, x, 10);
+  RunControl control;
+  control.work_limit = 250'000;
+  EXPECT_TRUE(stoppable(control, [&] { return of(document); }));
+}
+
+/// Sides that run along the lines between cells take none of them.
+TEST(LayoutCompleteness, TheRemnantBesideSidesOnTheRasterReachesThem) {
+  Document document = order();
+  // A length of one step less than 192 cells of a whole number of steps.
+  const std::int64_t cell = 1'000'003;
+  Stock& stock = document.stocks[0];
+  stock.outline.polygon = geom::rectangle({{0, 0}, {192 * cell - 1, 96 * cell}});
+  document.parts[0].outline.polygon = geom::rectangle({{0, 0}, {64 * cell, 48 * cell}});
+  place(document, 0, 0, 0);
+  const Completeness c = of(document);
+  EXPECT_EQ(c.sheets[0].remnant, (geom::GridBox{{64 * cell, 0}, {192 * cell - 1, 96 * cell}}));
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(NestColumns, ARunThatIsStoppedAtOncePlacesAllByTheirBoxes) {
 TEST(NestColumns, SheetsOnWhichTheSameLiesAreEachCounted) {
   const auto nested = stopped_at_once(thirty_triangles());
   ASSERT_TRUE(nested);
-  const auto sheets = layout::completeness(layout::Workspace(nested->document)).sheets;
+  const auto sheets = layout::completeness(nested->document).sheets;
   ASSERT_EQ(sheets.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(sheets[k].sheet, (layout::Sheet{0, std::int64_t(k)}));
   EXPECT_EQ(sheets[0].remnant, sheets[1].remnant);

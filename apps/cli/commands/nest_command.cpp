@@ -70,8 +70,10 @@ Result<jobs::Layout> read_input(const NestOptions& o) {
   return input;
 }
 
-/// Nests with a stream of better layouts, a progress line, and a clock that may end it.
-Result<jobs::Nested> nest_watched(const layout::Document& document, const NestOptions& o) {
+/// Nests with a stream of better layouts, a progress line, and a clock that may end it. The result is added
+/// to the files that are to appear.
+Result<jobs::Nested> nest_watched(const layout::Document& document, const NestOptions& o,
+                                  disk::AtomicFiles& files) {
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
   std::string standing;
@@ -81,6 +83,8 @@ Result<jobs::Nested> nest_watched(const layout::Document& document, const NestOp
     options.improved = [&](const layout::Document&, std::string_view bytes) {
       return deliver(o.stream, bytes);
     };
+  if (!o.output.empty())
+    options.while_checked = [&](std::string_view bytes) { return files.add(o.output, bytes); };
   ProgressLine line("nesting");
   RunControl control;
   control.stop = StopRequests::flag();
@@ -101,11 +105,10 @@ Result<int> run_nest(const NestOptions& o) {
   const double reading = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (o.seconds) StopRequests::end_at(end_of_search(*o.seconds, reading));
   const double start = processor_seconds();
-  LEKALO_TRY(const jobs::Nested nested, nest_watched(input.document, o));
+  disk::AtomicFiles files;
+  LEKALO_TRY(const jobs::Nested nested, nest_watched(input.document, o, files));
   const double seconds = processor_seconds() - start;
   const ToTheEnd to_the_end;
-  disk::AtomicFiles files;
-  if (!o.output.empty()) LEKALO_CHECK(files.add(o.output, nested.bytes));
   if (!o.picture.empty()) {
     LEKALO_TRY(const std::string picture, picture_bytes(o.picture, o.source.path, nested.document, {}));
     LEKALO_CHECK(files.add(o.picture, picture));

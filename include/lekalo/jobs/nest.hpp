@@ -45,6 +45,10 @@ struct NestOptions {
   std::function<Result<void>(const layout::Document& better, std::string_view bytes)> improved;
   /// Called at the same moments; may be empty.
   std::function<void(const NestStanding&)> standing;
+  /// Takes the bytes of the result while both checks read them, perhaps from another thread, to put them
+  /// where nobody takes them for a result yet: a large file takes the disk as long as the checks take the
+  /// processor. Its failure is one of nest. May be empty.
+  std::function<Result<void>(std::string_view bytes)> while_checked;
 };
 
 struct Nested {

@@ -93,6 +93,6 @@ struct KitsServed {
 
 /// Counts kits first (kits_served), then the parts' own demand. Cost: O(n log n), and for every sheet a
 /// raster of at most 192 by 192 cells for its remnant.
-[[nodiscard]] Completeness completeness(const Workspace& workspace);
+[[nodiscard]] Completeness completeness(const Document& document);
 
 }  // namespace lekalo::layout
