@@ -23,8 +23,8 @@ std::int64_t floor_of(Int128 above, Int128 below) {
 }
 std::int64_t ceiling_of(Int128 above, Int128 below) { return -floor_of(-above, below); }
 
-struct Edge {
-  GridPoint from, to;  ///< what is not free on the left
+struct TakenEdge {
+  GridPoint from, to;  ///< what is not free lies on the left
 };
 
 /// An interval of fractions low / whole to high / whole.
@@ -34,7 +34,7 @@ struct Reach {
 
 /// Returns how far along one axis the part of an edge reaches that lies between two values of the other axis,
 /// or nothing where no point of it lies between them.
-std::optional<Reach> reach_between(const Edge& edge, Axis across, std::int64_t low, std::int64_t high,
+std::optional<Reach> reach_between(const TakenEdge& edge, Axis across, std::int64_t low, std::int64_t high,
                                    Axis along) {
   const bool falls = edge.to.*across < edge.from.*across;
   const GridPoint &a = falls ? edge.to : edge.from, &b = falls ? edge.from : edge.to;
@@ -62,7 +62,7 @@ class Cells {
         met_(static_cast<std::size_t>(columns_ * rows_), 0),
         change_(static_cast<std::size_t>(columns_ * rows_), 0) {}
 
-  void add(const Edge& edge) {
+  void add(const TakenEdge& edge) {
     const std::int64_t bottom = std::min(edge.from.y, edge.to.y) - low_.y,
                        top = std::max(edge.from.y, edge.to.y) - low_.y;
     if (bottom > rows_ * cell_ || top < 0) return;
@@ -110,7 +110,7 @@ class Cells {
   }
 
   /// Marks the cells through whose inside the edge passes.
-  void mark(const Edge& edge, std::int64_t bottom, std::int64_t top) {
+  void mark(const TakenEdge& edge, std::int64_t bottom, std::int64_t top) {
     const std::int64_t last_row = std::min(rows_, ceiling_of(top, cell_));
     for (std::int64_t row = std::max<std::int64_t>(0, floor_of(bottom, cell_)); row < last_row; ++row) {
       const std::int64_t y = low_.y + row * cell_;
@@ -124,7 +124,7 @@ class Cells {
   }
 
   /// Counts the edge for the middles of the cells to the right of it: what it bounds begins or ends there.
-  void count(const Edge& edge, std::int64_t bottom, std::int64_t top) {
+  void count(const TakenEdge& edge, std::int64_t bottom, std::int64_t top) {
     const int change = edge.to.y < edge.from.y ? 1 : -1;
     const std::int64_t rise = 2 * (edge.to.y - edge.from.y), run = edge.to.x - edge.from.x;
     const std::int64_t last_row = std::min(rows_, ceiling_of(2 * top - cell_, 2 * cell_));
@@ -154,7 +154,7 @@ class FreeSpace {
 
   [[nodiscard]] GridBox of_cells() const {
     Cells cells(within_);
-    each_edge([&](const Edge& edge) { cells.add(edge); });
+    each_edge([&](const TakenEdge& edge) { cells.add(edge); });
     return cells.largest_rectangle();
   }
 
@@ -163,7 +163,7 @@ class FreeSpace {
     const Axis across = along == &GridPoint::x ? &GridPoint::y : &GridPoint::x;
     const std::int64_t now = high ? box.high.*along : box.low.*along;
     std::int64_t most = high ? within_.high.*along : within_.low.*along;
-    each_edge([&](const Edge& edge) {
+    each_edge([&](const TakenEdge& edge) {
       const auto reach = reach_between(edge, across, box.low.*across, box.high.*across, along);
       if (!reach) return;
       // No edge passes through the rectangle, so what does not lie beyond this side lies beyond the other.
