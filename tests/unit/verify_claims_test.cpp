@@ -1,3 +1,4 @@
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +48,7 @@ TEST(VerifyClaimsKind, JsonIsToldByItsFormat) {
   EXPECT_EQ(kind(R"({"strip_height": 5})"), none);
   EXPECT_EQ(kind("[1]"), none);
   EXPECT_EQ(kind("\xEF\xBB\xBF \t\r\n{\"format\": \"lekalo-layout/1\"}"), "a layout");
-  EXPECT_TRUE(kind("{").starts_with("f:")) << kind("{");
+  for (const char* text : {"{", "["}) EXPECT_TRUE(kind(text).starts_with("f:")) << kind(text);
 }
 
 TEST(VerifyClaimsKind, OtherFilesAreToldByTheirFirstBytes) {
@@ -70,7 +71,7 @@ TEST(VerifyClaimsKind, OtherFilesAreToldByTheirFirstBytes) {
   for (const char* text :
        {"%\n", "(a)\n", ";a\n", "\n\nG0 X1\n", "g1", "N10", "X-1", "X .5", "Z+1", "T\t1", "O100"})
     EXPECT_EQ(kind(text), program) << text;
-  for (const char* text : {"G", "GX", "any", "A1", "X=1", "5"}) EXPECT_EQ(kind(text), none) << text;
+  for (const char* text : {"G", "G ", "GX", "any", "A1", "X=1", "5"}) EXPECT_EQ(kind(text), none) << text;
 }
 
 // ---- layouts ----------------------------------------------------------------------------------------------
@@ -136,6 +137,84 @@ TEST(VerifyClaims, NothingOfTheGivenLayoutMayBeOtherButWhatLiesFree) {
   EXPECT_GT(told, 150U);
 }
 
+/// The one thing that is other in the layout that another was made from, and the sentence.
+TEST(VerifyClaims, EachWordOfAStockAPartAndAPieceCounts) {
+  Json made = rich_layout();
+  const std::string square =
+      R"({"outer": [{"line": {"from": [0, 0], "to": [9, 0]}}, {"line": {"from": [9, 0], "to": [9, 9]}},
+    {"line": {"from": [9, 9], "to": [0, 9]}}, {"line": {"from": [0, 9], "to": [0, 0]}}]})";
+  made.at("/parts/1") = Json::parse(
+      R"({"id": "q", "outline": {"polygon": {"outer": [[0, 0], [9, 0], [9, 9], [0, 9]]}, "chord_tolerance": 0.5, "curves": )" +
+      square + R"(}, "marks": [{"layer": "fold", "edges": [{"line": {"from": [1, 1], "to": [2, 2]}}]}]})");
+  made.at("/kits/0/pieces").erase(1);
+  const std::string layout = made.dump();
+  ASSERT_EQ(findings(layout, layout), "");
+  const auto of = [](const std::string& what) {
+    return what + " is not that of the layout it was made from\n";
+  };
+  const std::string s = of("stock \"s\""), t = of("stock \"t\""), p = of("part \"p\""), q = of("part \"q\""),
+                    locked = "placement 1 is locked and does not lie where it lay\n";
+  struct Case {
+    std::string path, value, finding;
+  };
+  const std::vector<Case> cases{
+      {"/stocks/0/kind", "\"hide\"", s},
+      {"/stocks/0/count", "3", s},
+      {"/stocks/0/cost", "8", s},
+      {"/stocks/0/grain_deg", "1", s},
+      {"/stocks/0/outline/polygon/outer/1", "[101, 0]", s},
+      {"/stocks/0/defects/0/id", "\"e\"", s},
+      {"/stocks/0/defects/0/severity", "3", s},
+      {"/stocks/0/defects/0/outline/polygon/outer/2", "[2, 3]", s},
+      {"/stocks/0/zones/0/id", "\"e\"", s},
+      {"/stocks/0/zones/0/quality", "2", s},
+      {"/stocks/0/zones/0/outline/polygon/outer/2", "[9, 9]", s},
+      {"/stocks/1/id", "\"v\"", t},
+      {"/stocks/1/height", "61", t},
+      // As long as one without a length is taken to be.
+      {"/stocks/1/length", "262144", t},
+      {"/parts/0/outline/polygon/outer/1", "[11, 0]", p},
+      {"/parts/0/quality", "2", p},
+      {"/parts/0/areas/0/quality", "3", p},
+      {"/parts/0/areas/0/outline/polygon/outer/2", "[2, 3]", p},
+      {"/parts/0/rotations/0", "1", p},
+      {"/parts/0/rotations/1/from", "81", p},
+      {"/parts/0/rotations/1/to", "101", p},
+      {"/parts/0/mirror", "false", p},
+      {"/parts/0/grain/deg", "1", p},
+      {"/parts/0/grain/tolerance_deg", "11", p},
+      {"/parts/0/tolerated_severity", "2", p},
+      {"/parts/0/priority", "4", p},
+      {"/parts/0/demand", "3", p},
+      {"/parts/0/gap", "1.75", p},
+      {"/parts/0/border_gap", "2.75", p},
+      {"/parts/0/defect_gap", "3.75", p},
+      {"/parts/1/id", "\"v\"", q},
+      {"/parts/1/marks/0/layer", "\"cut\"", q},
+      {"/parts/1/marks/0/edges/0/line/to", "[2, 3]", q},
+      {"/parts/1/outline/chord_tolerance", "0.25", q},
+      {"/parts/1/outline", R"({"polygon": {"outer": [[0, 0], [9, 0], [9, 9], [0, 9]]}})", q},
+      // Without a polygon it is the drawing that counts.
+      {"/parts/1/outline", R"({"chord_tolerance": 0.5, "curves": )" + square + "}", ""},
+      {"/parts/1/outline",
+       R"({"chord_tolerance": 0.5, "curves": {"outer": [{"line": {"from": [0, 0], "to": [9, 0]}},
+       {"line": {"from": [9, 0], "to": [9, 8]}}, {"line": {"from": [9, 8], "to": [0, 0]}}]}})",
+       q},
+      {"/kits/0/value", "6", of("kit \"k\"")},
+      {"/placements/0/part", "\"q\"", locked},
+      {"/placements/0/stock", "\"u\"", locked},
+      {"/placements/0/copy", "0", locked},
+      {"/placements/0/rotation_deg", "90", locked},
+      {"/placements/0/x", "41", locked},
+      {"/placements/0/mirrored", "false", locked},
+      {"/placements/1/x", "61", ""}};
+  for (const Case& c : cases) {
+    Json given = made;
+    given.at(c.path) = Json::parse(c.value);
+    EXPECT_EQ(findings(layout, given.dump()), c.finding) << c.path;
+  }
+}
+
 TEST(VerifyClaims, ALockedPlacementLiesWhereItLay) {
   const std::string text = [] {
     Json made = rich_layout();
@@ -157,6 +236,20 @@ TEST(VerifyClaims, ALockedPlacementLiesWhereItLay) {
   EXPECT_EQ(moved("/placements/0/id", 5), locked);
   EXPECT_EQ(moved("/placements/0/mirrored", false), locked);
   EXPECT_NE(moved("/placements/0/rotation_deg", 1).find(locked), std::string::npos);
+}
+
+TEST(VerifyClaims, ABrokenRuleIsToldWithThosePlacementsThatBreakIt) {
+  Json layout = cases::empty_layout();
+  cases::add_part(layout, "p", cases::outline_json(cases::rectangle(0, 0, 10, 10)));
+  cases::place(layout, "p", 5, 5);
+  cases::place(layout, "p", 14, 5);
+  const auto report = verify_layout_claims({"l.json", layout.dump()}, {});
+  EXPECT_EQ(report->findings, std::vector<std::string>{
+                                  "the rule overlap is broken by placement 1 and placement 2 on \"s\" #1"});
+  layout.at("/placements/1/x") = 95;
+  const auto outside = verify_layout_claims({"l.json", layout.dump()}, {});
+  EXPECT_EQ(outside->findings,
+            std::vector<std::string>{"the rule outside is broken by placement 2 on \"s\" #1"});
 }
 
 TEST(VerifyClaims, AnOutlineMayBeginAndRunOtherwiseOnlyWhereItIsTheSame) {
@@ -237,6 +330,54 @@ TEST(VerifyClaims, EveryFigureOfAReportOfNestIsMadeAnew) {
   }
 }
 
+TEST(VerifyClaims, OneFigureOfAReportOfNestThatIsWrongIsNamed) {
+  Json report = Json::parse(kNest), layout = Json::parse(kLayout), given = Json::parse(kGiven);
+  const auto said = [&] { return judged(report.dump(), {given.dump(), layout.dump()}); };
+  for (const char* list : {"stocks", "kits"}) {
+    report = Json::parse(kNest);
+    const Json first = report[list][0];
+    const std::size_t count = report[list].size();
+    report[list].push_back(first);
+    EXPECT_EQ(said(), fmt::format("{} has {} items and is to have {}\n", list, count + 1, count));
+  }
+  report = Json::parse(kNest);
+  layout.at("/parts/0/demand") = 2, given.at("/parts/0/demand") = 2;
+  EXPECT_EQ(said(), "unplaced says 1 of \"p\" and is to say 2\n");
+}
+
+TEST(VerifyClaims, SheetsThatAreNotThereCountForNothing) {
+  Json report = Json::parse(kNest), layout = Json::parse(kLayout);
+  layout.at("/placements/3/copy") = 2;
+  report.at("/stocks/1/parts") = 1, report.at("/stocks/1/density") = 0.16, report.at("/stocks/1/length") = 50;
+  report["density"] = 0.24;
+  EXPECT_EQ(judged(report.dump(), {kGiven, layout.dump()}),
+            "the rule stock is broken by placement 4 on \"s\" #3\n");
+  layout["placements"] = Json::array();
+  report["density"] = 0, report["cost"] = 0, report["stocks"] = Json::array();
+  report.at("/kits/0/complete") = 0, report.at("/unplaced/0/count") = 5;
+  EXPECT_EQ(judged(report.dump(), {kGiven, layout.dump()}), "");
+}
+
+/// Of parts of a few steps the area is held to the very square step.
+TEST(VerifyClaims, ADensityIsThatOfTheVeryAreas) {
+  const double side = 0x1p-18;
+  Json layout = Json::parse(kLayout), report = Json::parse(kNest);
+  layout.at("/stocks/0/outline") = cases::outline_json(cases::rectangle(0, 0, 2, 1));
+  layout.at("/stocks/0").erase("defects");
+  layout.at("/parts/0/outline") = cases::outline_json(cases::rectangle(0, 0, side, side));
+  layout["kits"] = Json::array();
+  layout["placements"] = Json::array();
+  Json given = layout;
+  cases::place(layout, "p", 1, 0.5);
+  report["kits"] = Json::array(), report["unplaced"] = Json::array(), report["status"] = "complete";
+  report["stocks"].erase(1);
+  report.at("/stocks/0/parts") = 1, report.at("/stocks/0/remnant") = nullptr;
+  report["density"] = report.at("/stocks/0/density") = side * side / 2;
+  report["length"] = report.at("/stocks/0/length") = 1 + side;
+  report["cost"] = 3;
+  EXPECT_EQ(judged(report.dump(), {given.dump(), layout.dump()}), "");
+}
+
 TEST(VerifyClaims, ARemnantIsFree) {
   const auto with = [](const std::string& remnant) {
     std::string report = kNest;
@@ -245,6 +386,7 @@ TEST(VerifyClaims, ARemnantIsFree) {
   };
   const std::string no = "stocks[0].remnant is no free rectangle\n";
   EXPECT_EQ(with("[40, 0, 90, 25]"), "");
+  EXPECT_EQ(with("[91, 2, 100, 50]"), "") << "behind all parts of a sheet";
   EXPECT_EQ(with("null"), "");
   for (const char* taken :
        {"[39.5, 1, 89, 24]", "[41, 1, 89, 25.5]", "[41, 1, 91, 24]", "[41, -1, 89, 24]", "[41, 1, 101, 1.5]",
@@ -287,6 +429,7 @@ TEST(VerifyClaims, KitsAreThoseThatThePlacementsMake) {
   EXPECT_EQ(with(2, 3, 1), more);
   EXPECT_EQ(with(2, 0, 4), "");
   EXPECT_EQ(with(3, 3, 3), "kits[0].complete is more than is wanted\n");
+  EXPECT_EQ(with(4, 3, 3), "kits[0].complete is more than is wanted\n");
   EXPECT_EQ(with(2, 3, 3), "");
 }
 
@@ -368,6 +511,19 @@ TEST(VerifyClaims, AStripIsAsLongAsItIsUsed) {
   EXPECT_EQ(with("0.32", "[0, 20, 50, 50]"), "");
   EXPECT_NE(with("0.33", "[0, 20, 50, 50]"), "");
   EXPECT_NE(with("0.32", "[0, 20, 51, 50]"), "");
+}
+
+TEST(VerifyClaims, AReportNamesItsInputsAndItsOutputsWhereItHasAny) {
+  const auto named = [](const std::string& bytes) {
+    const auto files = named_files({"r.json", bytes});
+    return files ? std::to_string(files->size()) : files.error().message;
+  };
+  EXPECT_EQ(named(R"({"inputs": []})"), "0");
+  EXPECT_EQ(named(R"({"outputs": []})"), "r.json: field inputs is not a list");
+  EXPECT_EQ(named(R"({"inputs": [], "outputs": 5})"), "r.json: field outputs is not a list");
+  const std::string file = R"([{"role": "layout", "path": "l.json", "sha256": "x"}])";
+  EXPECT_EQ(named(R"({"inputs": )" + file + R"(, "outputs": )" + file + "}"), "2");
+  EXPECT_EQ(named(R"({"inputs": 5, "outputs": [5]})"), "r.json: field inputs is not a list");
 }
 
 TEST(VerifyClaims, FilesAreThoseThatTheReportNames) {

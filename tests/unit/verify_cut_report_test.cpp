@@ -38,7 +38,13 @@ const std::string kEarlier = kModes + "G0 X3 Y6.25 Z5\nG1 Z-1 F300\nG1 X4 F1500\
 struct Files {
   std::string program = kProgram, pocket = kWalls, pocket_name = "pocket.json";
   std::vector<std::pair<std::string, double>> earlier = {};  ///< programs, and diameters of their tools
+  double tool = 6;
 };
+/// So small that it is judged in milliseconds: a slot there and back.
+const std::string kSmallSide = R"({"line": {"from": [1, 0.5625], "to": [0, 0.5625]})";
+const Files kSmall{.program = kModes + "G0 X0.25 Y0.25 Z5\nG1 Z-1 F300\nG1 X0.75 F1500\nX0.25\nG0 Z5\n",
+                   .pocket = pocket_with(kSmallSide + "}", 1, 0.5625),
+                   .tool = 0.5};
 
 Json spots(const std::vector<UncutSpot>& found) {
   Json list = Json::array();
@@ -56,7 +62,7 @@ Json spots(const std::vector<UnreachableSpot>& found) {
 /// A report of simulate with the figures that the simulator finds.
 Json simulated(const Files& files) {
   SimulateOptions options;
-  options.tool_diameter = 6;
+  options.tool_diameter = files.tool;
   std::vector<EarlierProgram> earlier;
   for (const auto& [program, tool] : files.earlier) earlier.push_back({{"earlier", program}, tool});
   const auto judged = simulate({"p.ngc", files.program}, {files.pocket_name, files.pocket}, options, earlier);
@@ -67,6 +73,7 @@ Json simulated(const Files& files) {
     "inputs": [{"role": "program", "path": "p.ngc", "sha256": "x"}, {"role": "pocket", "path": "pocket.json", "sha256": "y"}],
     "tool_mm": 6, "stock_to_leave_mm": 0, "step_over": 0.4, "top_mm": 0, "acceleration_mm_per_s2": 500,
     "rapid_mm_per_min": 5000, "control": "linuxcnc"})");
+  report["tool_mm"] = files.tool;
   for (const auto& [program, tool] : files.earlier)
     report["inputs"].push_back({{"role", "after"}, {"path", "e.ngc"}, {"sha256", "z"}, {"tool_mm", tool}});
   report["coverage_percent"] = r.coverage_percent, report["coverage_low_percent"] = r.coverage_low_percent;
@@ -130,6 +137,14 @@ std::string changed(Json report, const std::string& path, const Json& value, con
   return judged(report, files);
 }
 
+/// A report of pocket about the small slot.
+Json small_report() {
+  Json report = pocketed(kSmall);
+  report["hot_cuts"] = Json::parse(R"([{"from": [0.292, 0.25], "to": [0.75, 0.25], "z": -1, "length_mm": 0.5,
+    "engagement_deg": 180}])");
+  return report;
+}
+
 /// Changes of what is information, or so small that the same figures follow.
 bool makes_no_difference(const Lie& lie) {
   const auto& path = lie.path;
@@ -163,6 +178,48 @@ TEST(VerifyCutReport, EveryFigureOfAReportOfSimulateIsTheVeryOne) {
   expect_every_lie_to_be_seen(simulated({}));
 }
 TEST(VerifyCutReport, EveryFigureOfAReportOfPocketIsTheVeryOne) { expect_every_lie_to_be_seen(pocketed()); }
+
+TEST(VerifyCutReport, OneWordThatIsWrongIsNamed) {
+  const Json report = small_report();
+  ASSERT_EQ(judged(report, kSmall), "");
+  const std::string
+      deeper = "the program goes down to Z -1, which is not depth_mm less floor_stock_mm below top_mm\n",
+      from = "r.json: field hot_cuts[0].from is not a list of two numbers",
+      to = "r.json: field hot_cuts[0].to is not a list of two numbers";
+  const auto with = [&](const std::string& path, const char* value) {
+    return changed(report, path, Json::parse(value), kSmall);
+  };
+  EXPECT_EQ(with("/depth_mm", "1.0005"), "");
+  EXPECT_EQ(with("/depth_mm", "1.00052"), deeper);
+  EXPECT_EQ(with("/depth_mm", "0.99948"), deeper);
+  EXPECT_EQ(with("/floor_stock_mm", "0.25"), deeper);
+  EXPECT_EQ(with("/hot_cuts/0/from", "[0.292, \"0.25\"]"), from);
+  EXPECT_EQ(with("/hot_cuts/0/from", "[0.292]"), from);
+  EXPECT_EQ(with("/hot_cuts/0/from", "[0.292, 0.25, 1]"), to);
+  EXPECT_EQ(with("/hot_cuts/0/to", "[0.75, 0.25, 1]"), to);
+  EXPECT_EQ(with("/hot_cuts/0/to", "[0.75, 0.26]"), "hot_cuts[0] is not what the program cuts there\n");
+  Json other = report;
+  other["depth_mm"] = 0.75, other["floor_stock_mm"] = -0.25;
+  EXPECT_EQ(judged(other, kSmall), deeper);
+  other = report;
+  other["unsaid"] = Json::array();
+  EXPECT_EQ(judged(other, kSmall), "r.json: field unsaid is not one of such a report");
+  // A straight pass with a step-over of 0.8 meets 126.87 degrees, of which five quarters are less than the
+  // 180 of a slot; with 1 it is a slot itself.
+  other = report;
+  other["step_over"] = 0.8, other["lower_bound_seconds"] = report["lower_bound_seconds"].get<double>() / 2;
+  EXPECT_EQ(judged(other, kSmall), "");
+  other["step_over"] = 1;
+  EXPECT_NE(judged(other, kSmall).find("hot_cuts has 1 items and is to have 0"), std::string::npos);
+  other = simulated(kSmall);
+  other["rest_of_mm"] = 1, other["supposed_program"] = kSmall.program;
+  EXPECT_EQ(judged(other, kSmall), "r.json: field rest_of_mm is not one of such a report");
+  Files ramp = kSmall;
+  ramp.program = kModes + "G0 X0.25 Y0.25 Z5\nG1 Z0 F300\nG1 X0.75 Z-1 F1500\nX0.25\nG0 Z5\n";
+  other = pocketed(ramp);
+  other["hot_cuts"] = Json::array();
+  EXPECT_EQ(judged(other, ramp), "");
+}
 
 TEST(VerifyCutReport, ItemsThatAreMissingOrTooManyAreCounted) {
   const Json report = pocketed();
@@ -488,24 +545,6 @@ TEST(VerifyCutReport, OpenEdgesAreThoseOfTheFile) {
   EXPECT_EQ(open_edges(open, other), no);
 }
 
-TEST(VerifyCutReport, AnOpenEdgeIsNoneOfItsNeighboursAndNotTheOneAcross) {
-  const auto with_open = [](std::size_t edge, bool backwards = false) {
-    const char* const corners[] = {"[0, 0]", "[7.5, 0]", "[7.5, 6.5]", "[0, 6.5]"};
-    std::string text = R"({"units": "mm", "outer": [)";
-    for (std::size_t k = 0; k < 4; ++k)
-      text += fmt::format(R"({}{{"line": {{"from": {}, "to": {}}}{}}})", k == 0 ? "" : ", ",
-                          corners[backwards ? (4 - k) % 4 : k], corners[backwards ? 3 - k : (k + 1) % 4],
-                          k == edge ? R"(, "open": true)" : "");
-    return text + "]}";
-  };
-  const std::string no = "the open edges are not those of pocket.json\n";
-  for (std::size_t a = 0; a < 4; ++a)
-    for (std::size_t b = 0; b < 4; ++b) {
-      EXPECT_EQ(open_edges(with_open(a), with_open(b)).starts_with(no), a != b) << a << b;
-      EXPECT_EQ(open_edges(with_open(a), with_open(b, true)).starts_with(no), a != 3 - b) << a << b;
-    }
-}
-
 TEST(VerifyCutReport, OpenEdgesMayBeginAndRunOtherwise) {
   const std::string open = pocket_with(kSide + kOpen);
   const std::string turned =
@@ -570,6 +609,33 @@ TEST(VerifyCutReport, AnEdgeAlongTwoLayersOfWhichOneIsOpenIsUnchecked) {
   EXPECT_EQ(layers(twice, false, {"OPEN"}), unchecked);
   EXPECT_EQ(layers(twice, true, {"OPEN", "MORE"}), "");
   EXPECT_EQ(layers(twice, false, Json::array()), "");
+}
+
+TEST(VerifyCutReport, AScanHasNoLayersThatCouldBeOpen) {
+  // Points 0.25 mm outside the pocket, in their order.
+  std::string points;
+  const auto along = [&](double x, double y, double dx, double dy, int count) {
+    for (int k = 0; k < count; ++k) points += fmt::format("{},{}\n", x + dx * k, y + dy * k);
+  };
+  along(-0.25, -0.25, 0.0625, 0, 24);
+  along(1.25, -0.25, 0, 0.0625, 17);
+  along(1.25, 0.8125, -0.0625, 0, 24);
+  along(-0.25, 0.8125, 0, -0.0625, 17);
+  const auto with = [&](const Files& stated) {
+    Json report = pocketed(stated);
+    report["hot_cuts"] = small_report()["hot_cuts"];
+    report["open_layers"] = Json::array({"OPEN"});
+    report["scan"] = Json::parse(R"({"units": "mm", "points": 82, "proved": true, "ordered": true,
+      "guard": 0.1, "step": 0.1, "loss": 1, "min_radius": null, "max_dip": null, "slice": null,
+      "left_out": [], "outlines": null})");
+    Files files = stated;
+    files.pocket = points, files.pocket_name = "p.csv";
+    return judged(report, files);
+  };
+  EXPECT_EQ(with(kSmall), "");
+  Files open = kSmall;
+  open.pocket = pocket_with(kSmallSide + kOpen, 1, 0.5625);
+  EXPECT_EQ(with(open), "edge 2 of regions is open, but its layer is none of open_layers\n");
 }
 
 /// A word that nobody knows may have been meant to say something of the pocket.

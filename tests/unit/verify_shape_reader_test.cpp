@@ -269,5 +269,22 @@ TEST(VerifyShapeReader, ShapesWithTheSameEdgesAreTheSameEitherWayRound) {
   EXPECT_TRUE(same_edges(shape(two), shape(two), 1e-9));
 }
 
+TEST(VerifyShapeReader, AnOpenEdgeIsNoneOfItsNeighboursAndNotTheOneAcross) {
+  const auto with_open = [](std::size_t edge, bool backwards = false) {
+    const char* const corners[] = {"0, 0", "10, 0", "10, 10", "0, 10"};
+    std::vector<std::string> edges;
+    for (std::size_t k = 0; k < 4; ++k)
+      edges.push_back(line(corners[backwards ? (4 - k) % 4 : k], corners[backwards ? 3 - k : (k + 1) % 4],
+                           k == edge ? R"(, "open": true)" : ""));
+    return shape(region(edges));
+  };
+  for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t b = 0; b < 4; ++b) {
+      EXPECT_EQ(same_edges(with_open(a), with_open(b), 0, true), a == b) << a << b;
+      EXPECT_EQ(same_edges(with_open(a), with_open(b, true), 0, true), a == 3 - b) << a << b;
+      EXPECT_TRUE(same_edges(with_open(a), with_open(b), 0)) << a << b;
+    }
+}
+
 }  // namespace
 }  // namespace lekalo::verify::verify_shape_reader_test

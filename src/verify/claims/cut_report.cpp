@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -66,20 +67,18 @@ std::vector<Stretch> hot_cuts(const SimulateReport& report, double step_over) {
   const double cosine = 1 - 2 * step_over;
   const double held =
       1.25 * angle_between({1, 0}, {cosine, std::sqrt(1 - cosine * cosine)}) * kDegreesPerRadian;
+  const auto is_hot = [&](const EngagementSample& s) { return !s.entry && s.engagement > held; };
   std::vector<Stretch> hot;
-  const auto& samples = report.samples;
-  for (std::size_t i = 0; i < samples.size();) {
-    std::size_t end = i;
+  const auto end = report.samples.end();
+  for (auto first = report.samples.begin(); (first = std::find_if(first, end, is_hot)) != end;) {
+    const auto behind = std::find_if_not(first, end, is_hot);
     double length = 0, largest = 0;
-    for (; end < samples.size() && !samples[end].entry && samples[end].engagement > held; ++end) {
-      length += samples[end].length;
-      largest = std::max(largest, samples[end].engagement);
-    }
+    for (auto s = first; s != behind; ++s) length += s->length, largest = std::max(largest, s->engagement);
+    const EngagementSample& last = *std::prev(behind);
     if (length >= kLasting - 1e-9)
-      hot.push_back(
-          {{rounded(samples[i].x), rounded(samples[i].y), rounded(samples[end - 1].x),
-            rounded(samples[end - 1].y), rounded(samples[end - 1].z), rounded(length), rounded(largest)}});
-    i = std::max(end, i + 1);
+      hot.push_back({{rounded(first->x), rounded(first->y), rounded(last.x), rounded(last.y), rounded(last.z),
+                      rounded(length), rounded(largest)}});
+    first = behind;
   }
   return hot;
 }
@@ -93,24 +92,6 @@ bool is_among(const std::vector<std::string>& layers, const std::string& name) {
   return std::any_of(layers.begin(), layers.end(), [&](const std::string& layer) {
     return std::equal(layer.begin(), layer.end(), name.begin(), name.end(), same);
   });
-}
-
-/// The regions have the same open edges; these are few. Their outlines are the same already, so that it is
-/// enough to tell an edge from the others: no rounding decides, not even where the tolerance is 0.
-bool same_open_edges(const Shape& a, const Shape& b, double tolerance) {
-  const auto near = [&](const Vec& p, const Vec& q) {
-    const Vec d = p - q;
-    return absolute(d.x).low <= tolerance && absolute(d.y).low <= tolerance;
-  };
-  const auto all_in = [&](const Shape& one, const Shape& other) {
-    return std::all_of(one.sides.begin(), one.sides.end(), [&](const Side& s) {
-      return !s.open || std::any_of(other.sides.begin(), other.sides.end(), [&](const Side& t) {
-        return t.open && t.arc == s.arc &&
-               ((near(s.from, t.from) && near(s.to, t.to)) || (near(s.from, t.to) && near(s.to, t.from)));
-      });
-    });
-  };
-  return all_in(a, b) && all_in(b, a);
 }
 
 /// Rechecks one report.
@@ -229,15 +210,17 @@ class CutReport {
   void compare_open_edges(const Shape& stated, const Origin& origin,
                           const std::vector<std::string>& open_layers, double tolerance) {
     if (origin.in_file) {
-      if (!same_open_edges(stated, *origin.in_file, tolerance))
+      if (!same_edges(stated, *origin.in_file, tolerance, true))
         claims_.findings.push_back(fmt::format("the open edges are not those of {}", pocket_->name));
       return;
     }
+    // A scan has no layers.
+    std::vector<std::set<std::string>> labels = origin.labels;
+    labels.resize(stated.sides.size());
     std::size_t edge = 0;
     for (const Side& side : stated.sides) {
       if (!side.written) continue;
-      const std::set<std::string> none, &layers = edge < origin.labels.size() ? origin.labels[edge] : none;
-      ++edge;
+      const std::set<std::string>& layers = labels[edge++];
       const auto listed = static_cast<std::size_t>(std::count_if(
           layers.begin(), layers.end(), [&](const std::string& l) { return is_among(open_layers, l); }));
       if (side.open ? listed == 0 : listed > 0 && listed == layers.size())
@@ -253,9 +236,10 @@ class CutReport {
   Result<void> judge() {
     const Document where = regions();
     LEKALO_CHECK(fine());
-    read_supposed();
+    std::vector<EarlierProgram> earlier = earlier_;
+    read_supposed(earlier);
     LEKALO_CHECK(fine());
-    const Result<SimulateReport> judged = simulate(*program_, where, options_, earlier_);
+    const Result<SimulateReport> judged = simulate(*program_, where, options_, earlier);
     // An option out of its range is one of the report, and not of a command line.
     if (!judged && judged.error().code == ErrorCode::usage)
       return failure(ErrorCode::bad_input, fmt::format("{}: {}", report_.name, judged.error().message));
@@ -274,10 +258,7 @@ class CutReport {
 
   /// All that the programs leave to the control is unchecked. A report of simulate tells the same.
   Result<void> compare_unsaid() {
-    std::vector<EarlierProgram> named;  // without one that is supposed
-    for (std::size_t i = 0; i < names_.size(); ++i)
-      if (names_[i].role == "after") named.push_back({files_[i], names_[i].tool_mm});
-    LEKALO_TRY(const std::vector<std::string> unsaid, unsaid_modes(*program_, options_, named));
+    LEKALO_TRY(const std::vector<std::string> unsaid, unsaid_modes(*program_, options_, earlier_));
     claims_.unchecked.insert(claims_.unchecked.end(), unsaid.begin(), unsaid.end());
     if (pocket_report_ || !fields_.has("unsaid")) return fine();
     std::vector<std::string> told;
@@ -291,43 +272,28 @@ class CutReport {
   }
 
   /// With `rest_of_mm` the larger tool's program is one that the path maker supposes.
-  void read_supposed() {
+  void read_supposed(std::vector<EarlierProgram>& earlier) {
     if (!pocket_report_ || !fields_.has("rest_of_mm")) return;
     const double tool = fields_.number("rest_of_mm");
     supposed_ = fields_.text("supposed_program");
-    earlier_.push_back({{"the supposed program", supposed_}, tool});
+    earlier.push_back({{"the supposed program", supposed_}, tool});
     claims_.unchecked.push_back(fmt::format(
         "rest_of_mm: that a tool of {} mm cuts what the supposed program cuts is not rechecked", tool));
   }
 
   void compare_spots(const SimulateReport& found) {
-    compare_items("uncut", found.uncut.size(), [&](ReportFields& item, std::size_t i) {
+    compare_items(fields_, "uncut", found.uncut.size(), claims_, [&](ReportFields& item, std::size_t i) {
       compare(item, "x", found.uncut[i].x, claims_);
       compare(item, "y", found.uncut[i].y, claims_);
       compare(item, "width_mm", found.uncut[i].width_mm, claims_);
     });
-    compare_items("unreachable", found.unreachable.size(), [&](ReportFields& item, std::size_t i) {
-      compare(item, "x", found.unreachable[i].x, claims_);
-      compare(item, "y", found.unreachable[i].y, claims_);
-      compare(item, "distance_mm", found.unreachable[i].distance_mm, claims_);
-      compare(item, "area_mm2", found.unreachable[i].area_mm2, claims_);
-    });
-  }
-
-  template <class F>
-  void compare_items(std::string_view list, std::size_t wanted, F compare_item) {
-    std::size_t count = 0;
-    fields_.each(list, [&](Json item, const std::string& path) {
-      ReportFields fields(item, path, complaint_);
-      if (!complaint_.empty()) return;
-      if (count < wanted) {
-        compare_item(fields, count);
-        fields.refuse_others();
-      }
-      ++count;
-    });
-    if (count != wanted)
-      claims_.findings.push_back(fmt::format("{} has {} items and is to have {}", list, count, wanted));
+    compare_items(fields_, "unreachable", found.unreachable.size(), claims_,
+                  [&](ReportFields& item, std::size_t i) {
+                    compare(item, "x", found.unreachable[i].x, claims_);
+                    compare(item, "y", found.unreachable[i].y, claims_);
+                    compare(item, "distance_mm", found.unreachable[i].distance_mm, claims_);
+                    compare(item, "area_mm2", found.unreachable[i].area_mm2, claims_);
+                  });
   }
 
   Stretch read_stretch(ReportFields& item) {
@@ -351,7 +317,7 @@ class CutReport {
   }
 
   void compare_stretches(std::string_view list, const std::vector<Stretch>& found) {
-    compare_items(list, found.size(), [&](ReportFields& item, std::size_t i) {
+    compare_items(fields_, list, found.size(), claims_, [&](ReportFields& item, std::size_t i) {
       if (!(read_stretch(item) == found[i]))
         claims_.findings.push_back(fmt::format("{}[{}] is not what the program cuts there", list, i));
     });
@@ -394,7 +360,7 @@ class CutReport {
   SimulateOptions options_;
   std::optional<Document> program_, pocket_;
   std::string supposed_;
-  std::vector<EarlierProgram> earlier_;
+  std::vector<EarlierProgram> earlier_;  ///< without one that is supposed
   ClaimReport claims_;
 };
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
 #include "lekalo/verify/claims.hpp"
@@ -73,9 +72,8 @@ bool is_program(std::string_view text) {
   if (first == '%' || first == '(' || first == ';') return true;
   if (std::string_view("GMNOTSFXYZIJgmnotsfxyzij").find(first) == std::string_view::npos) return false;
   text.remove_prefix(1);
-  const std::size_t next = text.find_first_not_of(" \t");
-  return next != std::string_view::npos && (std::isdigit(static_cast<unsigned char>(text[next])) != 0 ||
-                                            text[next] == '-' || text[next] == '.' || text[next] == '+');
+  const std::size_t number = text.find_first_of("+-.0123456789");
+  return number != std::string_view::npos && number == text.find_first_not_of(" \t");
 }
 
 /// Drawings have layers, which pictures lack.

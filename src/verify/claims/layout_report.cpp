@@ -26,11 +26,11 @@ Wide twice_area(const GridOutline& outline) {
   return sum;
 }
 
-double mm2(Wide twice) { return 0.5 * static_cast<double>(twice) * kStep * kStep; }
+double share(Wide part, Wide whole) { return static_cast<double>(part) / static_cast<double>(whole); }
 
 /// Pieces by hand, as placed or as wanted; `either` are wanted in whichever hand.
 struct Hands {
-  std::int64_t upright = 0, mirrored = 0, either = 0;
+  std::int64_t upright{}, mirrored{}, either{};
 };
 
 /// A sheet in use, and what its figures are to be.
@@ -116,7 +116,7 @@ class LayoutReport {
     fields_.each("disagreements", [&](Json, const std::string& path) { disagreements.push_back(path); });
     std::set<Finding> told;
     fields_.each("violations", [&](Json item, const std::string& path) {
-      if (complaint_.empty() && !told.insert(read_violation(item, path)).second)
+      if (!told.insert(read_violation(item, path)).second)
         claims_.findings.push_back(fmt::format("{} is there twice", path));
     });
     fields_.refuse_others();
@@ -221,7 +221,7 @@ class LayoutReport {
       cost += written_.stocks[sheet.stock].cost;
       parts += sheet.parts_area, material += sheet.material_area;
     }
-    compare_near(fields_, "density", material > 0 ? mm2(parts) / mm2(material) : 0);
+    compare_near(fields_, "density", sheets_.empty() ? 0 : share(parts, material));
     compare(fields_, "cost", cost, claims_);
   }
 
@@ -233,22 +233,6 @@ class LayoutReport {
 
   static double length_of(const SheetFigures& sheet) { return static_cast<double>(sheet.last) * kStep; }
 
-  /// Calls compare_one(fields, i) for as many items as there are to be.
-  template <class F>
-  void compare_items(std::string_view list, std::size_t wanted, F compare_one) {
-    std::size_t count = 0;
-    fields_.each(list, [&](Json item, const std::string& path) {
-      ReportFields fields(item, path, complaint_);
-      if (complaint_.empty() && count < wanted) {
-        compare_one(fields, count);
-        fields.refuse_others();
-      }
-      ++count;
-    });
-    if (count != wanted)
-      claims_.findings.push_back(fmt::format("{} has {} items and is to have {}", list, count, wanted));
-  }
-
   void compare_text(ReportFields& fields, const char* key, const std::string& found) {
     if (const std::string written = fields.text(key); written != found)
       claims_.findings.push_back(
@@ -256,14 +240,13 @@ class LayoutReport {
   }
 
   void compare_sheets() {
-    compare_items("stocks", sheets_.size(), [&](ReportFields& item, std::size_t i) {
+    compare_items(fields_, "stocks", sheets_.size(), claims_, [&](ReportFields& item, std::size_t i) {
       const SheetFigures& sheet = sheets_[i];
       const WrittenStock& stock = written_.stocks[sheet.stock];
       compare_text(item, "stock", stock.id);
       compare(item, "copy", static_cast<double>(sheet.copy), claims_);
       compare(item, "parts", static_cast<double>(sheet.parts.size()), claims_);
-      compare_near(item, "density",
-                   sheet.material_area > 0 ? mm2(sheet.parts_area) / mm2(sheet.material_area) : 0);
+      compare_near(item, "density", share(sheet.parts_area, sheet.material_area));
       compare(item, "length", length_of(sheet), claims_);
       compare_remnant(item, sheet, stock);
     });
@@ -311,7 +294,7 @@ class LayoutReport {
     const std::vector<Hands> there = placed_hands();
     std::vector<Hands> taken(there.size());
     std::vector<std::size_t> unfinished;
-    compare_items("kits", written_.kits.size(), [&](ReportFields& item, std::size_t i) {
+    compare_items(fields_, "kits", written_.kits.size(), claims_, [&](ReportFields& item, std::size_t i) {
       const WrittenKit& kit = written_.kits[i];
       compare_text(item, "kit", kit.id);
       compare(item, "wanted", static_cast<double>(kit.demand), claims_);

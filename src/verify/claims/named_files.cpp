@@ -22,12 +22,13 @@ Result<std::vector<NamedFile>> named_files(const Document& report) {
   std::string complaint;
   std::vector<NamedFile> files;
   ReportFields fields(root, "", complaint);
-  for (const char* list : {"inputs", "outputs"}) {
-    if (!complaint.empty() || (list == std::string_view("outputs") && !fields.has(list))) continue;
+  const auto read = [&](const char* list) {
     fields.each(list, [&](Json item, const std::string& path) {
       if (complaint.empty()) files.push_back(read_file(item, path, complaint));
     });
-  }
+  };
+  read("inputs");
+  if (fields.has("outputs")) read("outputs");
   if (!complaint.empty()) return failure(ErrorCode::bad_input, fmt::format("{}: {}", report.name, complaint));
   return files;
 }

@@ -17,7 +17,7 @@ namespace lekalo::verify {
 class ReportFields {
  public:
   ReportFields(Json object, std::string path, std::string& complaint)
-      : object_(object), fields_(object, std::move(path), complaint) {}
+      : object_(object), fields_(object, std::move(path), complaint), complaint_(complaint) {}
 
   [[nodiscard]] Json get(std::string_view key) {
     known_.insert(std::string(key));
@@ -41,6 +41,7 @@ class ReportFields {
     known_.insert(std::string(key));
     fields_.each(key, f);
   }
+  [[nodiscard]] std::string& complaint() { return complaint_; }
   [[nodiscard]] std::string name(std::string_view key) const { return fields_.name(key); }
   void complain(const std::string& sentence) { fields_.complain(sentence); }
 
@@ -55,6 +56,7 @@ class ReportFields {
  private:
   Json object_;
   Fields fields_;
+  std::string& complaint_;
   std::set<std::string, std::less<>> known_;
 };
 
@@ -73,6 +75,24 @@ inline void compare(ReportFields& fields, std::string_view key, double found, Cl
   const double written = fields.number(key);
   if (written != found)
     report.findings.push_back(fmt::format("{} is {} and is to be {}", fields.name(key), written, found));
+}
+
+/// Calls compare_item(fields, i) for as many items of a list as there are to be, and adds a finding where it
+/// has more or fewer.
+template <class F>
+void compare_items(ReportFields& fields, std::string_view list, std::size_t wanted, ClaimReport& report,
+                   F compare_item) {
+  std::size_t count = 0;
+  fields.each(list, [&](Json value, const std::string& path) {
+    ReportFields item(value, path, fields.complaint());
+    if (count < wanted) {
+      compare_item(item, count);
+      item.refuse_others();
+    }
+    ++count;
+  });
+  if (count != wanted)
+    report.findings.push_back(fmt::format("{} has {} items and is to have {}", list, count, wanted));
 }
 
 }  // namespace lekalo::verify

@@ -4,12 +4,9 @@
 
 #include <algorithm>
 #include <map>
-#include <utility>
 
 namespace lekalo::verify {
 namespace {
-
-/// Curves are written as doubles; half a step of the grid is more than their reading can move.
 
 /// The loops in their order, each from its least point on: a file may begin and turn them otherwise.
 std::vector<GridLoop> loops_of(const GridOutline& outline) {
@@ -21,12 +18,7 @@ std::vector<GridLoop> loops_of(const GridOutline& outline) {
     open = !(edge.to == loops.back().front());
   }
   for (GridLoop& loop : loops)
-    std::rotate(loop.begin(),
-                std::min_element(loop.begin(), loop.end(),
-                                 [](GridPoint p, GridPoint q) {
-                                   return std::pair{p.x, p.y} < std::pair{q.x, q.y};
-                                 }),
-                loop.end());
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
   return loops;
 }
 
@@ -39,26 +31,16 @@ bool same_outline(const WrittenOutline& a, const WrittenOutline& given) {
   return !given.unmade.empty() || loops_of(a) == loops_of(given);
 }
 
-bool same_grain(const std::optional<WrittenGrain>& a, const std::optional<WrittenGrain>& b) {
-  return a.has_value() == b.has_value() && (!a || (a->degrees == b->degrees && a->tolerance == b->tolerance));
-}
-
 bool same_part(const WrittenPart& a, const WrittenPart& b) {
   const bool areas = std::equal(a.areas.begin(), a.areas.end(), b.areas.begin(), b.areas.end(),
                                 [](const WrittenArea& p, const WrittenArea& q) {
                                   return p.quality == q.quality && same_outline(p.outline, q.outline);
                                 });
-  const bool rotations = std::equal(
-      a.rotations.begin(), a.rotations.end(), b.rotations.begin(), b.rotations.end(),
-      [](const WrittenAngles& p, const WrittenAngles& q) { return p.from == q.from && p.to == q.to; });
-  const bool marks = std::equal(a.marks.begin(), a.marks.end(), b.marks.begin(), b.marks.end(),
-                                [](const WrittenMark& m, const WrittenMark& n) {
-                                  return m.layer == n.layer && m.numbers == n.numbers;
-                                });
-  return a.id == b.id && areas && marks && rotations && same_outline(a.outline, b.outline) &&
-         a.quality == b.quality && a.may_mirror == b.may_mirror && same_grain(a.grain, b.grain) &&
-         a.tolerated_severity == b.tolerated_severity && a.priority == b.priority && a.demand == b.demand &&
-         a.gap == b.gap && a.border_gap == b.border_gap && a.defect_gap == b.defect_gap;
+  return a.id == b.id && areas && a.marks == b.marks && a.rotations == b.rotations &&
+         same_outline(a.outline, b.outline) && a.quality == b.quality && a.may_mirror == b.may_mirror &&
+         a.grain == b.grain && a.tolerated_severity == b.tolerated_severity && a.priority == b.priority &&
+         a.demand == b.demand && a.gap == b.gap && a.border_gap == b.border_gap &&
+         a.defect_gap == b.defect_gap;
 }
 
 bool same_features(const std::vector<WrittenStockFeature>& a, const std::vector<WrittenStockFeature>& b) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
@@ -17,7 +18,7 @@ __extension__ using Wide = __int128;
 
 struct GridPoint {
   std::int64_t x = 0, y = 0;
-  friend bool operator==(const GridPoint&, const GridPoint&) = default;
+  friend auto operator<=>(const GridPoint&, const GridPoint&) = default;
 };
 
 struct GridEdge {
@@ -49,8 +50,8 @@ inline constexpr std::int64_t kMostWritten = static_cast<std::int64_t>(limits::k
 [[nodiscard]] std::optional<std::string> fault_of(const std::vector<GridLoop>& loops);
 
 /// The answer says whether some disc lies in the material of all of `in` and in none of `out` (of these too,
-/// holes are not material). \pre 1 outline or more in `in`, coordinates within kMostPlaced. Cost: for each point of an
-/// edge near the box common to `in`, and each crossing, the edges that a ray from it may meet.
+/// holes are not material). \pre 1 outline or more in `in`, coordinates within kMostPlaced. Cost: for each
+/// point of an edge near the box common to `in`, and each crossing, the edges that a ray from it may meet.
 [[nodiscard]] bool have_common_disc(const std::vector<const GridOutline*>& in,
                                     const std::vector<const GridOutline*>& out);
 

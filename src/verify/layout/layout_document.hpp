@@ -31,10 +31,12 @@ struct WrittenArea {
 
 struct WrittenAngles {
   double from = 0, to = 0;
+  friend bool operator==(const WrittenAngles&, const WrittenAngles&) = default;
 };
 
 struct WrittenGrain {
   double degrees = 0, tolerance = 0;
+  friend bool operator==(const WrittenGrain&, const WrittenGrain&) = default;
 };
 
 /// A line on a part that no rule asks for: the numbers of its edges in their order, of an arc with its
@@ -42,6 +44,7 @@ struct WrittenGrain {
 struct WrittenMark {
   std::string layer;
   std::vector<double> numbers;
+  friend bool operator==(const WrittenMark&, const WrittenMark&) = default;
 };
 
 struct WrittenPart {

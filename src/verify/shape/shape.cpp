@@ -349,7 +349,7 @@ Shape outline_through(const std::vector<Decimal>& x, const std::vector<Decimal>&
   return shape;
 }
 
-bool same_edges(const Shape& a, const Shape& b, double tolerance) {
+bool same_edges(const Shape& a, const Shape& b, double tolerance, bool walls) {
   const auto equal = [](Span one, Span other) { return one.low == other.low && one.high == other.high; };
   const auto near = [&](const Vec& p, const Vec& q) {
     // A difference is enclosed with rounding, also where there is none.
@@ -359,6 +359,7 @@ bool same_edges(const Shape& a, const Shape& b, double tolerance) {
   };
   const auto same = [&](const Side& one, const Side& other, bool reversed) {
     if (one.arc != other.arc || (one.sweep == Sweep::full) != (other.sweep == Sweep::full)) return false;
+    if (walls && one.open != other.open) return false;
     if (!near(one.written_from, reversed ? other.written_to : other.written_from) ||
         !near(one.written_to, reversed ? other.written_from : other.written_to))
       return false;

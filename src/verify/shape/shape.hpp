@@ -102,8 +102,8 @@ void bound(Shape& shape);
 [[nodiscard]] Shape outline_through(const std::vector<Decimal>& x, const std::vector<Decimal>& y);
 
 /// Says whether two shapes have the same edges in the same order, each contour in either direction from the
-/// same first point, with coordinates equal to `tolerance` mm.
-[[nodiscard]] bool same_edges(const Shape& a, const Shape& b, double tolerance);
+/// same first point, with coordinates equal to `tolerance` mm. \param walls  the same of them are open
+[[nodiscard]] bool same_edges(const Shape& a, const Shape& b, double tolerance, bool walls = false);
 
 /// A motion: (cosine, sine) of a rotation, a shift, and whether x is mirrored before.
 struct Motion {
