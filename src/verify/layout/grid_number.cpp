@@ -1,5 +1,6 @@
 #include "grid_number.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "verify/number/interval.hpp"
@@ -23,24 +24,18 @@ Turned seen_from(GridTurn from, GridTurn d) {
   const Integer c(from.c), s(from.s), x(d.c), y(d.s);
   return {c * x + s * y, c * y - s * x};
 }
-/// Orders directions within one turn from 0: first the axis itself, then the upper half, then the rest.
-int part_of_turn(const Turned& v) {
-  if (sgn(v.across) == 0) return sgn(v.along) > 0 ? 0 : 2;
-  return sgn(v.across) > 0 ? 1 : 3;
-}
+/// Says whether the direction is half a turn or more counter-clockwise from the axis.
+bool second_half(const Turned& v) { return v.across == 0 ? v.along < 0 : v.across < 0; }
 bool not_after(const Turned& a, const Turned& b) {
-  const int part_a = part_of_turn(a), part_b = part_of_turn(b);
-  if (part_a != part_b) return part_a < part_b;
-  return sgn(Integer(a.along * b.across - a.across * b.along)) >= 0;
+  if (second_half(a) != second_half(b)) return second_half(b);
+  return a.along * b.across >= a.across * b.along;
 }
 
 /// Returns the whole number nearest to value / 2^52, ties to even.
 std::int64_t without_rotation_bits(Wide value) {
-  const Wide unit = Wide{1} << kRotationBits;
-  Wide floor = value / unit, rest = value % unit;
-  if (rest < 0) rest += unit, --floor;
-  if (2 * rest > unit || (2 * rest == unit && floor % 2 != 0)) ++floor;
-  return static_cast<std::int64_t>(floor);
+  constexpr Wide kBelowHalf = (Wide{1} << (kRotationBits - 1)) - 1;
+  const Wide odd = value >> kRotationBits & 1;
+  return static_cast<std::int64_t>((value + kBelowHalf + odd) >> kRotationBits);
 }
 
 }  // namespace
@@ -52,11 +47,10 @@ std::optional<std::int64_t> steps_of(double mm, ToStep how, double most) {
 }
 
 std::optional<GridTurn> turn_of_pair(double c, double s) {
-  if (!(std::abs(c) <= 2 && std::abs(s) <= 2)) return std::nullopt;
   const GridTurn turn{nearest_multiple(c, kRotationBits), nearest_multiple(s, kRotationBits)};
   const Wide off = Wide{turn.c} * turn.c + Wide{turn.s} * turn.s - (Wide{1} << 2 * kRotationBits);
   const Wide most = Wide{1} << (2 * kRotationBits - 50);
-  if (off < -most || off > most) return std::nullopt;
+  if (std::max(off, -off) > most) return std::nullopt;
   return turn;
 }
 

@@ -24,6 +24,7 @@ struct GridTurn {
 };
 
 /// Returns nothing when c^2 + s^2 is not within 2^-50 of 1.
+/// \pre neither is beyond limits::kLargestSine
 [[nodiscard]] std::optional<GridTurn> turn_of_pair(double c, double s);
 /// Returns the multiples that are proved to be nearest to the cosine and the sine.
 /// \pre degrees is finite

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -35,9 +36,22 @@ GridBox box_of(const GridEdge& e) {
           std::max(e.from.y, e.to.y)};
 }
 
+GridBox box_of(const std::vector<GridEdge>& edges) {
+  GridBox all = box_of(edges.front());
+  for (const GridEdge& edge : edges)
+    all = {std::min(all.low_x, edge.from.x), std::min(all.low_y, edge.from.y),
+           std::max(all.high_x, edge.from.x), std::max(all.high_y, edge.from.y)};
+  return all;
+}
+
+/// The box, larger by `by` on every side, in numbers that doubles hold exactly.
+Box wide(const GridBox& box, std::int64_t by = 0) {
+  return {static_cast<double>(box.low_x - by), static_cast<double>(box.low_y - by),
+          static_cast<double>(box.high_x + by), static_cast<double>(box.high_y + by)};
+}
+
 bool come_within(const GridBox& a, const GridBox& b, std::int64_t gap = 0) {
-  return a.low_x - gap <= b.high_x && b.low_x - gap <= a.high_x && a.low_y - gap <= b.high_y &&
-         b.low_y - gap <= a.high_y;
+  return meet(wide(a, gap), wide(b));
 }
 
 bool cross_properly(const GridEdge& a, const GridEdge& b) {
@@ -48,13 +62,13 @@ bool cross_properly(const GridEdge& a, const GridEdge& b) {
 /// Step 2 of docs/design/layout-verify.md: a vertex or a crossing, at (x / w, y / w). Crossings stay below
 /// 2^125, because with coordinates within 2^40 w is below 2^83 and a difference of coordinates below 2^41.
 struct Event {
-  Wide x = 0, y = 0, w = 1;  ///< w > 0
+  Wide x, y, w;  ///< w > 0
 };
 
 Event crossing(const GridEdge& a, const GridEdge& b) {
   const GridPoint along = a.to - a.from, other = b.to - b.from;
-  Wide w = cross(along, other), share = cross(b.from - a.from, other);
-  if (w < 0) w = -w, share = -share;
+  const int up = sign(cross(along, other));
+  const Wide w = up * cross(along, other), share = up * cross(b.from - a.from, other);
   return {a.from.x * w + along.x * share, a.from.y * w + along.y * share, w};
 }
 
@@ -75,8 +89,8 @@ bool in_box(const Event& v, const GridBox& box) {
 /// counter-clockwise side.
 struct Ray {
   GridPoint direction;
-  std::size_t of = 0;
-  bool material = false;
+  std::size_t of;
+  bool material;
 };
 
 bool lower_half(GridPoint d) { return d.y < 0 || (d.y == 0 && d.x < 0); }
@@ -86,17 +100,15 @@ bool before(const Ray& a, const Ray& b) {
   return cross(a.direction, b.direction) > 0;
 }
 
-/// Edges and a tree over their boxes, whose numbers doubles hold exactly. The tree is made when it is first
-/// asked, as that of a part which lies well inside its sheet never is.
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+/// Edges and a tree over their boxes. The tree is made when it is first asked, as that of a part which lies
+/// well inside its sheet never is.
 struct IndexedEdges {
   std::vector<GridEdge> edges;
 
   explicit IndexedEdges(std::vector<GridEdge> all) : edges(std::move(all)) {}
 
-  static Box wide(const GridBox& box, std::int64_t by = 0) {
-    return {static_cast<double>(box.low_x - by), static_cast<double>(box.low_y - by),
-            static_cast<double>(box.high_x + by), static_cast<double>(box.high_y + by)};
-  }
   static std::vector<Box> boxes_of(const std::vector<GridEdge>& edges) {
     std::vector<Box> boxes;
     for (const GridEdge& edge : edges) boxes.push_back(wide(box_of(edge)));
@@ -113,10 +125,10 @@ struct IndexedEdges {
   template <class Visit>
   void visit_right_of(const Event& v, const Visit& visit) const {
     // The event's coordinates are rounded by less than the step that the box is larger.
-    const double x = static_cast<double>(v.x) / static_cast<double>(v.w) - 1;
+    const double x = static_cast<double>(v.x) / static_cast<double>(v.w);
     const double y = static_cast<double>(v.y) / static_cast<double>(v.w);
-    tree().visit([&](const Box& box) { return box.high_x >= x && box.low_y <= y + 1 && box.high_y >= y - 1; },
-                 visit);
+    const Box ray{x - 1, y - 1, kEndless, y + 1};
+    tree().visit([&](const Box& box) { return meet(ray, box); }, visit);
   }
 
  private:
@@ -133,15 +145,12 @@ GridBox exchanged(const GridBox& b) { return {b.low_y, b.low_x, b.high_y, b.high
 
 /// Says whether a line up meets fewer of the edges than a line to the right, as a rule.
 bool are_met_less_upwards(const std::vector<GridEdge>& edges) {
-  if (edges.empty()) return false;
   double across = 0, up = 0;
-  GridBox all = box_of(edges.front());
   for (const GridEdge& edge : edges) {
     const GridBox box = box_of(edge);
     across += static_cast<double>(box.high_x - box.low_x), up += static_cast<double>(box.high_y - box.low_y);
-    all = {std::min(all.low_x, box.low_x), std::min(all.low_y, box.low_y), std::max(all.high_x, box.high_x),
-           std::max(all.high_y, box.high_y)};
   }
+  const GridBox all = box_of(edges);
   return across * static_cast<double>(all.high_y - all.low_y) <
          up * static_cast<double>(all.high_x - all.low_x);
 }
@@ -158,46 +167,49 @@ bool look_around(const IndexedEdges& outline, std::size_t of, const Event& v, st
     const bool may_touch = in_box(v, box_of(edge));
     if (from_above == to_above && !may_touch) return;
     const int at = side(edge, v);
-    if (at == 0 && may_touch) {
+    if (at == 0) {
       const GridPoint along = edge.to - edge.from;
       if (v.x != edge.to.x * v.w || v.y != edge.to.y * v.w) rays.push_back({along, of, true});
       if (v.x != edge.from.x * v.w || v.y != edge.from.y * v.w)
         rays.push_back({{-along.x, -along.y}, of, false});
     }
-    if (from_above != to_above && (at > 0) == to_above && at != 0) inside = !inside;
+    if (from_above != to_above && at == (to_above ? 1 : -1)) inside = !inside;
   });
   return inside;
 }
 
-/// Step 1: one question about several outlines. The first `ins_` of them must hold a disc and the others must
-/// not. Of each outline only the edges that can matter inside the window are kept.
+/// Step 1: one question about several outlines, which must hold a disc or must not, as wanted. Of each
+/// outline only the edges that can matter inside the window are kept.
 class Question {
  public:
   Question(const std::vector<const GridOutline*>& in, const std::vector<const GridOutline*>& out)
-      : ins_(in.size()), window_(in[0]->box) {
+      : window_(in[0]->box) {
     for (const GridOutline* outline : in) {
+      if (!come_within(window_, outline->box)) return;
       window_.low_x = std::max(window_.low_x, outline->box.low_x);
       window_.low_y = std::max(window_.low_y, outline->box.low_y);
       window_.high_x = std::min(window_.high_x, outline->box.high_x);
       window_.high_y = std::min(window_.high_y, outline->box.high_y);
     }
-    if (!has_room()) return;
+    wanted_.assign(in.size(), true);
+    wanted_.resize(in.size() + out.size(), false);
     // The rays to the right of a comb with level teeth would meet all of them, but those of the comb laid
     // down meet a few.
     bool lay_down = false;
     for (const auto* list : {&in, &out})
-      for (const GridOutline* outline : *list) lay_down = lay_down || are_met_less_upwards(outline->edges);
+      for (const GridOutline* outline : *list)
+        if (are_met_less_upwards(outline->edges)) lay_down = true;
     if (lay_down) window_ = exchanged(window_);
+    // Edges to the right of the window stay too, because a ray to the right counts them to tell whether an
+    // event lies inside.
+    Box room = wide(window_);
+    room.high_x = kEndless;
     for (const auto* list : {&in, &out}) {
       for (const GridOutline* outline : *list) {
         std::vector<GridEdge> kept;
-        // Edges to the right of the window stay too, because a ray to the right counts them to tell whether
-        // an event lies inside.
         for (const GridEdge& as_placed : outline->edges) {
           const GridEdge edge = lay_down ? exchanged(as_placed) : as_placed;
-          const GridBox box = box_of(edge);
-          if (box.high_x >= window_.low_x && box.low_y <= window_.high_y && box.high_y >= window_.low_y)
-            kept.push_back(edge);
+          if (meet(room, wide(box_of(edge)))) kept.push_back(edge);
         }
         edges_.emplace_back(std::move(kept));
       }
@@ -210,7 +222,6 @@ class Question {
   }
 
   [[nodiscard]] bool answer() {
-    if (!has_room()) return false;
     for (const IndexedEdges& outline : edges_)
       for (const GridEdge& edge : outline.edges)
         if (has_wedge({edge.from.x, edge.from.y, 1})) return true;
@@ -221,10 +232,6 @@ class Question {
   }
 
  private:
-  [[nodiscard]] bool has_room() const {
-    return window_.low_x < window_.high_x && window_.low_y < window_.high_y;
-  }
-
   bool has_wedge_at_crossing(const IndexedEdges& first, const IndexedEdges& second) {
     bool found = false;
     for (const GridEdge& edge : first.edges) {
@@ -232,8 +239,7 @@ class Question {
       if (!come_within(box_of(edge), window_)) continue;
       second.visit_near(box_of(edge), 0, [&](std::size_t k) {
         const GridEdge& other = second.edges[k];
-        found = found || (come_within(box_of(other), window_) && cross_properly(edge, other) &&
-                          has_wedge(crossing(edge, other)));
+        found = found || (cross_properly(edge, other) && has_wedge(crossing(edge, other)));
       });
       if (found) return true;
     }
@@ -249,7 +255,7 @@ class Question {
     for (const std::size_t k : order_) {
       const std::size_t rays_before = rays_.size();
       material_[k] = look_around(edges_[k], k, v, rays_);
-      const bool elsewhere = rays_.size() == rays_before && material_[k] != (k < ins_);
+      const bool elsewhere = rays_.size() == rays_before && material_[k] != wanted_[k];
       if (elsewhere) return false;
     }
     std::sort(rays_.begin(), rays_.end(), before);
@@ -259,24 +265,18 @@ class Question {
       ask();
       material_[rays_[i].of] = rays_[i].material;
       const bool last_of_direction = i + 1 == rays_.size() || before(rays_[i], rays_[i + 1]);
-      if (last_of_direction && all_as_wanted()) return true;
+      if (last_of_direction && material_ == wanted_) return true;
     }
     return false;
   }
 
-  [[nodiscard]] bool all_as_wanted() const {
-    for (std::size_t k = 0; k < material_.size(); ++k)
-      if (material_[k] != (k < ins_)) return false;
-    return true;
-  }
-
-  std::size_t ins_;
+  std::vector<bool> wanted_;  ///< of each outline
   GridBox window_;
   std::vector<IndexedEdges> edges_;
   /// The outlines, that of the fewest edges first: it is the cheapest to ask, and often the answer.
   std::vector<std::size_t> order_;
   std::vector<Ray> rays_;
-  std::vector<bool> material_;
+  std::vector<bool> material_;  ///< of each outline, at the event or in a wedge
 };
 
 /// Step 5: says whether p lies less than gap from the edge. Every number stays below 2^84 before it is
@@ -333,9 +333,8 @@ std::optional<std::string> fault_of_edges(const std::vector<GridEdge>& edges) {
   std::vector<std::size_t> order(edges.size()), place(edges.size()), before;
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto low = [&](std::size_t i) { return box_of(edges[i]).low_x; };
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t i, std::size_t j) { return low(i) != low(j) ? low(i) < low(j) : i < j; });
-  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = k;
+  std::ranges::stable_sort(order, {}, low);
+  for (std::size_t k = 0; const std::size_t i : order) place[i] = k++;
   const IndexedEdges indexed(edges);
   const std::size_t most = limits::most_meeting_boxes(edges.size());
   std::size_t seen = 0;
@@ -361,8 +360,7 @@ std::optional<std::string> fault_of_edges(const std::vector<GridEdge>& edges) {
 std::optional<std::string> fault_of_points(const std::vector<GridEdge>& edges) {
   std::vector<GridPoint> points;
   for (const GridEdge& edge : edges) points.push_back(edge.from);
-  const auto less = [](GridPoint a, GridPoint b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
-  std::sort(points.begin(), points.end(), less);
+  std::ranges::sort(points, {}, [](GridPoint p) { return std::pair{p.x, p.y}; });
   const auto twice = std::adjacent_find(points.begin(), points.end());
   if (twice == points.end()) return std::nullopt;
   return fmt::format("the point {} is there twice", place(*twice));
@@ -394,7 +392,8 @@ class Loops {
     edges_.visit_right_of({p.x, p.y, 1}, [&](std::size_t k) {
       const GridEdge& edge = edges_.edges[k];
       const bool rises = edge.to.y > p.y;
-      if (loop_of_[k] != loop && (edge.from.y > p.y) != rises && (turn(edge.from, edge.to, p) > 0) == rises)
+      if (loop_of_[k] != loop && (edge.from.y > p.y) != rises &&
+          turn(edge.from, edge.to, p) == (rises ? 1 : -1))
         crossed.push_back(loop_of_[k]);
     });
     std::sort(crossed.begin(), crossed.end());
@@ -418,14 +417,10 @@ class Loops {
 GridOutline make_outline(std::vector<GridLoop> loops) {
   GridOutline outline;
   for (std::size_t l = 0; l < loops.size(); ++l) {
-    if ((twice_area(loops[l]) > 0) != (l == 0)) std::reverse(loops[l].begin(), loops[l].end());
+    if (sign(twice_area(loops[l])) != (l == 0 ? 1 : -1)) std::reverse(loops[l].begin(), loops[l].end());
     append_edges(loops[l], outline.edges);
   }
-  outline.box = box_of(outline.edges.front());
-  for (const GridEdge& edge : outline.edges) {
-    outline.box = {std::min(outline.box.low_x, edge.from.x), std::min(outline.box.low_y, edge.from.y),
-                   std::max(outline.box.high_x, edge.from.x), std::max(outline.box.high_y, edge.from.y)};
-  }
+  outline.box = box_of(outline.edges);
   return outline;
 }
 
@@ -459,11 +454,10 @@ bool edges_nearer_than(const GridOutline& a, const GridOutline& b, std::int64_t 
   const IndexedEdges others(std::move(near));
   bool found = false;
   for (const GridEdge& edge : a.edges) {
-    if (!come_within(box_of(edge), b.box, gap)) continue;
+    // Each end of an edge is the beginning of another, which is looked at too.
     others.visit_near(box_of(edge), gap, [&](std::size_t k) {
       const GridEdge& other = others.edges[k];
-      found = found || nearer_than(edge.from, other, gap) || nearer_than(edge.to, other, gap) ||
-              nearer_than(other.from, edge, gap) || nearer_than(other.to, edge, gap) ||
+      found = found || nearer_than(edge.from, other, gap) || nearer_than(other.from, edge, gap) ||
               cross_properly(edge, other);
     });
     if (found) return true;
