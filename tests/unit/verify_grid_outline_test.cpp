@@ -96,6 +96,9 @@ TEST(VerifyGridOutline, APointOnAnEdgeIsTooNearAndDoesNotCross) {
       EXPECT_EQ(said({other, square}),
                 "the point (5, 0) mm is less than 3 steps of 2^-20 mm from the edge (0, 0) mm to (10, 0) mm");
     }
+  // The edge that is touched begins farther to the right than the one that touches it.
+  EXPECT_EQ(said({square, {{10 * kMm, 5 * kMm}, {4 * kMm, 4 * kMm}, {4 * kMm, 6 * kMm}}}),
+            "the point (10, 5) mm is less than 3 steps of 2^-20 mm from the edge (10, 0) mm to (10, 10) mm");
   EXPECT_EQ(said({{{0, 0}, {10 * kMm, 10 * kMm}, {10 * kMm, 0}, {0, 10 * kMm}}}),
             "the edges from (10, 0) mm and (0, 0) mm cross");
 }
@@ -147,6 +150,8 @@ TEST(VerifyGridOutline, HolesLieInTheOuterLoopAndInNoOther) {
        {GridLoop{{100, 50}, {50, 100}, {0, 50}, {50, 0}},
         GridLoop{{0, 0}, {100, 0}, {100, 50}, {80, 50}, {80, 100}, {0, 100}},
         GridLoop{{0, 0}, {80, 0}, {80, 50}, {100, 50}, {100, 100}, {0, 100}},
+        GridLoop{{0, 0}, {100, 0}, {100, 49}, {80, 49}, {80, 100}, {0, 100}},
+        GridLoop{{0, 0}, {80, 0}, {80, 51}, {100, 51}, {100, 100}, {0, 100}},
         GridLoop{{0, 0}, {100, 0}, {70, 50}, {100, 100}, {0, 100}},
         GridLoop{{0, 0}, {90, 0}, {100, 50}, {90, 20}, {80, 20}, {80, 100}, {0, 100}},
         GridLoop{{0, 0}, {80, 0}, {80, 80}, {90, 80}, {100, 50}, {90, 100}, {0, 100}}})
@@ -212,6 +217,13 @@ TEST(VerifyGridOutline, DirectionsThatAreNearlyOneAreTwo) {
     }
 }
 
+TEST(VerifyGridOutline, AnEdgeThatEndsAStepBeforeAPointDoesNotMeetIt) {
+  const GridOutline corner = make_outline({{{0, 0}, {30, 0}, {30, 30}, {10, 30}, {10, 10}, {0, 10}}});
+  for (const GridLoop& inside : {GridLoop{{11, 10}, {20, 5}, {20, 15}}, GridLoop{{10, 9}, {15, 5}, {5, 5}}})
+    for (int quarters = 0; quarters < 4; ++quarters)
+      EXPECT_FALSE(common({make_outline({inside})}, {corner}, quarters)) << quarters;
+}
+
 TEST(VerifyGridOutline, LargeOutlinesAreExact) {
   // The crossing of the diagonals is no vertex, and lies on the third outline's edge, or a step from it.
   constexpr std::int64_t kFar = std::int64_t{1} << 39;
@@ -269,16 +281,24 @@ GridOutline comb(std::int64_t x, std::int64_t y, int teeth) {
   return make_outline({loop});
 }
 
-TEST(VerifyGridOutline, ACombTakesFewStepsHoweverItLies) {
-  // A ray along the teeth meets one or two of them, and one across meets up to 1,000.
+TEST(VerifyGridOutline, CombsTakeFewStepsHoweverTheyLie) {
+  // A ray along the teeth meets one or two of them, and one across meets up to 500.
   RunControl run;
   run.work_limit = 100'000;
+  const GridOutline left = comb(0, 0, 500), right = comb(10000, 0, 500), around = box(0, 0, 20000, 50000);
   for (int quarters = 0; quarters < 4; ++quarters) {
-    const Outlines combs{comb(0, 0, 500), comb(5, 19995, 500), box(0, 0, 20000, 50000)};
-    const auto touch = stoppable(run, [&] { return common({combs[0]}, {combs[2]}, quarters); });
-    ASSERT_TRUE(touch) << quarters;
-    EXPECT_FALSE(*touch);
+    const auto inside = stoppable(run, [&] { return !common({left}, {around}, quarters); });
+    ASSERT_TRUE(inside) << quarters;
+    EXPECT_TRUE(*inside);
   }
+  // Of combs that touch only what lies where both are is looked at.
+  run.work_limit = 4000;
+  for (int quarters = 0; quarters < 4; ++quarters)
+    for (const Outlines& both : {Outlines{left, right}, Outlines{right, left}}) {
+      const auto overlap = stoppable(run, [&] { return common(both, {}, quarters); });
+      ASSERT_TRUE(overlap) << quarters;
+      EXPECT_FALSE(*overlap);
+    }
 }
 
 }  // namespace

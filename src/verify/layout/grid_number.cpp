@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "verify/number/interval.hpp"
 
@@ -25,7 +26,7 @@ Turned seen_from(GridTurn from, GridTurn d) {
   return {c * x + s * y, c * y - s * x};
 }
 /// Says whether the direction is half a turn or more counter-clockwise from the axis.
-bool second_half(const Turned& v) { return v.across == 0 ? v.along < 0 : v.across < 0; }
+bool second_half(const Turned& v) { return std::pair{sgn(v.across), sgn(v.along)} < std::pair<int, int>{}; }
 bool not_after(const Turned& a, const Turned& b) {
   if (second_half(a) != second_half(b)) return second_half(b);
   return a.along * b.across >= a.across * b.along;

@@ -93,7 +93,7 @@ struct Ray {
   bool material;
 };
 
-bool lower_half(GridPoint d) { return d.y < 0 || (d.y == 0 && d.x < 0); }
+bool lower_half(GridPoint d) { return std::pair{d.y, d.x} < std::pair<std::int64_t, std::int64_t>{}; }
 /// Orders directions counter-clockwise from the positive x axis.
 bool before(const Ray& a, const Ray& b) {
   if (lower_half(a.direction) != lower_half(b.direction)) return lower_half(b.direction);
@@ -225,9 +225,9 @@ class Question {
     for (const IndexedEdges& outline : edges_)
       for (const GridEdge& edge : outline.edges)
         if (has_wedge({edge.from.x, edge.from.y, 1})) return true;
-    for (std::size_t i = 0; i < edges_.size(); ++i)
-      for (std::size_t j = i + 1; j < edges_.size(); ++j)
-        if (has_wedge_at_crossing(edges_[i], edges_[j])) return true;
+    for (auto second = edges_.begin(); second != edges_.end(); ++second)
+      for (auto first = edges_.begin(); first != second; ++first)
+        if (has_wedge_at_crossing(*first, *second)) return true;
     return false;
   }
 
@@ -239,7 +239,8 @@ class Question {
       if (!come_within(box_of(edge), window_)) continue;
       second.visit_near(box_of(edge), 0, [&](std::size_t k) {
         const GridEdge& other = second.edges[k];
-        found = found || (cross_properly(edge, other) && has_wedge(crossing(edge, other)));
+        if (!cross_properly(edge, other)) return;
+        if (has_wedge(crossing(edge, other))) found = true;
       });
       if (found) return true;
     }
