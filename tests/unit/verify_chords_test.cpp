@@ -205,5 +205,95 @@ TEST(VerifyChords, FullTurnsAndArcsOfAFewSteps) {
             "");
 }
 
+TEST(VerifyChords, ChordsThatRunAtTheCentreAreNearestAtTheirEnds) {
+  EXPECT_EQ(said({{{5 * kMm, 0},
+                   {8 * kMm, 6 * kMm},
+                   {4 * kMm, 3 * kMm + 1},
+                   {6 * kMm, 8 * kMm},
+                   {-6 * kMm, 8 * kMm},
+                   {-5 * kMm, 0}}},
+                 {kHalf}, ChordSide::outside, 6),
+            "a chord cuts into an arc (edge 0 of the drawing)");
+  EXPECT_EQ(
+      said(
+          {{{5 * kMm, 0}, {4 * kMm - 4, 3 * kMm - 3}, {kMm, kMm}, {3 * kMm - 3, 4 * kMm - 4}, {-5 * kMm, 0}}},
+          {kHalf}, ChordSide::inside, 3),
+      "a chord is farther from an arc than the tolerance (edge 0 of the drawing)");
+}
+
+TEST(VerifyChords, ChordsTurnAsTheArcDoes) {
+  // They run beneath the circle, and the arc above it.
+  const GridLoop below{{5 * kMm, 0}, {5 * kMm, -5 * kMm - 3}, {-5 * kMm, -5 * kMm - 3}, {-5 * kMm, 0}};
+  EXPECT_EQ(said({below}, {kHalf}, ChordSide::inside, 3),
+            "the chords of an arc do not run around its centre with it (edge 0 of the drawing)");
+  // The ends of an arc of two steps may be anywhere in it.
+  const double two = 2 * kStep;
+  const std::string rounded = line(0, 0, 8, 0) + ", " + arc(8, 0, 8 + two, two, 8, two) + ", " +
+                              line(8 + two, two, 8 + two, 8) + ", " + line(8 + two, 8, 0, 0);
+  EXPECT_EQ(said({{{0, 0}, {8 * kMm - 2, 0}, {8 * kMm + 2, 4}, {8 * kMm + 2, 8 * kMm}}}, {rounded},
+                 ChordSide::outside, 1),
+            "");
+}
+
+TEST(VerifyChords, RadiiThatDifferAreABand) {
+  const std::string wider = arc(5, 0, -5.0005, 0, 0, 0) + ", " + line(-5.0005, 0, 5, 0);
+  const std::int64_t left = -5243404;  // -5.0005 mm
+  EXPECT_EQ(said({{{5 * kMm, 0}, {5 * kMm, 5 * kMm + 3}, {left, 5 * kMm + 3}, {left, 0}}}, {wider},
+                 ChordSide::outside, 3),
+            "a chord cuts into an arc (edge 0 of the drawing)");
+  EXPECT_EQ(said({{{5 * kMm, 0}, {5 * kMm, 5 * kMm + 600}, {left - 3, 5 * kMm + 600}, {left, 0}}}, {wider},
+                 ChordSide::outside, 3),
+            "");
+  EXPECT_EQ(said({{{5 * kMm, 0}, {0, 5 * kMm + 100}, {left, 0}}}, {wider}, ChordSide::inside, 3),
+            "a chord reaches out of an arc (edge 0 of the drawing)");
+  EXPECT_EQ(said({{{5 * kMm, 0}, {0, 5 * kMm - 3}, {left, 0}}}, {wider}, ChordSide::inside, 3), "");
+  // One chord beside a short arc whose ends are not equally far from the centre.
+  const std::string shorter =
+      arc(5, 0, 5.0005, 0.01, 0, 0) + ", " + line(5.0005, 0.01, 0, 0) + ", " + line(0, 0, 5, 0);
+  EXPECT_EQ(said({{{5 * kMm, 0}, {5243404, 10486}, {0, 0}}}, {shorter}, ChordSide::outside, 3), "");
+}
+
+TEST(VerifyChords, OfPointsNearAVertexTheNearestIsItsOwn) {
+  const auto with = [&](const std::vector<GridPoint>& ends) {
+    GridLoop loop{{5 * kMm, 0}, {5 * kMm, 5 * kMm + 3}, {-5 * kMm - 3, 5 * kMm + 3}};
+    loop.insert(loop.end(), ends.begin(), ends.end());
+    return said({loop}, {kHalf}, ChordSide::outside, 3);
+  };
+  EXPECT_EQ(with({{-5 * kMm - 3, 2}, {-5 * kMm, 0}}), "");
+  EXPECT_EQ(with({{-5 * kMm - 3, 2}, {-5 * kMm - 3, -2}}), "") << "of two as near the last one";
+  EXPECT_EQ(with({{-5 * kMm, 0}, {-5 * kMm, -3}}), "no point is where edge 1 of the drawing ends");
+  // The beginning of an arc that comes back is not its end.
+  const double two = 2 * kStep;
+  const std::string around = arc(5, 0, 5, -two, 0, 0) + ", " + line(5, -two, 5, 0);
+  EXPECT_EQ(said({{{5 * kMm, 0},
+                   {5 * kMm, 5 * kMm + 3},
+                   {-5 * kMm - 3, 5 * kMm + 3},
+                   {-5 * kMm - 3, -5 * kMm - 3},
+                   {5 * kMm, -5 * kMm - 3},
+                   {5 * kMm, -2}}},
+                 {around}, ChordSide::outside, 3),
+            "");
+}
+
+TEST(VerifyChords, WhatIsShorterThanEightStepsMayBeGoneButForALargeArc) {
+  // One point stands for both ends of the last edge, which are as many steps to both sides of it.
+  const auto gone = [](int half, const std::string& edge) {
+    const double off = half * kStep;
+    return said(
+        {{{8 * kMm, 8 * kMm}, {0, 16 * kMm}, {0, 0}}},
+        {line(8, 8 + off, 0, 16) + ", " + line(0, 16, 0, 0) + ", " + line(0, 0, 8, 8 - off) + ", " + edge},
+        ChordSide::outside, 1);
+  };
+  const double two = 2 * kStep, three = 3 * kStep, four = 4 * kStep, large = 400 * kStep;
+  EXPECT_EQ(gone(3, line(8, 8 - three, 8, 8 + three)), "");
+  EXPECT_EQ(gone(3, arc(8, 8 - three, 8, 8 + three, 8 - four, 8)), "") << "of a radius of five steps";
+  EXPECT_EQ(gone(2, arc(8, 8 - two, 8, 8 + two, 8 - large, 8)), "") << "ends that are near each other";
+  EXPECT_EQ(gone(3, arc(8, 8 - three, 8, 8 + three, 8 - large, 8)),
+            "the arc of edge 3 of the drawing is missing");
+  EXPECT_EQ(gone(3, arc(8, 8 - three, 8, 8 + three, 8 + large, 8)),
+            "the arc of edge 3 of the drawing is missing")
+      << "nearly a full turn";
+}
+
 }  // namespace
 }  // namespace lekalo::verify::verify_chords_test

@@ -219,7 +219,8 @@ TEST(VerifyGridOutline, DirectionsThatAreNearlyOneAreTwo) {
 
 TEST(VerifyGridOutline, AnEdgeThatEndsAStepBeforeAPointDoesNotMeetIt) {
   const GridOutline corner = make_outline({{{0, 0}, {30, 0}, {30, 30}, {10, 30}, {10, 10}, {0, 10}}});
-  for (const GridLoop& inside : {GridLoop{{11, 10}, {20, 5}, {20, 15}}, GridLoop{{10, 9}, {15, 5}, {5, 5}}})
+  for (const GridLoop& inside :
+       {GridLoop{{11, 10}, {5, 2}, {25, 2}, {25, 12}}, GridLoop{{10, 9}, {8, 2}, {25, 2}, {25, 15}}})
     for (int quarters = 0; quarters < 4; ++quarters)
       EXPECT_FALSE(common({make_outline({inside})}, {corner}, quarters)) << quarters;
 }

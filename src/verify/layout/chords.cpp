@@ -27,9 +27,9 @@ Vec in_mm(GridPoint p) { return vector(static_cast<double>(p.x) * kStep, static_
 std::vector<DrawnEdge> edges_of(const Shape& shape, std::size_t contour) {
   std::vector<DrawnEdge> edges;
   for (std::size_t k = shape.contour_starts[contour]; k < shape.contour_starts[contour + 1]; ++k) {
-    if (!shape.sides[k].arc && !shape.sides[k].written) continue;
+    if (!shape.sides[k].written) continue;
     const WrittenSide& e = shape.exact[k];
-    edges.push_back({e.arc, e.ccw, e.arc && shape.sides[k].sweep == Sweep::full,
+    edges.push_back({e.arc, e.ccw, shape.sides[k].sweep == Sweep::full,
                      vector(approximate(e.from_x), approximate(e.from_y)),
                      vector(approximate(e.to_x), approximate(e.to_y)),
                      e.arc ? vector(approximate(e.centre_x), approximate(e.centre_y)) : Vec{}});
@@ -38,7 +38,7 @@ std::vector<DrawnEdge> edges_of(const Shape& shape, std::size_t contour) {
 }
 
 /// Encloses the distance of c from the segment. Where it is open which point of the segment is nearest, the
-/// upper end is the distance from the nearer end of the segment.
+/// upper end is the distance from the nearer end of the segment; its line is never farther.
 Span distance(const Vec& c, const Vec& from, const Vec& to) {
   const Vec along = to - from;
   const Span ends{std::min(length(from - c).low, length(to - c).low),
@@ -47,7 +47,7 @@ Span distance(const Vec& c, const Vec& from, const Vec& to) {
   if (before.high <= 0 || after.high <= 0) return ends;
   const Span line = absolute(cross(along, c - from)) / length(along);
   if (before.low > 0 && after.low > 0) return line;
-  return {std::min(line.low, ends.low), ends.high};
+  return {line.low, ends.high};
 }
 
 double angle(const Vec& a, const Vec& b) { return std::atan2(cross(a, b).high, dot(a, b).high); }
@@ -71,10 +71,8 @@ std::optional<std::string> fault_of_arc(const std::vector<Vec>& chain, const Dra
       if (!(chord.low >= nearest_allowed)) return "a chord cuts into an arc";
       if (!(farthest <= most + reach)) return "a chord is farther from an arc than the tolerance";
     } else {
-      const double from_end = at_first ? first.high + kCorner : std::max(least - 2 * kStep, 2 * kStep),
-                   to_end = at_last ? last.high + kCorner : std::max(least - 2 * kStep, 2 * kStep);
-      if (!(length(chain[i] - arc.centre).high <= from_end &&
-            length(chain[i + 1] - arc.centre).high <= to_end))
+      // The ends are no farther from those of the arc than they may be.
+      if (!at_last && !(length(chain[i + 1] - arc.centre).high <= std::max(least - 2 * kStep, 2 * kStep)))
         return "a chord reaches out of an arc";
       if (!(chord.high >= least - reach)) return "a chord is farther from an arc than the tolerance";
     }
