@@ -297,6 +297,19 @@ TEST(VerifyLayout, AnglesMirrorsGrainsCopies) {
   EXPECT_EQ(turned(-30), "");
 }
 
+TEST(VerifyLayout, AGrainThatOneOfTheTwoHasNotAllowsEveryAngle) {
+  for (const bool of_part : {false, true}) {
+    Json layout = empty_layout();
+    Json& part = add_part(layout, "a", kSquare);
+    if (of_part)
+      part["grain"] = {{"deg", 0}};
+    else
+      layout["stocks"][0]["grain_deg"] = 0;
+    place(layout, "a", 50, 50, 37);
+    EXPECT_EQ(verdict(layout), "");
+  }
+}
+
 TEST(VerifyLayout, TheOrderOfViolations) {
   Json layout = empty_layout();
   layout["stocks"][0]["count"] = 2;

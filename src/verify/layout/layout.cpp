@@ -113,8 +113,8 @@ class SheetChecker {
 
   /// Checks every two parts of one sheet whose boxes come within their gap.
   void check_pairs(std::vector<Placed>& pieces) {
-    std::sort(pieces.begin(), pieces.end(), [](const Placed& p, const Placed& q) {
-      return std::pair{p.outline.box.low_x, p.piece->id} < std::pair{q.outline.box.low_x, q.piece->id};
+    std::ranges::sort(pieces, {}, [](const Placed& p) {
+      return std::pair{p.outline.box.low_x, p.piece->id};
     });
     std::int64_t largest = 0;
     for (const Placed& piece : pieces) largest = std::max(largest, piece.part->gap);
@@ -152,7 +152,7 @@ std::vector<Found> found_on_sheets(const WrittenLayout& layout) {
             [&](std::size_t i) { found[i] = SheetChecker(layout).check(sheets[i]); });
   std::vector<Found> all;
   for (const std::vector<Found>& one : found) all.insert(all.end(), one.begin(), one.end());
-  std::sort(all.begin(), all.end(), [](const Found& p, const Found& q) { return p.key() < q.key(); });
+  std::ranges::sort(all, {}, &Found::key);
   return all;
 }
 

@@ -173,10 +173,9 @@ WrittenOutline read_outline(Json value, const std::string& path, std::string& co
   return outline;
 }
 
-int read_quality(Members& members, bool best_is_a_word) {
+int read_quality(Members& members) {
   const Json value = members.get("quality");
-  if (best_is_a_word && value.is_string() && json_text(value) == "best")
-    return std::numeric_limits<int>::max();
+  if (value.is_string() && json_text(value) == "best") return std::numeric_limits<int>::max();
   return static_cast<int>(members.whole("quality", 0, limits::kMostLevel, 0));
 }
 
@@ -273,12 +272,12 @@ WrittenPart read_part(Json item, const std::string& path, std::string& complaint
   part.id = members.id();
   members.optional_text("name");
   part.outline = read_outline(members.get("outline"), members.name("outline"), complaint, ChordSide::outside);
-  part.quality = read_quality(members, true);
+  part.quality = read_quality(members);
   members.each("areas", [&](Json value, const std::string& at) {
     Members area(value, at, complaint, {"quality", "outline"});
     if (!area.has("quality")) area.complain(fmt::format("field {} is missing", area.name("quality")));
-    part.areas.push_back({read_quality(area, true), read_outline(area.get("outline"), area.name("outline"),
-                                                                 complaint, ChordSide::outside)});
+    part.areas.push_back({read_quality(area), read_outline(area.get("outline"), area.name("outline"),
+                                                           complaint, ChordSide::outside)});
   });
   members.each("marks", [&](Json value, const std::string& at) {
     part.marks.push_back(read_mark(value, at, complaint));
@@ -447,9 +446,7 @@ void read_placements(Members& root, const Index& parts, const Index& stocks, Wri
     piece.locked = members.flag("locked");
     layout.placements.push_back(piece);
   });
-  if (root.has("next_id") &&
-      root.whole("next_id", static_cast<std::int64_t>(next), limits::kMostId + 1, 0) == 0)
-    root.complain(fmt::format("field next_id is not above the ids of all placements"));
+  (void)root.whole("next_id", static_cast<std::int64_t>(next), limits::kMostId + 1, 0);
 }
 
 /// Returns the place of the first outline without a polygon, or nothing.
