@@ -90,8 +90,8 @@ TEST(VerifyLayoutReader, WholeNumbersUpToTheirBounds) {
   EXPECT_EQ(demand("999999999.99999999999"), "1000000000") << "as doubles are read";
   EXPECT_EQ(demand("0.00000000000000000000000001e26"), "1");
   EXPECT_EQ(demand("1e-400"), "0") << "as doubles are read";
-  for (const char* written :
-       {"-1", "1000000001", "1e10", "12.5", "-1.0", "1000000001.0", "1e30", "1e19", "-0.5", "true", "\"1\""})
+  for (const char* written : {"-1", "1000000001", "1e10", "12.5", "-1.0", "1000000001.0", "1e30", "1e19",
+                              "-0.5", "-0.99999999999999999999", "true", "\"1\""})
     EXPECT_NE(demand(written).find("not a whole number from 0 to 1000000000"), std::string::npos) << written;
 }
 
@@ -120,6 +120,8 @@ TEST(VerifyLayoutReader, NumbersAndKindsUpToTheirBounds) {
           {"/placements/0/c", 1, "beside c and s"},
           {"/placements/0/s", 0, "beside c and s"},
           {"/next_id", 8, ""},
+          {"/next_id", std::int64_t{1} << 53, ""},
+          {"/next_id", (std::int64_t{1} << 53) + 1, "not a whole number"},
           {"/next_id", 7, "field next_id is 7, not a whole number from 8"}});
 }
 
