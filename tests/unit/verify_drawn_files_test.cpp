@@ -99,6 +99,7 @@ TEST(VerifyDrawnDxf, TheFileSaysItsUnitAndShowsItsLayers) {
                      entities);
   };
   EXPECT_EQ(table("0 LAYER 2 A 70 0 62 7"), "M!: L 1,2 3,5\n");
+  EXPECT_EQ(table("0 LAYER 2 -A 70 0 62 7"), "M!: L 1,2 3,5\n") << "a name is no colour";
   EXPECT_EQ(table("0 LTYPE 2 A 70 1 62 -7"), "M!: L 1,2 3,5\n");
   EXPECT_NE(table("0 LAYER 2 A 70 1 62 7").find("a layer is not shown"), std::string::npos);
   EXPECT_NE(table("0 LAYER 2 A 70 0 62 -7").find("a layer is not shown"), std::string::npos);
@@ -196,6 +197,11 @@ TEST(VerifyDrawnSvg, OtherElementsAndAttributesAreRefused) {
   refused("<line x1=\"1/>", "attributes that cannot be read");
   refused("<g inkscape:label=\"X\"></g>", "a group that is no layer");
   refused("<g>", "a group that is no layer");
+  refused("<path d=\"m0 0L1 1L1 0Z\"/>", "a path that does not begin with M");
+  refused("<path d=\"M0 0 l1 1L1 0Z\"/>", "a path with other words than M, L, A and a Z at its end");
+  refused("<path d=\"M0 0L1 1 2 2L1 0Z\"/>", "a path with other words than M, L, A and a Z at its end");
+  refused("<path d=\"M0 0L1 1L1 0Z5\"/>", "a path with other words than M, L, A and a Z at its end");
+  refused("<path d=\"M0 0L1 1L1 xZ\"/>", "path data that cannot be read");
 }
 
 TEST(VerifyDrawnSvg, ThePageIsAsLargeAsItsView) {

@@ -141,9 +141,9 @@ class DxfReader {
     const bool polyline = entity_ == "LWPOLYLINE";
     if (polyline && group.code == 10)
       vertices_.push_back({{*number, 0}, 0});
-    else if (polyline && group.code == 20 && !vertices_.empty())
+    else if (group.code == 20 && !vertices_.empty())
       vertices_.back().at.y = *number;
-    else if (polyline && group.code == 42 && !vertices_.empty())
+    else if (group.code == 42 && !vertices_.empty())
       vertices_.back().bulge = *number;
     else if (!polyline && (group.code == 30 || group.code == 31) && *number == 0)
       return;

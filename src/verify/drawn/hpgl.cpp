@@ -53,7 +53,7 @@ class HpglReader {
                            values = word.substr(std::min<std::size_t>(2, word.size()));
     if (pen_ == 0 && begun_) complain(word);
     if (kind == "SP") {
-      pen_ = values.size() == 1 && values[0] >= '0' && values[0] <= '7' ? values[0] - '0' : -1;
+      pen_ = values.size() == 1 && values[0] <= '7' ? values[0] - '0' : -1;
       if (pen_ < 0) complain(word);
       begun_ = true;
     } else if (kind == "PU") {
@@ -82,7 +82,7 @@ class HpglReader {
 
   std::vector<Place> read_places(std::string_view values) {
     std::vector<double> numbers;
-    while (!values.empty() && complaint_.empty()) {
+    while (!values.empty()) {
       const std::size_t comma = std::min(values.find(','), values.size());
       const std::optional<double> number = double_of_text(values.substr(0, comma));
       if (!number || *number != std::nearbyint(*number)) complain(values.substr(0, comma));

@@ -23,9 +23,9 @@ class Words {
     while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == ',')) rest_.remove_prefix(1);
     return rest_.empty();
   }
-  /// Returns the letter that comes next, or 0.
+  /// Returns the character that comes next, or 0.
   char letter() {
-    if (done() || rest_.front() < 'A' || rest_.front() > 'Z') return 0;
+    if (done()) return 0;
     const char c = rest_.front();
     rest_.remove_prefix(1);
     return c;
@@ -193,7 +193,7 @@ class SvgReader {
       drawn.edges.push_back(edge);
       at = edge.to;
     }
-    if (!words.fine() || !drawn.closed) return complain("path data that cannot be read");
+    if (!drawn.closed) return complain("path data that cannot be read");
     lines_.push_back(std::move(drawn));
   }
 
