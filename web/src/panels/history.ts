@@ -6,7 +6,9 @@ import { t } from '../i18n';
 import { inWords, type Entry } from './history_words';
 
 export function history(editor: Editor): HTMLElement {
+  if (editor.loading) return h('p', { class: 'note', role: 'status' }, t('loading'));
   const list = h('ol', { class: 'list', reversed: true });
+  if (editor.layoutId === 0) return list;
   const nameOf = (which: number | string): string => {
     const part = typeof which === 'string' ? editor.model.parts.get(which) : editor.model.document.parts?.[which];
     return part?.name ?? part?.id ?? String(which);
