@@ -1,22 +1,24 @@
 // The limits of the checker's numbers, each from both sides: where a comparison in src/verify/number could be
 // its neighbour, one of these cases tells the two apart.
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <mpfr.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <string>
 #include <string_view>
 
 #include "lekalo/base/random.hpp"
+#include "lekalo/verify/memory.hpp"
 #include "verify/number/exact.hpp"
 #include "verify/number/interval.hpp"
 #include "verify/number/span.hpp"
 
 namespace lekalo::verify::verify_numbers_test {
 namespace {
-
 
 Decimal decimal(std::string_view text) { return *parse_decimal(text); }
 Interval interval(std::string_view text, Precision precision = 200) { return {decimal(text), precision}; }
@@ -64,6 +66,14 @@ TEST(VerifyNumbers, NumbersHave400PlacesAnd800DigitsAndNoMore) {
   EXPECT_EQ(decimal_rule(), "a decimal number of at most 800 digits, 0 or between 1e-400 and 1e400");
 }
 
+/// An exponent of more than a million was once read as a million, whatever the decimals before it were.
+TEST(VerifyNumbers, ALongExponentIsCountedAgainstAsManyDecimals) {
+  const std::string zeros(1'000'001, '0');
+  EXPECT_EQ(compare(decimal("0." + zeros + "1e1000003"), decimal("10")), 0);
+  EXPECT_EQ(compare(decimal("1" + zeros + "e-1000002"), decimal("0.1")), 0);
+  EXPECT_FALSE(parse_decimal("0." + zeros + "1e1000000000000000000000"));
+}
+
 TEST(VerifyNumbers, AnExcerptIsShortAndPrints) {
   const std::string forty(40, 'x');
   EXPECT_EQ(excerpt(forty), forty);
@@ -87,6 +97,52 @@ TEST(VerifyNumbers, DecimalsBecomeIntegersFractionsAndDoubles) {
   EXPECT_EQ(digits_of(Integer(7)), 1);
   EXPECT_EQ(bits_of(Integer(8)), 4);
   EXPECT_EQ(bits_of(Integer(0)), 1);
+}
+
+TEST(VerifyNumbers, ADoubleIsADecimalExactly) {
+  const auto same = [](double value, std::string_view text) {
+    return compare(exactly(value), decimal(text)) == 0;
+  };
+  EXPECT_TRUE(same(0.1, "0.1000000000000000055511151231257827021181583404541015625"));
+  EXPECT_TRUE(same(-0.75, "-0.75"));
+  EXPECT_TRUE(same(3, "3"));
+  EXPECT_TRUE(same(std::ldexp(1, 52), "4503599627370496")) << "the last one before whole steps of two";
+  EXPECT_TRUE(same(std::ldexp(1, 53) - 1, "9007199254740991"));
+  EXPECT_TRUE(same(std::ldexp(1, 60), "1152921504606846976"));
+  EXPECT_TRUE(same(-std::ldexp(1, 70), "-1180591620717411303424"));
+  EXPECT_TRUE(exactly(0).digits == 0);
+  EXPECT_EQ(exactly(0).exponent, 0);
+}
+
+TEST(VerifyNumbers, SmallDecimalsHave18DigitsAnd22Places) {
+  const auto told = [](const Decimal& value) {
+    const auto few = small(value);
+    return few ? fmt::format("{} / {:g}", few->digits, few->power) : "none";
+  };
+  EXPECT_EQ(told({5, 0}), "5 / 1");
+  EXPECT_EQ(told({-5, 2}), "-500 / 1");
+  EXPECT_EQ(told({5, -22}), "5 / 1e+22");
+  EXPECT_EQ(told({5, -23}), "none");
+  const Integer most = power_of_ten(18);
+  EXPECT_EQ(told({most - 1, -1}), "999999999999999999 / 10");
+  EXPECT_EQ(told({1 - most, -1}), "-999999999999999999 / 10");
+  EXPECT_EQ(told({most, -1}), "none");
+  EXPECT_EQ(told({-most, -1}), "none");
+  EXPECT_EQ(told({most / 10 - 1, 1}), "999999999999999990 / 1");
+  EXPECT_EQ(told({most / 10, 1}), "none");
+  EXPECT_EQ(told({1 - most / 10, 1}), "-999999999999999990 / 1");
+  EXPECT_EQ(told({-most / 10, 1}), "none");
+  const long whole = 1L << 53;
+  EXPECT_TRUE((SmallDecimal{whole, 1}.is_double() && SmallDecimal{-whole, 1}.is_double()));
+  EXPECT_FALSE((SmallDecimal{whole + 1, 1}.is_double() || SmallDecimal{-whole - 1, 1}.is_double()));
+}
+
+TEST(VerifyNumbers, TheNearestDoubleIsRoundedOnceAndMayBeInfinite) {
+  EXPECT_EQ(approximate(decimal("9654823815.2815238")), 9654823815.2815238)
+      << "17 digits would be rounded twice";
+  EXPECT_EQ(approximate({1, 400}), kInfinity);
+  EXPECT_EQ(approximate({-1, 400}), -kInfinity);
+  EXPECT_EQ(approximate({1, -400}), 0);
 }
 
 TEST(VerifyNumbers, DifferencesWithZeroKeepTheOtherNumber) {
@@ -202,6 +258,36 @@ TEST(VerifyNumbers, TurnsOfAnglesBesideZeroAreWide) {
   EXPECT_EQ(none.cosine.low_double(), 1);
 }
 
+TEST(VerifyNumbers, TurnsByQuartersAreExact) {
+  struct Quarter {
+    int degrees, cosine, sine;
+  };
+  for (const auto& [degrees, cosine, sine] :
+       {Quarter{0, 1, 0}, Quarter{90, 0, 1}, Quarter{180, -1, 0}, Quarter{270, 0, -1}, Quarter{360, 1, 0},
+        Quarter{450, 0, 1}, Quarter{-90, 0, -1}, Quarter{-180, -1, 0}, Quarter{-270, 0, 1},
+        Quarter{-360, 1, 0}}) {
+    const Turn turn = turn_by_degrees(degrees);
+    EXPECT_TRUE(certainly_zero(turn.cosine - Interval(Integer(cosine), 64))) << degrees;
+    EXPECT_TRUE(certainly_zero(turn.sine - Interval(Integer(sine), 64))) << degrees;
+  }
+}
+
+/// The digits of a large angle before its point cost none of those behind it.
+TEST(VerifyNumbers, OtherTurnsInDegreesAreNarrowWhateverTheAngle) {
+  const Interval least(decimal("1e-45"), 200);
+  for (const Fraction& turns : {Fraction(0), Fraction(1), Fraction(power_of_ten(40))}) {
+    const Turn turn = turn_by_degrees(30 + 360 * turns);
+    EXPECT_LE(turn.sine.low_double(), 0.5);
+    EXPECT_GE(turn.sine.high_double(), 0.5);
+    EXPECT_LE(turn.cosine.low_double(), std::sqrt(0.75));
+    EXPECT_GE(turn.cosine.high_double(), std::sqrt(0.75));
+    EXPECT_TRUE(certainly_negative(turn.sine - interval("0.5") - least));
+    EXPECT_TRUE(certainly_positive(turn.sine - interval("0.5") + least));
+  }
+  EXPECT_FALSE(certainly_zero(turn_by_degrees(45).sine - turn_by_degrees(0).sine));
+  EXPECT_EQ(turn_by_degrees(Fraction(1, 7)).sine.precision(), 160) << "a small angle costs nothing";
+}
+
 /// Rounded to 54 bits first, one in four would be rounded twice.
 TEST(VerifyNumbers, ARoundedTurnIsTheNearestDouble) {
   Random random(1);
@@ -264,6 +350,30 @@ TEST(VerifyNumbers, AnIntervalThatWasMovedFromCanBeUsedAgain) {
   EXPECT_EQ(second.low_double(), 2);
   std::swap(first, second);
   EXPECT_EQ(first.high_double(), 2);
+}
+
+TEST(VerifyNumbers, NumbersAreMadeOnWhereTheyMayThrow) {
+  void* (*make)(std::size_t) = nullptr;
+  void* (*resize)(void*, std::size_t, std::size_t) = nullptr;
+  void (*release)(void*, std::size_t) = nullptr;
+  mp_get_memory_functions(&make, &resize, &release);
+  let_numbers_throw_bad_alloc();
+  EXPECT_NO_THROW({
+    Integer grown = power_of_ten(100);
+    grown *= power_of_ten(1000);
+    EXPECT_EQ(digits_of(grown), 1101);
+  });
+  mp_set_memory_functions(make, resize, release);
+}
+
+TEST(VerifyNumbers, ASpanIsZeroAndTheNextDoublesAreItsNeighbours) {
+  EXPECT_EQ(Span{}.low, 0);
+  EXPECT_EQ(Span{}.high, 0);
+  for (const double value : {0.0, -0.0, 1.0, -1.0, 5e-324, -5e-324, std::numeric_limits<double>::max(),
+                             std::numeric_limits<double>::lowest(), -kInfinity, kInfinity}) {
+    EXPECT_EQ(step_up(value), std::nextafter(value, kInfinity)) << value;
+    EXPECT_EQ(step_down(value), std::nextafter(value, -kInfinity)) << value;
+  }
 }
 
 TEST(VerifyNumbers, SpansHoldTheProductsOfEverySign) {

@@ -11,6 +11,8 @@
 #include "verify/read/contour.hpp"
 #include "verify/read/fields.hpp"
 #include "verify/read/json.hpp"
+#include "verify/read/known_fields.hpp"
+#include "verify/read/text_rows.hpp"
 
 namespace lekalo::verify::verify_readers_test {
 namespace {
@@ -75,6 +77,8 @@ TEST(VerifyReaders, NothingIsReadBeyondTheDocument) {
   EXPECT_EQ(cut("{\"a\":1}}", 6), "refused");
   EXPECT_EQ(cut("1,2", 1), "1");
   EXPECT_EQ(cut(" \n 7\n\n5", 5), "7");
+  EXPECT_EQ(refusal(std::string_view("[1]]").substr(0, 2)), "j:1: not JSON: a list is not closed");
+  EXPECT_EQ(refusal(std::string_view("\"ab\"").substr(0, 3)), "j:1: not JSON: a text is not closed");
 }
 
 TEST(VerifyReaders, NumbersHaveTheGrammarOfJson) {
@@ -191,6 +195,51 @@ TEST(VerifyReaders, TheFirstComplaintIsKept) {
   EXPECT_EQ(complaint, "field here.n is missing");
 }
 
+/// A complaint of words that nobody knows, made after `earlier`.
+std::string complaint_of(void (*refuse)(Json, std::string&), const std::string& json,
+                         std::string earlier = "") {
+  refuse(*parse_json(json, "j"), earlier);
+  return earlier;
+}
+
+TEST(VerifyReaders, WordsOfARegionFileAreKnown) {
+  const auto complaint = [](const std::string& json) { return complaint_of(refuse_unknown_words, json); };
+  EXPECT_EQ(complaint(R"({"outer": [{"line": {"from": [1], "to": [2]}}], "name": "a", "date": 5})"), "");
+  EXPECT_EQ(complaint(R"({"pieces": [{"outer": [], "holes": [[{"arc": {"ccw": true}}]], "islands": []}]})"),
+            "");
+  EXPECT_EQ(complaint(R"({"outlet": []})"), "field outlet is not one of a region file");
+  EXPECT_EQ(complaint(R"({"outlet": {}})"), "field outlet is not one of a region file");
+  EXPECT_EQ(complaint(R"({"outer": [{"line": {}}, {"lime": {}}]})"),
+            "field outer[1].lime is not one of a region file");
+  EXPECT_EQ(complaint(R"({"outer": {"line": {"from": 1, "from": 2}}})"),
+            "field outer.line.from is given twice");
+  // The first complaint is kept.
+  EXPECT_EQ(complaint(R"({"outer": [{"a": 1}, {"b": 2}], "holes": [{"c": 3}], "outlet": []})"),
+            "field outer[0].a is not one of a region file");
+  EXPECT_EQ(complaint_of(refuse_unknown_words, R"({"outlet": []})", "before"), "before");
+  EXPECT_EQ(complaint_of(refuse_unknown_words, R"({"outer": [{"a": 1}]})", "before"), "before");
+}
+
+TEST(VerifyReaders, WordsOfOtherFilesAreKnown) {
+  EXPECT_EQ(complaint_of(refuse_unknown_words_of_tree, R"({"name": "a", "shape": {"any": 1}})"), "");
+  EXPECT_EQ(complaint_of(refuse_unknown_words_of_tree, R"({"shade": {}})"),
+            "field shade is not one of a tree of primitives");
+  EXPECT_EQ(complaint_of(refuse_unknown_fields, R"({"x": 1, "trim": {"loss": 1}, "run": {"any": 1}})"), "");
+  EXPECT_EQ(complaint_of(refuse_unknown_fields, R"({"x": 1, "trim": {"lost": 1}})"),
+            "field trim.lost is not one of a placement");
+  EXPECT_EQ(complaint_of(refuse_unknown_fields, R"({"x": 1, "y": 1, "x": 1})"), "field x is given twice");
+  EXPECT_EQ(complaint_of(refuse_unknown_fields, R"({"wide": 1})", "before"), "before");
+  const auto in_report = [](const std::string& json, const std::string& key) {
+    std::string complaint;
+    refuse_unknown_fields(*parse_json(json, "j"), key, complaint);
+    return complaint;
+  };
+  EXPECT_EQ(in_report(R"({"join": 1})", "drawing"), "");
+  EXPECT_EQ(in_report(R"({"join": 1})", "regions"), "field regions.join is not one of a placement");
+  EXPECT_EQ(in_report(R"({"guard": 1})", "scan"), "");
+  EXPECT_EQ(in_report(R"({"guard": 1})", "drawing"), "field drawing.guard is not one of a placement");
+}
+
 // ---- contours ---------------------------------------------------------------------------------------------
 
 /// "x,y;" of every point in its unit, or the message.
@@ -234,12 +283,21 @@ TEST(VerifyReaders, OneHeaderLineIsPassedOver) {
   }
 }
 
+/// One number alone is no head of a table, whatever it begins with.
+TEST(VerifyReaders, ANumberBeginsWithASignAPointOrADigit) {
+  for (const char* first : {"5", "+5", "-5", ".5", "+.5", "-.5"})
+    EXPECT_EQ(contour("c.csv", first + std::string("\n1 2\n3 4\n5 7")),
+              std::string("c.csv:1: 1 fields where a point needs x and y: ") + first);
+  for (const char* first : {"x5", "+x5", "--5", "..5"})
+    EXPECT_EQ(contour("c.csv", first + std::string("\n1 2\n3 4\n5 7")), kThree) << first;
+}
+
 TEST(VerifyReaders, AMistypedPointIsNoHeader) {
   const std::string no = "c.csv:1: \"O.5\" is not " + decimal_rule();
   EXPECT_EQ(contour("c.csv", "O.5 3\n1 2\n3 4\n5 7"), no);
   EXPECT_EQ(contour("c.csv", "O.5,3,0\n1 2\n3 4\n5 7"), no);
   EXPECT_EQ(contour("c.csv", "O.5 3 0 1\n1 2\n3 4\n5 7"), kThree) << "no point has four numbers";
-  for (const char* head : {"x y z", "Part 12, contour", "X 1; Y 2", "\"X [mm]\";\"Y [mm]\""})
+  for (const char* head : {"x y z", "x,5,y,", "Part 12, contour", "X 1; Y 2", "\"X [mm]\";\"Y [mm]\""})
     EXPECT_EQ(contour("c.csv", head + std::string("\n1 2\n3 4\n5 7")), kThree) << head;
 }
 
@@ -248,6 +306,16 @@ TEST(VerifyReaders, CommentsBeginInFourWays) {
   for (const char* mark : {"#", ";", "%", "//"})
     EXPECT_EQ(contour("c.csv", fmt::format("1 2\n{} 9 9\n3 4\n5 7", mark)), kThree) << mark;
   EXPECT_EQ(contour("c.csv", "1 2\n/ 9\n3 4\n5 7"), "c.csv:2: \"/\" is not " + decimal_rule());
+}
+
+TEST(VerifyReaders, ARowKnowsWhetherAnEmptyLineStandsBeforeIt) {
+  std::string gaps;
+  ASSERT_TRUE(
+      read_text_rows({"c.csv", "1 2\n\n# c\n3 4\n5 6\n# c\n\n7 8\n"}, [&](TextRow&& row) -> Result<void> {
+        gaps += row.after_a_gap ? '1' : '0';
+        return {};
+      }));
+  EXPECT_EQ(gaps, "0101");
 }
 
 TEST(VerifyReaders, AContourHasThreePointsAndAPointTwoOrThreeFields) {
@@ -440,6 +508,8 @@ TEST(VerifyReaders, SectionsOfDxfAreKeptApart) {
   EXPECT_EQ(contour("c.dxf", dxf("0\nLWPOLYLINE\n70\n0\n")), "c.dxf:12: the LWPOLYLINE is not closed");
   EXPECT_EQ(contour("c.dxf", dxf("0\nLWPOLYLINE\n70\n0\n10\n1\n20\n2\n")),
             "c.dxf:12: the LWPOLYLINE is not closed");
+  EXPECT_EQ(contour("c.dxf", dxf("0\nLWPOLYLINE\n70\n0\n10\n1\n20\n2\n10\n1\n20\n2\n")),
+            "c.dxf: 2 points; a contour has at least 3");
 }
 
 TEST(VerifyReaders, WhatFollowsTheEntitiesBelongsToNone) {

@@ -32,8 +32,8 @@ bool take_sign(std::string_view& text) {
   return negative;
 }
 
-/// Parses e [+-] digits, which must be the whole of `text`. A value beyond a million stays at a million,
-/// because that is out of range anyway.
+/// Parses e [+-] digits, which must be the whole of `text`. A value beyond 10^15 stays there: no text has so
+/// many decimals that the number would be in range again.
 std::optional<long> parse_exponent(std::string_view text) {
   if (text.empty()) return 0;
   if (text.front() != 'e' && text.front() != 'E') return std::nullopt;
@@ -41,7 +41,7 @@ std::optional<long> parse_exponent(std::string_view text) {
   const bool negative = take_sign(text);
   if (text.empty() || !std::all_of(text.begin(), text.end(), is_digit)) return std::nullopt;
   long value = 0;
-  for (const char c : text) value = std::min(value * 10 + (c - '0'), 1'000'000L);
+  for (const char c : text) value = std::min(value * 10 + (c - '0'), 1'000'000'000'000'000L);
   return negative ? -value : value;
 }
 
@@ -133,9 +133,9 @@ Decimal exactly(double value) {
   const double mantissa = std::ldexp(std::frexp(value, &exponent), 53);
   Decimal made{Integer(mantissa), 0};
   exponent -= 53;
-  if (exponent > 0) made.digits <<= static_cast<unsigned long>(exponent);
+  made.digits <<= static_cast<unsigned long>(std::max(exponent, 0));
   // Dividing m by 2 makes it 5 m / 10.
-  for (; exponent < 0 && sgn(made.digits) != 0; ++exponent) {
+  for (; exponent < 0; ++exponent) {
     if (is_even(made.digits)) {
       made.digits /= 2;
     } else {

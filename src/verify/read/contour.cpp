@@ -312,8 +312,8 @@ class DxfReader {
 class ChainEnds {
  public:
   struct End {
-    double x = 0;
-    std::size_t line = 0, tip = 0;
+    double x;
+    std::size_t line, tip;
   };
 
   explicit ChainEnds(const std::vector<DxfLine>& lines) : lines_(lines), used_(lines.size(), false) {

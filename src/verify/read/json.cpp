@@ -22,12 +22,6 @@ std::string_view without_mark(std::string_view bytes) {
   return bytes;
 }
 
-std::size_t blanks(std::string_view text) {
-  std::size_t n = 0;
-  while (n < text.size() && is_blank(text[n])) ++n;
-  return n;
-}
-
 /// Checks the grammar from the front of a document, and keeps where and why it stopped.
 class GrammarCheck {
  public:
@@ -54,7 +48,7 @@ class GrammarCheck {
     while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
   }
   bool take(char c) {
-    if (at_ >= text_.size() || text_[at_] != c) return false;
+    if (here() != c) return false;
     ++at_;
     return true;
   }
@@ -234,7 +228,7 @@ Result<Json> parse_json(std::string_view bytes, std::string_view name) {
     return failure(ErrorCode::bad_input,
                    fmt::format("{}:{}: not JSON: {}", name, check.line(), check.reason()));
   }
-  const std::size_t begin = blanks(text);
+  const std::size_t begin = text.find_first_not_of(" \t\n\r");
   return Json{text.substr(begin, value_length(text.substr(begin)))};
 }
 

@@ -12,9 +12,9 @@ namespace {
 constexpr std::string_view kBlanks = " \t\r\v\f";
 
 bool begins_with_number(std::string_view line) {
-  if (!line.empty() && (line.front() == '+' || line.front() == '-')) line.remove_prefix(1);
-  if (!line.empty() && line.front() == '.') line.remove_prefix(1);
-  return !line.empty() && line.front() >= '0' && line.front() <= '9';
+  if (line.starts_with('+') || line.starts_with('-')) line.remove_prefix(1);
+  if (line.starts_with('.')) line.remove_prefix(1);
+  return line.find_first_of("0123456789") == 0;
 }
 
 bool is_comment(std::string_view line) {
