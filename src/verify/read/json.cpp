@@ -48,7 +48,7 @@ class GrammarCheck {
     while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
   }
   bool take(char c) {
-    if (here() != c) return false;
+    if (at_ >= text_.size() || text_[at_] != c) return false;
     ++at_;
     return true;
   }
