@@ -140,8 +140,13 @@ Result<Nested> nest_checked(const Nester& nester, const Document& document, cons
   // The best until a stop is checked and told all the same, and what is being checked is, too.
   const RunControl nobody;
   const Listening to_the_end(nobody);
-  Nested best{
-      placed_as(document, found.document), {}, std::move(found.unplaced), found.work, found.merges, {}};
+  Nested best{placed_as(document, found.document),
+              {},
+              std::move(found.unplaced),
+              found.work,
+              found.merges,
+              {},
+              found.searched};
   share_out(2, kUsualThreads, [&](std::size_t task) {
     if (task == 0) best.bytes = io::write_layout(best.document);
     if (task == 1) best.completeness = layout::completeness(best.document);

@@ -122,6 +122,8 @@ Result<int> run_nest(const NestOptions& o) {
   for (const nest::Unplaced& u : nested.unplaced)
     said += fmt::format("not placed: {} of {}: {}\n", u.count, nested.document.parts[u.part].id,
                         sentence_of(u.reason));
+  if (!nested.searched)
+    said += "note: an order of so many pieces gets a first layout, and no search for a better one\n";
   said += fmt::format("work {} in {:.1f} s of processor time; checked twice\n", nested.work, seconds);
   if (!o.output.empty()) said += fmt::format("Written: {}\n", o.output);
   tell(said);

@@ -60,6 +60,7 @@ struct Nested {
   /// As in nest::Nested; the work is the limit that repeats the run.
   std::uint64_t work = 0, merges = 0;
   layout::Completeness completeness;
+  bool searched = true;  ///< as in nest::Nested
 };
 
 /// Places what a layout wants on its stock (nest/nest.hpp), and hands out nothing that breaks a rule: the

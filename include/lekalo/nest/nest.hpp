@@ -51,6 +51,8 @@ struct Nested {
   std::uint64_t work = 0;
   /// How often the strands were merged; a run ends only at a merge.
   std::uint64_t merges = 0;
+  /// False: there were too many pieces to look for a better layout than the first (more than 20,000).
+  bool searched = true;
 };
 
 struct Options {

@@ -47,10 +47,12 @@ class Run {
     build();
     // A stop takes down whatever goes on, and the best stays as it was shown last. The work since the last
     // merge does not count then, so that the same work gives the same result again.
+    const bool searched = wanted_.items.movable() <= tuning::kMostToSearch;
     try {
-      if (!is_over() && wanted_.items.movable() <= tuning::kMostToSearch) search();
+      if (searched && !is_over()) search();
     } catch (const Stopped&) {
     }
+    best_.searched = searched;
     return best_;
   }
 

@@ -168,7 +168,8 @@ class JobDialog {
     field.inputMode = 'decimal';
     if (name === 'kerf') field.placeholder = t('job.kerf');
     field.addEventListener('change', () => {
-      const typed = length(field.value) || '0';
+      // The cut may be unsaid again; a gap that is deleted is more likely a slip.
+      const typed = length(field.value) || (name === 'kerf' ? '0' : '');
       const cut = name === 'kerf' ? Number(typed) : kerf;
       const raised = name !== 'border' && cut > (name === 'gap' ? Number(typed) : gap);
       this.run(line.rule(name, typed), field, raised ? t('job.raised', { mm: mm(cut) }) : undefined);

@@ -170,8 +170,9 @@ export class Page {
     this.welcome = welcome({
       begin: () => this.layouts.begin([]),
       open: () => this.bar.querySelector<HTMLInputElement>('input[type="file"]')?.click(),
-      // How a sample was read tells nothing to who tries it.
-      sample: (file) => void this.layouts.takeFiles([file]).then(() => this.editor.note('')),
+      // How a sample was read tells nothing to who tries it, but why it was not does.
+      sample: (file) =>
+        void this.layouts.takeFiles([file]).then(() => this.editor.message.isNote && this.editor.note('')),
     });
     this.pane.element.append(this.welcome);
     if (!isThere) this.welcome.querySelector('button')?.focus();

@@ -106,6 +106,13 @@ for (const [width, height] of [
       await page.fill(field('rule.kerf'), '0,2');
       await page.keyboard.press('Tab');
       await becomes(server, (d) => d.rules.kerf === 0.2 && d.rules.gap === 4);
+      // A gap that is deleted is not 0.
+      await page.fill(field('rule.gap'), '');
+      await page.keyboard.press('Tab');
+      await page.waitForSelector('[data-field="rule.gap"][aria-invalid]');
+      await page.fill(field('rule.gap'), '4');
+      await page.keyboard.press('Tab');
+      await page.waitForSelector('[data-field="rule.gap"]:not([aria-invalid])');
       assert.deepEqual(await cutOff(page), []);
       await shot(page, `job-${width}-full`);
       // What is wrong is said in one sentence, and stays to be mended.
