@@ -1,6 +1,6 @@
 #pragma once
 
-#include "expansion.hpp"
+#include "lekalo/geom/expansion.hpp"
 #include "lekalo/geom/predicates.hpp"
 
 namespace lekalo::geom::detail {

@@ -4,7 +4,7 @@
 
 #include "lekalo/geom/double_double.hpp"
 
-namespace lekalo::geom::detail {
+namespace lekalo::geom {
 
 /// An exact sum of doubles. Its components do not overlap, ascend in magnitude and leave zeros out, so the
 /// last component has the sign of the sum. It is exact as long as nothing overflows; sums of doubles never
@@ -37,4 +37,4 @@ class Expansion {
   std::size_t size_ = 0;
 };
 
-}  // namespace lekalo::geom::detail
+}  // namespace lekalo::geom

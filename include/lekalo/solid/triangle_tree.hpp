@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "lekalo/solid/mesh.hpp"
+
+namespace lekalo::solid {
+
+/// A distance between two bounds that rounding leaves, mm, and where it is.
+struct Nearest {
+  double low = 0, high = 0;  ///< low <= the exact distance <= high
+  std::uint32_t triangle = 0;
+  Vector place;  ///< on the triangle, within high - low
+};
+
+/// A balanced tree over the triangles of a mesh. It asks for distances and for inside and outside; what it
+/// answers does not depend on anything but its arguments. Building: O(n log n); 150 bytes a triangle.
+class TriangleTree {
+ public:
+  explicit TriangleTree(const Mesh& mesh);
+
+  /// The distance from p to the nearest triangle, or none if all are farther away than `most`, mm. A triangle
+  /// that is near p, as that of a neighbouring point, makes it quicker. The bounds are within 2^-47 of the
+  /// largest coordinate of mesh and point; beside a triangle less than a millionth as wide as long they hold,
+  /// too, but may be farther apart. Cost: O(log n) as a rule.
+  [[nodiscard]] std::optional<Nearest> nearest(Vector p,
+                                               double most = std::numeric_limits<double>::infinity(),
+                                               std::optional<std::uint32_t> near = {}) const;
+
+  /// Returns whether a way straight up from p crosses the triangles an odd number of times; exact, whatever
+  /// the way meets: it counts as p moved by less than every number. \pre p lies on no triangle, where either
+  /// may be said, and the mesh is closed
+  [[nodiscard]] bool holds(Vector p) const;
+
+  [[nodiscard]] const Box& box() const noexcept { return box_; }
+
+ private:
+  struct Node {
+    Box box;
+    std::uint32_t begin = 0, end = 0;  ///< in leaf order
+    /// The right child, 0 in a leaf; the left child is the next node.
+    std::uint32_t right = 0;
+  };
+  using Corners = std::array<Vector, 3>;
+
+  std::uint32_t build(std::uint32_t begin, std::uint32_t end, const std::vector<Corners>& all);
+  template <class Visit>
+  void descend(std::uint32_t at, const Visit& visit, Vector p) const;
+
+  std::vector<Node> nodes_;  ///< in preorder
+  std::vector<std::uint32_t> order_, place_in_order_;
+  std::vector<Corners> corners_;  ///< in leaf order
+  Box box_;
+  double largest_ = 0;
+};
+
+}  // namespace lekalo::solid
