@@ -1,6 +1,7 @@
 #include "contour_tree.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace lekalo::verify {
@@ -23,7 +24,7 @@ std::uint32_t ContourTree::build(const SideTree& sides, std::uint32_t first, std
   const auto at = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({sides.box(first), first, last, 0});
   if (first == last) return at;
-  const std::uint32_t middle = first + (last - first) / 2;
+  const std::uint32_t middle = std::midpoint(first, last);
   const std::uint32_t one = build(sides, first, middle), two = build(sides, middle + 1, last);
   const Box &a = nodes_[one].box, &b = nodes_[two].box;
   nodes_[at].box = {std::min(a.low_x, b.low_x), std::min(a.low_y, b.low_y), std::max(a.high_x, b.high_x),

@@ -13,23 +13,17 @@
 namespace lekalo::verify {
 namespace {
 
-/// Says whether two decimals have the same digits and exponent, which settles most comparisons.
-bool written_alike(const Decimal& a, const Decimal& b) {
-  return a.exponent == b.exponent && a.digits == b.digits;
-}
-
 struct WrittenPoint {
   Decimal x, y;
   friend bool operator==(const WrittenPoint& a, const WrittenPoint& b) {
-    return (written_alike(a.x, b.x) && written_alike(a.y, b.y)) ||
-           (compare(a.x, b.x) == 0 && compare(a.y, b.y) == 0);
+    return compare(a.x, b.x) == 0 && compare(a.y, b.y) == 0;
   }
   [[nodiscard]] Vec enclosed() const { return {verify::enclosed(x), verify::enclosed(y)}; }
 };
 
 /// Says whether readers that take numbers as doubles take the two points for one.
 bool same_as_doubles(const WrittenPoint& a, const WrittenPoint& b) {
-  return a == b || (approximate(a.x) == approximate(b.x) && approximate(a.y) == approximate(b.y));
+  return approximate(a.x) == approximate(b.x) && approximate(a.y) == approximate(b.y);
 }
 
 /// Returns the decimals as integers of one unit. Each call chooses its own unit.
@@ -97,10 +91,14 @@ class ShapeReader {
     if (!value.is_object()) return false;
     JsonItems kinds(value);
     const auto inner = kinds.next();
-    if (!inner || !inner->is_object()) return false;
-    edge.arc = kinds.key() == "arc";
-    if ((!edge.arc && kinds.key() != "line") || kinds.next()) return false;
+    if (!inner) return false;
+    if (kinds.key() == "arc")
+      edge.arc = true;
+    else if (kinds.key() != "line")
+      return false;
+    if (kinds.next()) return false;
     edge.inner = *inner;
+    if (!inner->is_object()) return false;
     JsonItems members(*inner);
     while (const auto member = members.next()) {
       Json* const to = members.key() == "from"     ? &edge.from
@@ -139,11 +137,15 @@ class ShapeReader {
     }
     for (Decimal& number : numbers) {
       if (inch_) number.digits *= 254, --number.exponent;
-      if (!(std::abs(approximate(number)) <= limits::kLargestCoordinate))
+      if (too_far(number))
         complain(fmt::format("{} is farther than {} mm from the origin", fields.name(key),
                              limits::kLargestCoordinate));
     }
     return {numbers[0], numbers[1]};
+  }
+
+  static bool too_far(const Decimal& number) {
+    return !(std::abs(approximate(number)) <= limits::kLargestCoordinate);
   }
 
   /// Returns a point that is written as points are, of which nobody has to be told anything.
@@ -152,8 +154,8 @@ class ShapeReader {
     JsonItems items(value);
     const auto read = [&]() -> std::optional<Decimal> {
       const auto item = items.next();
-      auto number = item && item->is_number() ? parse_decimal(item->text) : std::nullopt;
-      if (!number || !(std::abs(approximate(*number)) <= limits::kLargestCoordinate)) return std::nullopt;
+      auto number = item ? parse_decimal(item->text) : std::nullopt;
+      if (!number || too_far(*number)) return std::nullopt;
       return number;
     };
     auto x = read();
@@ -199,18 +201,13 @@ class ShapeReader {
       const std::size_t first = shape_.sides.size();
       WrittenPoint centre = edge.arc ? point(edge, edge.centre, "centre") : WrittenPoint{};
       edge.arc ? add_arc(edge, from, to, centre) : add_line(edge, from, to);
+      if (!complaint_.empty()) return;
       for (std::size_t s = first; s < shape_.sides.size(); ++s) shape_.sides[s].open = edge.open.is_true();
       // Lines that join an arc to its ends have the arc's decimals.
-      WrittenSide side{edge.arc,
-                       !edge.arc || edge.ccw.is_true(),
-                       std::move(from.x),
-                       std::move(from.y),
-                       std::move(to.x),
-                       std::move(to.y),
-                       std::move(centre.x),
-                       std::move(centre.y)};
-      while (shape_.exact.size() + 1 < shape_.sides.size()) shape_.exact.push_back(side);
-      if (shape_.exact.size() < shape_.sides.size()) shape_.exact.push_back(std::move(side));
+      WrittenSide side{edge.arc,        edge.ccw.is_true(), std::move(from.x),   std::move(from.y),
+                       std::move(to.x), std::move(to.y),    std::move(centre.x), std::move(centre.y)};
+      shape_.exact.resize(shape_.sides.size() - 1, side);
+      shape_.exact.push_back(std::move(side));
     }
     if (loose) return;
     if (!begin || !(*begin == *at)) return complain(path + " is not closed");
@@ -244,7 +241,8 @@ class ShapeReader {
     const Vec a = side.from - side.centre, b = side.to - side.centre;
     const Span ra = length(a), rb = length(b);
     side.radius = just(0.5) * (ra + rb);
-    if (!(ra.low > 0 && rb.low > 0)) return complain(edge.name() + " is an arc without a radius");
+    if (!surely_not_zero(a) || !surely_not_zero(b))
+      return complain(edge.name() + " is an arc without a radius");
     const Vec ua = unit(a), ub = unit(b);
     side.first = side.ccw ? ua : ub, side.last = side.ccw ? ub : ua;
     add_joined(side, ua, ub, ra, rb);
@@ -257,7 +255,8 @@ class ShapeReader {
     const Point a = in_common_units(from, centre), b = in_common_units(to, centre);
     // Each vector has a unit of its own, which does not change the sign.
     const int side = sgn(cross(a, b));
-    if (side != 0) return side > 0 ? Sweep::less : Sweep::more;
+    if (side > 0) return Sweep::less;
+    if (side < 0) return Sweep::more;
     if (sgn(dot(a, b)) < 0) return Sweep::half;
     return std::nullopt;
   }
@@ -360,9 +359,8 @@ bool same_edges(const Shape& a, const Shape& b, double tolerance, bool walls) {
   const auto same = [&](const Side& one, const Side& other, bool reversed) {
     if (one.arc != other.arc || (one.sweep == Sweep::full) != (other.sweep == Sweep::full)) return false;
     if (walls && one.open != other.open) return false;
-    if (!near(one.written_from, reversed ? other.written_to : other.written_from) ||
-        !near(one.written_to, reversed ? other.written_from : other.written_to))
-      return false;
+    // Contours are closed, so that every point is one where a side begins.
+    if (!near(one.written_from, reversed ? other.written_to : other.written_from)) return false;
     if (!one.arc) return true;
     // Two arcs between these ends, or the two that make up the circle, are told apart by their direction.
     return near(one.centre, other.centre) &&
@@ -374,7 +372,7 @@ bool same_edges(const Shape& a, const Shape& b, double tolerance, bool walls) {
       if (shape.sides[k].written) sides.push_back(&shape.sides[k]);
     return sides;
   };
-  if (a.piece_starts != b.piece_starts || a.contour_starts.size() != b.contour_starts.size()) return false;
+  if (a.piece_starts != b.piece_starts) return false;
   for (std::size_t c = 0; c + 1 < a.contour_starts.size(); ++c) {
     const std::vector<const Side*> one = written(a, c), other = written(b, c);
     if (one.size() != other.size()) return false;
@@ -390,35 +388,29 @@ bool same_edges(const Shape& a, const Shape& b, double tolerance, bool walls) {
 
 namespace {
 
-/// Orders written sides, each in one of its two directions.
-int compare(const WrittenSide& a, const WrittenSide& b) {
-  if (a.arc != b.arc) return a.arc ? 1 : -1;
-  for (const auto member : {&WrittenSide::from_x, &WrittenSide::from_y, &WrittenSide::to_x,
-                            &WrittenSide::to_y, &WrittenSide::centre_x, &WrittenSide::centre_y})
-    if (const int order = compare(a.*member, b.*member); order != 0) return order;
-  return 0;
-}
-
-std::vector<WrittenSide> sorted_sides(const Shape& shape) {
-  std::vector<WrittenSide> sides = shape.exact;
-  for (WrittenSide& side : sides) {
-    WrittenSide back = side;
-    std::swap(back.from_x, back.to_x), std::swap(back.from_y, back.to_y);
-    back.ccw = true;
-    if (side.arc ? !side.ccw : compare(back, side) < 0) side = back;
+/// Returns the numbers of all sides in order: of lines in both directions, of arcs counter-clockwise.
+std::vector<std::vector<Fraction>> sorted_numbers(const Shape& shape) {
+  std::vector<std::vector<Fraction>> sides;
+  for (const WrittenSide& side : shape.exact) {
+    const Fraction from_x = to_fraction(side.from_x), from_y = to_fraction(side.from_y),
+                   to_x = to_fraction(side.to_x), to_y = to_fraction(side.to_y);
+    std::vector<Fraction> forth{from_x, from_y, to_x, to_y}, back{to_x, to_y, from_x, from_y};
+    if (side.arc) {
+      if (!side.ccw) forth = std::move(back);
+      forth.push_back(to_fraction(side.centre_x)), forth.push_back(to_fraction(side.centre_y));
+    } else {
+      sides.push_back(std::move(back));
+    }
+    sides.push_back(std::move(forth));
   }
-  std::sort(sides.begin(), sides.end(),
-            [](const WrittenSide& a, const WrittenSide& b) { return compare(a, b) < 0; });
+  std::sort(sides.begin(), sides.end());
   return sides;
 }
 
 }  // namespace
 
 bool same_outline(const Shape& a, const Shape& b) {
-  if (a.exact.size() != b.exact.size()) return false;
-  const std::vector<WrittenSide> one = sorted_sides(a), other = sorted_sides(b);
-  return std::equal(one.begin(), one.end(), other.begin(),
-                    [](const WrittenSide& s, const WrittenSide& t) { return compare(s, t) == 0; });
+  return a.exact.size() == b.exact.size() && sorted_numbers(a) == sorted_numbers(b);
 }
 
 namespace {

@@ -25,7 +25,8 @@ struct Vec {
 [[nodiscard]] inline Span dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y; }
 [[nodiscard]] inline Span cross(const Vec& a, const Vec& b) { return a.x * b.y - a.y * b.x; }
 [[nodiscard]] inline Span length(const Vec& a) { return square_root(squared(a.x) + squared(a.y)); }
-/// \pre surely not (0, 0)
+[[nodiscard]] inline bool surely_not_zero(const Vec& a) { return length(a).low > 0; }
+/// \pre surely_not_zero
 [[nodiscard]] inline Vec unit(const Vec& a) {
   const Span whole = length(a);
   return {a.x / whole, a.y / whole};

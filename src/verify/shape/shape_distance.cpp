@@ -48,26 +48,18 @@ Span nearer(Span distance, double off) {
   return off > 0 ? Span{std::max(0.0, (distance - just(off)).low), distance.high} : distance;
 }
 
-/// The foot of p on a line. `between` says whether it lies between the ends.
-struct Foot {
-  Span height;  ///< signed distance of p from the line
-  Sure between = Sure::no;
-};
-Foot foot_of(const Vec& p, const Side& line) {
-  const Vec along = line.to - line.from;
-  return {cross(along, p - line.from) / length(along),
-          both(not_negative(dot(along, p - line.from)), not_negative(dot(along, line.to - p)))};
+/// Says whether the nearest point to p of the line or circle that carries a side is on the side.
+Sure beside(const Side& side, const Vec& p) {
+  if (side.arc) return faces(side, p - side.centre);
+  const Vec along = side.to - side.from;
+  return both(not_negative(dot(along, p - side.from)), not_negative(dot(along, side.to - p)));
 }
 
-Span distance_without_ends(const Vec& p, const Side& side, Sure& applies) {
-  if (!side.arc) {
-    const Foot foot = foot_of(p, side);
-    applies = foot.between;
-    return absolute(foot.height);
-  }
-  const Vec out = p - side.centre;
-  applies = faces(side, out);
-  return absolute(length(out) - side.radius);
+/// Returns the distance of p from the line or circle that carries a side.
+Span distance_from_carrier(const Vec& p, const Side& side) {
+  if (side.arc) return absolute(length(p - side.centre) - side.radius);
+  const Vec along = side.to - side.from;
+  return absolute(cross(along, p - side.from) / length(along));
 }
 
 void add_ends(const Side& a, const Side& b, Least& least) {
@@ -86,41 +78,26 @@ void add_lines(const Side& a, const Side& b, Least& least) {
 }
 
 void add_line_arc(const Side& line, const Side& arc, Least& least) {
-  const Foot foot = foot_of(arc.centre, line);
-  const Span height = absolute(foot.height);
+  const Span height = distance_from_carrier(arc.centre, line);
   const Vec along = line.to - line.from;
   const Span whole = length(along);
   const Vec u{along.x / whole, along.y / whole};
   const Span at = dot(u, arc.centre - line.from);
-  const Vec to_foot = line.from + u * at - arc.centre;
-  // The line may pass outside the circle.
-  if (!(height.high < arc.radius.low)) {
-    const Sure outside = height.low >= arc.radius.high ? Sure::yes : Sure::maybe;
-    least.add(height - arc.radius, both(outside, both(foot.between, faces(arc, to_foot))));
+  if (height.low >= arc.radius.high) {
+    // The line passes outside the circle.
+    const Vec to_foot = line.from + u * at - arc.centre;
+    return least.add(height - arc.radius, both(beside(line, arc.centre), faces(arc, to_foot)));
   }
-  if (height.low > arc.radius.high) return;
   // The line may cross the circle here. Where rounding leaves the root open, both crossings become wide, but
-  // none is lost.
+  // neither they nor a foot just outside are lost.
   const Span half = square_root((arc.radius - height) * (arc.radius + height));
+  const Sure crosses = height.high < arc.radius.low ? Sure::yes : Sure::maybe;
   for (const Span step : {half, -half}) {
     const Span place = at + step;
     const Vec p = line.from + u * place - arc.centre;
-    const Sure crosses = height.high < arc.radius.low ? Sure::yes : Sure::maybe;
     least.add({0, 0},
               both(crosses, both(both(not_negative(place), not_negative(whole - place)), faces(arc, p))));
   }
-}
-
-/// Adds the least distance of two arcs about nearly one centre. With one centre it would be that of the radii
-/// where the arcs have a direction in common, and otherwise that of two ends. Moving one arc to the other's
-/// centre changes it by no more than the move. Ends are among the candidates already, and when two stretches
-/// of a circle meet, one holds an end of the other.
-void add_concentric(const Side& a, const Side& b, Span apart, Least& least) {
-  const bool may_meet = a.sweep == Sweep::full || b.sweep == Sweep::full || faces(a, b.first) != Sure::no ||
-                        faces(a, b.last) != Sure::no || faces(b, a.first) != Sure::no ||
-                        faces(b, a.last) != Sure::no;
-  if (may_meet) least.add({absolute(a.radius - b.radius).low, kInfinity}, Sure::maybe);
-  least.lower((apart + apart).high);
 }
 
 /// Two centres count as one when they are nearer than this share of the smaller radius. The result is then
@@ -130,20 +107,23 @@ constexpr double kOneCentre = 1e-13;
 void add_arcs(const Side& a, const Side& b, Least& least) {
   const Vec between = b.centre - a.centre;
   const Span apart = length(between);
+  // With one centre the least distance is that of an end from the other arc, as one of two arcs that have a
+  // direction in common begins there. Ends are among the candidates already. Moving one arc to the other's
+  // centre changes this distance, and those of the ends, by no more than the move.
   if (!(apart.low > kOneCentre * std::min(a.radius.high, b.radius.high)))
-    return add_concentric(a, b, apart, least);
-  const auto axis = [&](Span gap, const Vec& of_a, const Vec& of_b) {
-    // The circles do not stand so to each other.
-    if (gap.high < 0) return;
-    const Sure stands = gap.low >= 0 ? Sure::yes : Sure::maybe;
-    least.add(gap, both(stands, both(faces(a, of_a), faces(b, of_b))));
+    return least.lower((apart + apart).high);
+  const auto axis = [&](Span whole, Span parts, const Vec& of_a, const Vec& of_b) {
+    if (!(whole.low >= parts.high)) return false;
+    least.add(whole - parts, both(faces(a, of_a), faces(b, of_b)));
+    return true;
   };
-  axis(apart - a.radius - b.radius, between, -between);
-  axis(a.radius - apart - b.radius, between, between);
-  axis(b.radius - apart - a.radius, -between, -between);
-  if ((apart - a.radius - b.radius).low > 0) return;
-  if ((a.radius - apart - b.radius).low > 0 || (b.radius - apart - a.radius).low > 0) return;
-  // The circles may cross at this distance along the line of their centres.
+  // Circles beside each other, or one in the other.
+  if (axis(apart, a.radius + b.radius, between, -between) ||
+      axis(a.radius, apart + b.radius, between, between) ||
+      axis(b.radius, apart + a.radius, -between, -between))
+    return;
+  // The circles may cross at this distance along the line of their centres. Where rounding leaves the root
+  // open, the crossings become wide, and hold the nearest points of circles that hardly miss each other.
   const Span along = (apart + (a.radius - b.radius) * (a.radius + b.radius) / apart) * just(0.5);
   const Span across = square_root((a.radius - along) * (a.radius + along));
   const Vec u = unit(between);
@@ -157,6 +137,7 @@ void add_arcs(const Side& a, const Side& b, Least& least) {
 
 bool may_face(const Side& arc, const Vec& direction) { return faces(arc, direction) != Sure::no; }
 bool surely_faces(const Side& arc, const Vec& direction) { return faces(arc, direction) == Sure::yes; }
+bool surely_beside(const Side& side, const Vec& p) { return beside(side, p) == Sure::yes; }
 
 std::vector<Vec> points_of(const Side& side) {
   std::vector<Vec> points{side.from};
@@ -178,28 +159,26 @@ Span distance(const Vec& p, const Side& side) {
   Least least;
   least.add(nearer(length(side.from - p), side.off), Sure::yes);
   least.add(nearer(length(side.to - p), side.off), Sure::yes);
-  Sure applies = Sure::no;
-  const Span inner = distance_without_ends(p, side, applies);
-  least.add(inner, applies);
+  least.add(distance_from_carrier(p, side), beside(side, p));
   return least.value();
 }
 
 Span distance(const Side& a, const Side& b) {
   Least least;
   add_ends(a, b, least);
-  if (!a.arc && !b.arc) add_lines(a, b, least);
-  if (a.arc && b.arc) add_arcs(a, b, least);
-  if (a.arc != b.arc) a.arc ? add_line_arc(b, a, least) : add_line_arc(a, b, least);
+  if (a.arc)
+    b.arc ? add_arcs(a, b, least) : add_line_arc(b, a, least);
+  else
+    b.arc ? add_line_arc(a, b, least) : add_lines(a, b, least);
   return least.value();
 }
 
 bool carriers_apart(const Side& a, const Side& b) {
   if (a.arc && !b.arc) return carriers_apart(b, a);
   if (a.arc) {
-    const Span apart = squared(b.centre.x - a.centre.x) + squared(b.centre.y - a.centre.y);
-    const Span off = just(a.off) + just(b.off), within = absolute(a.radius - b.radius) - off;
-    return (within.low > 0 && squared(within).low > apart.high) ||
-           apart.low > squared(a.radius + b.radius + off).high;
+    const Span apart = length(b.centre - a.centre), off = just(a.off) + just(b.off);
+    return (absolute(a.radius - b.radius) - off).low > apart.high ||
+           apart.low > (a.radius + b.radius + off).high;
   }
   const Vec along = a.to - a.from;
   if (b.arc) {

@@ -20,6 +20,8 @@ inline constexpr std::size_t kNoSide = std::numeric_limits<std::size_t>::max();
 [[nodiscard]] bool may_face(const Side& arc, const Vec& direction);
 /// Returns true when it certainly has one.
 [[nodiscard]] bool surely_faces(const Side& arc, const Vec& direction);
+/// Returns true when the nearest point to p of the line or circle that carries the side is certainly on it.
+[[nodiscard]] bool surely_beside(const Side& side, const Vec& p);
 
 [[nodiscard]] Span distance(const Vec& p, const Side& side);
 /// Returns a distance whose low end is 0 where the sides meet or may meet.

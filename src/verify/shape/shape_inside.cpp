@@ -1,8 +1,8 @@
 #include "shape_inside.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "lekalo/base/limits.hpp"
@@ -29,27 +29,28 @@ int compare(Span a, Span b) { return a.high < b.low ? -1 : (a.low > b.high ? 1 :
 
 /// Counts how often a line passes the ray from p to the right upwards, less how often downwards.
 std::optional<int> crossings_of_line(const Vec& begin, const Vec& end, const Vec& p) {
-  if (begin.x.high < p.x.low && end.x.high < p.x.low) return 0;
+  const auto is_left = [&](const Vec& v) { return v.x.high < p.x.low; };
+  const auto is_right = [&](const Vec& v) { return v.x.low > p.x.high; };
+  if (is_left(begin) && is_left(end)) return 0;
   const int from = compare(begin.y, p.y), to = compare(end.y, p.y);
-  if (from == 0 || to == 0) return std::nullopt;
+  if (from * to == 0) return std::nullopt;
   if (from == to) return 0;
-  if (begin.x.low > p.x.high && end.x.low > p.x.high) return to;
-  const Span turn = cross(end - begin, p - begin);
-  if (!(turn.low > 0 || turn.high < 0)) return std::nullopt;
-  return (turn.low > 0) == (to > 0) ? to : 0;
+  if (is_right(begin) && is_right(end)) return to;
+  const int turn = compare(cross(end - begin, p - begin), just(0));
+  if (turn == 0) return std::nullopt;
+  return turn == to ? to : 0;
 }
 
 std::optional<int> crossings_of_arc(const Side& arc, const Vec& p) {
   // Nothing is counted for a ray level with an end, or with what joins the end to the circle, and another ray
   // is tried.
-  const auto level = [&](const Vec& end) {
-    const Span gap = p.y - end.y;
-    return !(gap.low > arc.off || gap.high < -arc.off);
-  };
+  const Span off{-arc.off, arc.off};
+  const auto level = [&](const Vec& end) { return compare(p.y, end.y + off) == 0; };
   if (arc.sweep != Sweep::full && (level(arc.from) || level(arc.to))) return std::nullopt;
   const Span height = p.y - arc.centre.y;
-  if (height.low > arc.radius.high || height.high < -arc.radius.high) return 0;
-  if (!(height.high < arc.radius.low && height.low > -arc.radius.low)) return std::nullopt;
+  const int beyond_circle = compare(absolute(height), arc.radius);
+  if (beyond_circle == 0) return std::nullopt;
+  if (beyond_circle > 0) return 0;
   const Span half = square_root((arc.radius - height) * (arc.radius + height));
   int count = 0;
   for (const bool right : {true, false}) {
@@ -62,26 +63,18 @@ std::optional<int> crossings_of_arc(const Side& arc, const Vec& p) {
   return count;
 }
 
-/// The rays that are tried in turn. Where one grazes an end or a tangent, another does not. The first runs
-/// along x. The others have directions of Pythagorean triples, whose angles are no fractions of a turn, while
-/// those of corners of regular shapes are.
-constexpr std::array<std::array<double, 3>, 6> kTriples{
-    {{1, 0, 1}, {3, 4, 5}, {-5, 12, 13}, {-8, -15, 17}, {7, -24, 25}, {-21, 20, 29}}};
-
 constexpr std::size_t kNoContour = std::numeric_limits<std::size_t>::max();
 
 /// Returns how often a contour winds about p, or nothing where the ray does not tell.
-std::optional<int> winding(const Shape& shape, std::size_t contour, const Vec& p,
-                           const std::array<double, 3>& triple) {
-  const bool straight = triple[1] == 0;
-  const Ray ray{just(triple[0]) / just(triple[2]), just(triple[1]) / just(triple[2])};
+std::optional<int> winding(const Shape& shape, std::size_t contour, const Vec& p, const Ray& ray) {
+  const bool straight = ray.sine.high == 0;
   const Vec at = straight ? p : turned(p, ray);
   const Box place = box_of(p);
   std::optional<int> sum = 0;
   shape.contours->visit_chains(contour, place, [&](std::size_t first, std::size_t last) {
     const Side& side = shape.sides[first];
     std::optional<int> count;
-    if (first != last || !side.arc || surely_apart(shape.tree->box(first), place)) {
+    if (!side.arc || surely_apart(shape.tree->box(first), place)) {
       const Vec &from = side.from, &to = shape.sides[last].to;
       count = straight ? crossings_of_line(from, to, at)
                        : crossings_of_line(turned(from, ray), turned(to, ray), at);
@@ -105,9 +98,15 @@ Around around(const Shape& shape, const Vec& p, std::size_t except = kNoContour)
   shape.contours->visit_about(box_of(p), [&](std::size_t contour) {
     if (contour == except) return;
     ask();
-    std::optional<int> turns;
-    for (std::size_t t = 0; t < kTriples.size() && !turns; ++t)
-      turns = winding(shape, contour, p, kTriples[t]);
+    // Where one ray grazes an end or a tangent, another does not. The first runs along x, and each other is
+    // turned on by an angle that is no fraction of a turn, while those of corners of regular shapes are.
+    Ray ray{just(1), just(0)};
+    std::optional<int> turns = winding(shape, contour, p, ray);
+    for (int others = 5; !turns && others > 0; --others) {
+      const Span cosine = just(3) / just(5), sine = just(4) / just(5);
+      ray = {ray.cosine * cosine - ray.sine * sine, ray.sine * cosine + ray.cosine * sine};
+      turns = winding(shape, contour, p, ray);
+    }
     if (turns == 0) return;
     (turns == 1 || turns == -1 ? found.surely : found.maybe).push_back(contour);
   });
@@ -116,18 +115,21 @@ Around around(const Shape& shape, const Vec& p, std::size_t except = kNoContour)
   return found;
 }
 
+bool has(const std::vector<std::size_t>& numbers, std::size_t number) {
+  return std::binary_search(numbers.begin(), numbers.end(), number);
+}
+
 /// Says whether any of the sorted numbers is one of [begin, end).
 bool has_any(const std::vector<std::size_t>& numbers, std::size_t begin, std::size_t end) {
   const auto first = std::lower_bound(numbers.begin(), numbers.end(), begin);
   return first != numbers.end() && *first < end;
 }
 
-/// Says whether a piece holds a point with these contours around it.
+/// Says whether a piece holds a point with these contours around it, of which one is the piece's.
 std::optional<bool> piece_holds(const Shape& shape, std::size_t piece, const Around& at) {
   const std::size_t outer = shape.piece_starts[piece], end = shape.piece_starts[piece + 1];
-  const bool in = has_any(at.surely, outer, outer + 1), maybe_in = has_any(at.maybe, outer, outer + 1);
-  if ((!in && !maybe_in) || has_any(at.surely, outer + 1, end)) return false;
-  if (in && !has_any(at.maybe, outer + 1, end)) return true;
+  if (has_any(at.surely, outer + 1, end)) return false;
+  if (has(at.surely, outer) && !has_any(at.maybe, outer + 1, end)) return true;
   return std::nullopt;
 }
 
@@ -141,8 +143,10 @@ std::size_t piece_of(const Shape& shape, std::size_t contour) {
 template <class Question>
 auto for_any_point(const Shape& shape, std::size_t contour, Question question)
     -> decltype(question(std::declval<Vec>())) {
-  for (std::size_t k = shape.contour_starts[contour]; k < shape.contour_starts[contour + 1]; ++k)
-    for (const Vec& p : points_of(shape.sides[k]))
+  const Side* const sides = shape.sides.data();
+  for (const Side& side :
+       std::span(sides + shape.contour_starts[contour], sides + shape.contour_starts[contour + 1]))
+    for (const Vec& p : points_of(side))
       if (auto answer = question(p)) return answer;
   return std::nullopt;
 }
@@ -157,7 +161,7 @@ std::optional<bool> holds(const Shape& shape, const Vec& p) {
     for (const std::size_t contour : *contours) {
       const auto in = piece_holds(shape, piece_of(shape, contour), at);
       if (in && *in) return true;
-      sure = sure && in.has_value();
+      if (!in) sure = false;
     }
   if (sure) return false;
   return std::nullopt;
@@ -194,16 +198,11 @@ namespace {
 /// of the radius, as for the ends of arcs (docs/design/geometry.md).
 constexpr double kLoop = 1e-3, kLoopOfRadius = 1e-6;
 
-bool surely_between(const Side& side, const Vec& p) {
-  if (side.arc) return surely_faces(side, p - side.centre);
-  const Vec along = side.to - side.from;
-  return dot(along, p - side.from).low > 0 && dot(along, side.to - p).low > 0;
-}
-
+/// \pre one of them is an arc
 bool cross_again(const Side& a, const Side& b, const Vec& shared) {
-  if (!a.arc) return b.arc && cross_again(b, a, shared);
+  if (!a.arc) return cross_again(b, a, shared);
   const Vec along = b.arc ? b.centre - a.centre : b.to - b.from;
-  if (!(length(along).low > 0)) return false;
+  if (!surely_not_zero(along)) return false;
   // The other crossing is the shared point mirrored in the line of the centres, or in the perpendicular from
   // the arc's centre to the line.
   const Vec u = unit(along), w = shared - a.centre;
@@ -211,28 +210,23 @@ bool cross_again(const Side& a, const Side& b, const Vec& shared) {
   const Vec other = b.arc ? a.centre + part - w : shared - part;
   const Span apart = length(other - shared);
   const Span depth = squared(apart) / (just(8) * a.radius);
-  return depth.low > kLoop + kLoopOfRadius * a.radius.high && surely_between(a, other) &&
-         surely_between(b, other);
+  return depth.low > kLoop + kLoopOfRadius * a.radius.high && surely_beside(a, other) &&
+         surely_beside(b, other);
 }
 
-/// Says whether two points have the same decimals.
-bool same(const Vec& p, const Vec& q) {
-  return p.x.low == q.x.low && p.x.high == q.x.high && p.y.low == q.y.low && p.y.high == q.y.high;
-}
-
-std::optional<std::string> fault_of_neighbours(const Shape& shape, std::size_t i, std::size_t j) {
+/// \param whole  no other sides are in the contour
+std::optional<std::string> fault_of_neighbours(const Shape& shape, std::size_t i, std::size_t j, bool whole) {
   const Side &a = shape.sides[i], &b = shape.sides[j];
   if (!a.written || !b.written) return std::nullopt;
   if (a.arc || b.arc) {
     // Two sides that make up the whole contour meet at both ends, and curves like these meet nowhere else. A
     // crossing beside the other end only comes from the digits of the radii.
-    if (same(a.written_to, b.written_from) && same(a.written_from, b.written_to)) return std::nullopt;
+    if (whole) return std::nullopt;
     if (!cross_again(a, b, a.written_to)) return std::nullopt;
     return fmt::format("sides {} and {} cross", i, j);
   }
   const Vec u = a.to - a.from, v = b.to - b.from;
-  const Span turn = cross(u, v);
-  if (turn.low > 0 || turn.high < 0 || dot(u, v).low > 0) return std::nullopt;
+  if (compare(cross(u, v), just(0)) != 0 || compare(dot(u, v), just(0)) > 0) return std::nullopt;
   return fmt::format("side {} runs back along side {}", j, i);
 }
 
@@ -253,10 +247,11 @@ std::optional<std::string> misplaced(const Shape& shape, std::size_t contour) {
     return found.maybe.empty() ? std::optional(found) : std::nullopt;
   });
   if (is_hole) {
-    if (!at || !has_any(at->surely, outer, outer + 1))
+    const std::vector<std::size_t> surely = at.value_or(Around{}).surely;
+    if (!has(surely, outer))
       return fmt::format("hole {} of piece {} is not inside it", contour - outer - 1, p);
-    const auto other = std::upper_bound(at->surely.begin(), at->surely.end(), outer);
-    if (other != at->surely.end() && *other < shape.piece_starts[p + 1])
+    const auto other = std::upper_bound(surely.begin(), surely.end(), outer);
+    if (other != surely.end() && *other < shape.piece_starts[p + 1])
       return fmt::format("hole {} of piece {} lies in its hole {}", contour - outer - 1, p,
                          *other - outer - 1);
     return std::nullopt;
@@ -264,7 +259,7 @@ std::optional<std::string> misplaced(const Shape& shape, std::size_t contour) {
   if (!at) return fmt::format("piece {} lies in other pieces, or cannot be told from it", p);
   for (const std::size_t around_it : at->surely) {
     const std::size_t q = piece_of(shape, around_it);
-    if (q != p && piece_holds(shape, q, *at) == true)
+    if (piece_holds(shape, q, *at) == true)
       return fmt::format("piece {} lies in the material of piece {}", p, q);
   }
   return std::nullopt;
@@ -276,13 +271,12 @@ std::vector<std::size_t> numbers_of(const Shape& shape) {
   std::vector<std::size_t> numbers;
   for (std::size_t c = 0; c + 1 < shape.contour_starts.size(); ++c) {
     std::size_t number = 0;
+    // Lines that join an arc stand before it and after it.
+    bool joining = false;
     for (std::size_t k = shape.contour_starts[c]; k < shape.contour_starts[c + 1]; ++k) {
       numbers.push_back(number);
-      const bool last = k + 1 == shape.contour_starts[c + 1];
-      // A line that joins comes before its arc or after it.
-      const bool before = !shape.sides[k].written && !last && shape.sides[k + 1].arc;
-      const bool inside = shape.sides[k].arc && !last && !shape.sides[k + 1].written;
-      if (!before && !inside) ++number;
+      if (!shape.sides[k].written) joining = !joining;
+      if (!joining) ++number;
     }
   }
   return numbers;
@@ -293,7 +287,7 @@ std::vector<std::size_t> numbers_of(const Shape& shape) {
 std::optional<std::string> fault_of(const Shape& shape) {
   const std::vector<std::size_t> number = numbers_of(shape);
   const std::size_t most = limits::most_meeting_boxes(shape.sides.size());
-  std::size_t seen = 0;
+  std::size_t left = most;
   for (std::size_t c = 0; c + 1 < shape.contour_starts.size(); ++c) {
     const std::size_t begin = shape.contour_starts[c], end = shape.contour_starts[c + 1];
     for (std::size_t i = begin; i < end; ++i) {
@@ -302,23 +296,24 @@ std::optional<std::string> fault_of(const Shape& shape) {
                         [&](std::size_t j) {
                           if (j > i) others.push_back(j);
                         });
-      seen += others.size();
-      if (seen > most)
+      if (others.size() > left)
         return fmt::format("more than {} pairs of its sides have boxes that meet, too many to look at", most);
+      left -= others.size();
       std::sort(others.begin(), others.end());
       ask(1 + others.size());
       for (const std::size_t j : others) {
         const bool next = j < end && number[j] <= number[i] + 1;
         const bool round = j < end && number[i] == 0 && number[j] == number[end - 1];
+        const bool two = number[end - 1] == 1, three = number[end - 1] == 2;
         std::optional<std::string> fault;
-        if (next) fault = fault_of_neighbours(shape, i, j);
-        if (round && !fault) fault = fault_of_neighbours(shape, j, i);
-        if ((next || round) && !fault && number[end - 1] == 2)
-          fault = next && !round ? fault_of_three(shape, i, j) : fault_of_three(shape, j, i);
-        if (!next && !round && !carriers_apart(shape.sides[i], shape.sides[j]) &&
-            !(distance(shape.sides[i], shape.sides[j]).low > 0))
-          fault = fmt::format("sides {} and {} meet, or cannot be told from it", i, j);
+        if (next) fault = fault_of_neighbours(shape, i, j, two);
+        if (round && !fault) fault = fault_of_neighbours(shape, j, i, two);
+        if (three && !fault) fault = round ? fault_of_three(shape, j, i) : fault_of_three(shape, i, j);
         if (fault) return fault;
+        if (next || round) continue;
+        if (carriers_apart(shape.sides[i], shape.sides[j])) continue;
+        if (!(distance(shape.sides[i], shape.sides[j]).low > 0))
+          return fmt::format("sides {} and {} meet, or cannot be told from it", i, j);
       }
     }
   }

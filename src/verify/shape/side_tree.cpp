@@ -2,21 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <limits>
 #include <numeric>
-#include <tuple>
 #include <utility>
 #include "verify/number/span.hpp"
 
 namespace lekalo::verify {
-namespace {}  // namespace
-
 double gap(const Box& a, const Box& b) {
   const double x =
       std::max({0.0, (just(a.low_x) - just(b.high_x)).low, (just(b.low_x) - just(a.high_x)).low});
   const double y =
       std::max({0.0, (just(a.low_y) - just(b.high_y)).low, (just(b.low_y) - just(a.high_y)).low});
-  if (x == 0 || y == 0) return std::max(x, y);
   return square_root(squared(just(x)) + squared(just(y))).low;
 }
 
@@ -41,9 +38,11 @@ std::uint32_t SideTree::build(std::uint32_t begin, std::uint32_t end) {
   nodes_.push_back({all, begin, end, 0});
   if (end - begin <= kLeaf) return at;
   const bool by_x = all.high_x - all.low_x >= all.high_y - all.low_y;
+  // The order is total, so that the halves are the same whatever the library's nth_element does.
   struct Placed {
     double at;
     std::uint32_t side;
+    auto operator<=>(const Placed&) const = default;
   };
   std::vector<Placed> placed;
   placed.reserve(end - begin);
@@ -52,11 +51,8 @@ std::uint32_t SideTree::build(std::uint32_t begin, std::uint32_t end) {
     const double middles = by_x ? box.low_x + box.high_x : box.low_y + box.high_y;
     placed.push_back({std::isnan(middles) ? 0 : middles, order_[k]});  // of a box that is everywhere
   }
-  // The order is total, so that the halves are the same whatever the library's nth_element does.
-  const std::uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(
-      placed.begin(), placed.begin() + (middle - begin), placed.end(),
-      [](const Placed& a, const Placed& b) { return std::tuple(a.at, a.side) < std::tuple(b.at, b.side); });
+  const std::uint32_t middle = std::midpoint(begin, end);
+  std::nth_element(placed.begin(), placed.begin() + (middle - begin), placed.end());
   for (std::uint32_t k = begin; k < end; ++k) order_[k] = placed[k - begin].side;
   for (const auto& [first, last] : {std::pair(begin, middle), std::pair(middle, end)})
     if (last - first <= kLeaf) std::sort(order_.begin() + first, order_.begin() + last);

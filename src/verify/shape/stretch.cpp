@@ -37,7 +37,7 @@ std::optional<Vec> about_the_middle(const Side& arc) {
   // sweep.
   if (ax * bx + ay * by < 0) x = by - ay, y = ax - bx;
   const Vec towards{just(x), just(y)};
-  if (!(length(towards).low > 0)) return std::nullopt;
+  if (!surely_not_zero(towards)) return std::nullopt;
   const Vec cut = unit(towards);
   // Two turns of less than a half each add up to this arc's turn, and not to a full turn more.
   if (cross(arc.first, cut).low > 0 && cross(cut, arc.last).low > 0) return cut;
@@ -117,7 +117,7 @@ std::optional<std::array<Side, 2>> cut_beside(const Side& piece, const Vec& poin
   if (piece.arc) {
     const Vec away = point - piece.centre;
     const Vec towards{just(middle_of(away.x)), just(middle_of(away.y))};
-    if (!(length(towards).low > 0)) return std::nullopt;
+    if (!surely_not_zero(towards)) return std::nullopt;
     const Vec direction = unit(towards);
     if (!(cross(piece.first, direction).low > 0 && cross(direction, piece.last).low > 0)) return std::nullopt;
     return parts(piece, direction);

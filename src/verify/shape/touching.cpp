@@ -261,13 +261,7 @@ class Touching {
       ask();
       if (!side.known || !others[j].known || !shape.sides[j].written || !same_carrier(side, others[j]))
         continue;
-      const Side& span = shape.sides[j];
-      if (span.arc) {
-        if (surely_faces(span, middle.at - span.centre)) return j;
-        continue;
-      }
-      const Vec along = span.to - span.from;
-      if (dot(along, middle.at - span.from).low > 0 && dot(along, span.to - middle.at).low > 0) return j;
+      if (surely_beside(shape.sides[j], middle.at)) return j;
     }
     return kNoSide;
   }
