@@ -3,12 +3,16 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "lekalo/base/random.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "verify/shape/shape_distance.hpp"
+#include "verify/shape/sticking_out.hpp"
 #include "verify/shape/stretch.hpp"
 
 namespace lekalo::verify::verify_distance_test {
@@ -208,6 +212,294 @@ TEST(VerifyDistance, ADiscInADisc) {
     const Enclosure found = clearance(circle(0, 0, 5), circle(0, 0, 12), circle(0, 11.5, 0.25), x);
     const double wanted = std::min(7 - x, std::hypot(x, 11.5) - 5.25);
     expect(found, wanted, 1e-13);
+  }
+}
+
+// ---- at the very bound: sides made by hand, whose enclosures touch ----------------------------------------
+
+constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+
+TEST(VerifyDistance, ADirectionAlongTheEndOfAnArc) {
+  const Side upper = quarter(0, 5);
+  Side arc = upper;
+  arc.first = {just(1), just(0)}, arc.last = {just(0), just(1)};
+  bool met = false, left = false;
+  for (int k = -20; k <= 20; ++k) {
+    const Vec direction{just(1), just(k * kLeast)};
+    const Span turn = cross(arc.first, direction);
+    met = met || turn.low == 0, left = left || turn.high == 0;
+    EXPECT_EQ(surely_faces(arc, direction), turn.low >= 0) << k;
+    EXPECT_EQ(may_face(arc, direction), turn.high >= 0) << k;
+  }
+  EXPECT_TRUE(met && left);
+}
+
+TEST(VerifyDistance, AnEndWithoutBlurIsAsFarAsItIs) {
+  const Side side = straight(0, 0, 4, 0);
+  const Vec p{just(-3), just(4)};
+  EXPECT_EQ(distance(p, side).low, length(side.from - p).low);
+  EXPECT_EQ(distance(p, side).high, length(side.from - p).high);
+  Side blurred = quarter(0, 5);
+  blurred.off = 0.25;
+  EXPECT_NEAR(distance({just(8), just(-4)}, blurred).low, 4.75, 1e-12);
+  blurred.off = 100;
+  EXPECT_EQ(distance({just(8), just(-4)}, blurred).low, 0);
+}
+
+TEST(VerifyDistance, CircleAndLineThatMayTouch) {
+  Side circle = full(0, 0, 5);
+  const Side line = straight(-20, 5, 20, 5);
+  // The line's distance from the centre, as it is enclosed.
+  const Vec along = line.to - line.from;
+  const Span height = absolute(cross(along, circle.centre - line.from) / length(along));
+  circle.radius = {4, height.low};
+  EXPECT_LT(distance(line, circle).high, 1.01) << "outside, or tangent";
+  circle.radius = {4, step_up(height.low)};
+  EXPECT_EQ(distance(line, circle).low, 0);
+  EXPECT_GT(distance(line, circle).high, 1.01);
+  circle.radius = {height.high, 6};
+  EXPECT_GT(distance(line, circle).high, 0) << "not surely across";
+  circle.radius = {step_up(height.high), 6};
+  EXPECT_EQ(distance(line, circle).high, 0);
+  expect(distance(straight(-20, 3, 20, 3), full(0, 0, 5)), 0, 0);
+}
+
+TEST(VerifyDistance, CirclesThatMayTouch) {
+  // The ends are on the far sides.
+  Side a = full(0, 0, 1);
+  a.from = a.to = {just(-1), just(0)};
+  Side b = full(2, 0, 1);
+  const double parts = (a.radius + b.radius).high;
+  bool met = false;
+  for (double x = 2; x < 2 + 1e-14; x = step_up(x)) {
+    b.centre = {just(x), just(0)}, b.from = b.to = {just(x + 1), just(0)};
+    const double apart = length(b.centre - a.centre).low;
+    met = met || apart == parts;
+    EXPECT_EQ(distance(a, b).high < 0.5, apart >= parts) << x;
+  }
+  EXPECT_TRUE(met);
+}
+
+TEST(VerifyDistance, CentresThatCountAsOne) {
+  const Side a = full(0, 0, 1);
+  Side b = full(0, 0, 1024);
+  bool met = false;
+  const auto lowered = [&](double x) {
+    b.centre = {just(x), just(0)};
+    const Span apart = length(b.centre - a.centre);
+    met = met || apart.low == 1e-13 * a.radius.high;
+    return apart;
+  };
+  // The smaller radius counts. Centres in one put the distance two of theirs lower, others one.
+  for (double x = 1e-13; x < 1.00000000000001e-13; x = step_up(x)) (void)lowered(x);
+  EXPECT_TRUE(met);
+  b = full(0, 0, 1.5);
+  for (double x = 1e-13; x < 1.00000000000001e-13; x = step_up(x)) {
+    const Span apart = lowered(x);
+    const bool one = !(apart.low > 1e-13 * a.radius.high);
+    EXPECT_EQ(distance(a, b).low < 0.5 - 1.5e-13, one) << x;
+  }
+  b = full(1e-11, 0, 8);
+  EXPECT_GT(distance(full(0, 0, 0.25), b).low, 7.75 - 1.2e-11);
+  expect(distance(full(0, 0, 5), full(0, 0, 5.5)), 0.5, 1e-13);
+}
+
+TEST(VerifyDistance, LinesOfNextToNoLengthAreNotDecidedByUnderflow) {
+  const auto by_hand = [](double x0, double y0, double x1, double y1) {
+    return side_between({just(x0), just(y0)}, {just(x1), just(y1)});
+  };
+  int undecided = 0;
+  for (int k = 1; k < 40; ++k) {
+    const double s = k * 1e-82;
+    const Side across = by_hand(-s, 0, s, 0), up = by_hand(0, -s, 0, s), over = by_hand(-s, s / 2, s, s / 2);
+    const Span turn = cross(across.to - across.from, up.from - across.from),
+               other = cross(across.to - across.from, up.to - across.from), product = turn * other;
+    undecided += product.high == 0 ? 1 : 0;
+    EXPECT_EQ(distance(across, up).high == 0, product.high < 0) << k;
+    const Span beside = cross(across.to - across.from, over.from - across.from);
+    if (!((beside * beside).low > 0)) EXPECT_EQ(distance(across, over).low, 0) << k;
+    if ((beside * beside).low > 0) EXPECT_GT(distance(across, over).low, 0) << k;
+  }
+  EXPECT_GT(undecided, 0);
+}
+
+TEST(VerifyDistance, CarriersApart) {
+  const auto circles = [](const Side& a, const Side& b) {
+    EXPECT_EQ(carriers_apart(a, b), carriers_apart(b, a));
+    return carriers_apart(a, b);
+  };
+  EXPECT_TRUE(circles(full(0, 0, 5), full(1, 0, 2)));
+  EXPECT_TRUE(circles(full(0, 0, 5), full(9, 0, 2)));
+  EXPECT_FALSE(circles(full(0, 0, 5), full(6, 0, 2)));
+  EXPECT_FALSE(circles(full(0, 0, 5), full(3, 0, 2)));
+  EXPECT_FALSE(circles(full(0, 0, 5), full(0, 0, 5)));
+  Side a = full(0, 0, 5), b = full(9, 0, 2);
+  b.off = 2.5;
+  EXPECT_FALSE(circles(a, b));
+  // At the bound.
+  a.off = b.off = 0;
+  bool met_within = false, met_beside = false;
+  for (double r = 1; r < 1 + 1e-15; r = step_up(r))
+    for (double x = 0.5; x < 0.5 + 2e-15; x = step_up(x)) {
+      a.radius = just(r), b.radius = just(0.5), b.centre = a.centre + Vec{just(x), just(0)};
+      const Span none = just(0.0) + just(0.0), apart = length(b.centre - a.centre);
+      const double within = (absolute(a.radius - b.radius) - none).low;
+      met_within = met_within || within == apart.high;
+      EXPECT_EQ(circles(a, b), within > apart.high) << r << ' ' << x;
+      b.centre = a.centre + Vec{just(x + 1), just(0)};
+      const double reach = (a.radius + b.radius + none).high, beside = length(b.centre - a.centre).low;
+      met_beside = met_beside || beside == reach;
+      EXPECT_EQ(circles(a, b), beside > reach) << r << ' ' << x;
+    }
+  EXPECT_TRUE(met_within && met_beside);
+  // A line beside a circle.
+  EXPECT_TRUE(circles(full(0, 0, 5), straight(-9, 6, 9, 6)));
+  EXPECT_FALSE(circles(full(0, 0, 5), straight(-9, 4, 9, 4)));
+  EXPECT_FALSE(circles(full(0, 0, 5), straight(-9, 5, 9, 5)));
+  // Lines: either may have the other on one side.
+  EXPECT_TRUE(circles(straight(0, 0, 4, 0), straight(1, 1, 1, 3)));
+  EXPECT_TRUE(circles(straight(0, 0, 4, 0), straight(1, -1, 1, -3)));
+  EXPECT_FALSE(circles(straight(0, 0, 4, 0), straight(1, -1, 1, 3)));
+  EXPECT_FALSE(circles(straight(0, 0, 4, 0), straight(2, 0, 6, 0)));
+}
+
+TEST(VerifyDistance, LinesWhoseEndsMayLieOnTheOthersLine) {
+  bool met_low = false, met_high = false;
+  const Side flat = side_between({just(0), just(0)}, {just(1), just(0)});
+  for (const bool swapped : {false, true})
+    for (int k = -20; k <= 20; ++k) {
+      const Vec near{just(0.5), just(k * kLeast)}, far{just(0.5), just(k < 0 ? -1 : 1)};
+      const Side up = swapped ? side_between(far, near) : side_between(near, far);
+      const Span turn = cross(flat.to - flat.from, near - flat.from);
+      met_low = met_low || turn.low == 0, met_high = met_high || turn.high == 0;
+      EXPECT_EQ(carriers_apart(flat, up), turn.low > 0 || turn.high < 0) << k;
+    }
+  EXPECT_TRUE(met_low && met_high);
+}
+
+TEST(VerifyDistance, PointsOfASideAreOnIt) {
+  const std::vector<Side> sides{straight(1, 2, 5, 7), full(2, -1, 5), quarter(0, 5),
+                                quarter(1, 5),        quarter(2, 5),  quarter(3, 5)};
+  for (const Side& side : sides) {
+    const std::vector<Vec> points = points_of(side);
+    EXPECT_GT(points.size(), 1U);
+    for (const Vec& p : points) EXPECT_LT(distance(p, side).high, 1e-13);
+  }
+}
+
+TEST(VerifyDistance, TheNearestSideOfAnOutlineCounts) {
+  const Shape outline = shape(box(0, 0, 8, 4));
+  for (const auto& [x, y, wanted] :
+       std::vector<std::array<double, 3>>{{4, 1, 1}, {7, 2, 1}, {4, 3.5, 0.5}, {0.25, 2, 0.25}})
+    expect(distance(Vec{just(x), just(y)}, outline), wanted, 1e-14);
+  expect(distance(straight(3, 1, 3, 2.5), outline), 1, 1e-14);
+}
+
+// ---- how far a piece is from a side, and a part sticks out ------------------------------------------------
+
+/// An arc about a centre from an angle on, by a turn, with its chord left out.
+Side arc_by_angles(double cx, double cy, double r, double from, double turn) {
+  const double x0 = cx + r * std::cos(from), y0 = cy + r * std::sin(from),
+               x1 = cx + r * std::cos(from + turn), y1 = cy + r * std::sin(from + turn);
+  return shape("[" + arc(x0, y0, x1, y1, cx, cy) + ", " + line(x1, y1, x0, y0) + "]").sides[0];
+}
+std::vector<Vec> along(const Side& piece) {
+  std::vector<Side> parts{piece};
+  for (int depth = 0; depth < 4; ++depth) {
+    std::vector<Side> finer;
+    for (const Side& part : parts)
+      for (const Side& half : halves(part)) finer.push_back(half);
+    parts = finer;
+  }
+  std::vector<Vec> points;
+  for (const Side& part : parts) points.push_back(part.from);
+  return points;
+}
+
+TEST(VerifyDistance, NoPointOfAPieceIsFartherThanTheBound) {
+  Random random(3);
+  const auto uniform = [&](double low, double high) { return low + (high - low) * random.uniform(); };
+  for (int i = 0; i < 300; ++i) {
+    const double turn = i % 3 == 0 ? uniform(0.2, 3) : uniform(3.3, 6);
+    const Side side = i % 5 == 0 ? straight(uniform(-5, 0), uniform(-5, 5), uniform(1, 5), uniform(-5, 5))
+                                 : arc_by_angles(0, 0, 5, uniform(0, 6), turn);
+    const double x = uniform(-8, 8), y = uniform(-8, 8);
+    const Side piece = i % 2 == 0 ? straight(x, y, x + uniform(0.1, 2), y + uniform(-2, 2))
+                                  : arc_by_angles(x, y, uniform(0.5, 3), uniform(0, 6), uniform(0.2, 0.8));
+    const double bound = farthest(piece, corners_of(piece), side);
+    double most = 0;
+    for (const Vec& p : along(piece)) most = std::max(most, distance(p, side).low);
+    EXPECT_GE(bound, most) << i;
+  }
+}
+
+TEST(VerifyDistance, APieceBesideAnArcIsBoundedByItsCarrier) {
+  for (const double turn : {1.0, 3.141592653589793, 4.5}) {
+    const Side side = arc_by_angles(0, 0, 5, -turn / 2, turn);
+    const Side outside = straight(6, -0.25, 6, 0.25), inside = straight(4, -0.25, 4, 0.25);
+    EXPECT_NEAR(farthest(outside, corners_of(outside), side), std::hypot(6, 0.25) - 5, 1e-12) << turn;
+    EXPECT_NEAR(farthest(inside, corners_of(inside), side), 1, 1e-12) << turn;
+    // Beside one end alone: in one of the two half-planes of an arc, which suffices for a long one.
+    for (const double sign : {1.0, -1.0}) {
+      const double c = std::cos(turn / 2 + 0.5), s = sign * std::sin(turn / 2 + 0.5);
+      const Side past = straight(6 * c, 6 * s, 6.1 * c, 6.1 * s);
+      EXPECT_GT(farthest(past, corners_of(past), side), 2) << turn;
+      const double c2 = std::cos(turn / 2 - 0.25), s2 = sign * std::sin(turn / 2 - 0.25);
+      const Side within = straight(6 * c2, 6 * s2, 6.1 * c2, 6.1 * s2);
+      EXPECT_NEAR(farthest(within, corners_of(within), side), 1.1, 1e-12) << turn;
+    }
+  }
+  // The nearer end of a line that a piece lies behind, and the farthest point of an arc inside it.
+  const Side line = straight(0, 0, 10, 0), behind = straight(-3, 0, -2, 0);
+  EXPECT_NEAR(farthest(behind, corners_of(behind), line), 3, 1e-12);
+  EXPECT_NEAR(farthest(arc_by_angles(0, 0, 2, -0.5, 1), {just(-1), just(0)}), 3, 1e-12);
+}
+
+TEST(VerifyDistance, CutsOnlyBetweenTheEnds) {
+  const Side line = straight(0, 0, 4, 0);
+  EXPECT_FALSE(cut_beside(line, {just(0), just(1)}));
+  EXPECT_FALSE(cut_beside(line, {just(4), just(1)}));
+  EXPECT_TRUE(cut_beside(line, {just(1), just(1)}));
+}
+
+TEST(VerifyDistance, PartsStickOutOfBlanksByWhatSamplesSay) {
+  const auto with = [](const std::string& outer, const std::vector<std::string>& holes) {
+    std::string list;
+    for (const std::string& hole : holes) list += (list.empty() ? "" : ", ") + hole;
+    std::string complaint;
+    const std::string text = R"({"outer": )" + outer + R"(, "holes": [)" + list + "]}";
+    return read_shape(*parse_json(text, "s"), "s", complaint);
+  };
+  const std::string lens = "[" + arc(5, 1, 5, 9, 2, 5) + ", " + arc(5, 9, 5, 1, 8, 5) + "]";
+  const std::string half = "[" + arc(3, 5, 7, 5, 5, 5) + ", " + line(7, 5, 3, 5) + "]";
+  struct Known {
+    Shape part, blank;
+    double out;
+  };
+  const std::string plate = box(0, 0, 10, 10), around = box(-5, -5, 15, 15);
+  const std::vector<Known> table{
+      {with(plate, {}), with(around, {lens}), 2},
+      {with(plate, {}), with(around, {half}), 1},
+      {with(plate, {}), with(around, {box(2, 4, 8, 5)}), 0.5},
+      {with(plate, {}), with(around, {box(1, 1, 9, 9)}), 4},
+      {with(plate, {}), with(around, {circle(5, 5, 3), box(0.5, 0.5, 1, 1)}), 3},
+      {with(plate, {}), with(box(-5, -5, 8, 15), {}), 2},
+      {with(plate, {circle(5, 5, 2)}), with(around, {circle(5, 5, 3)}), 1},
+      {with(circle(5, 5, 5), {}), with(around, {box(4, 4, 6, 6)}), 1},
+      {with(circle(0, 0, 4), {}), with(circle(3, 0, 5), {}), 2},
+      {with(circle(0, 0, 4), {}), with(circle(30, 0, 5), {}), 29},
+      {with(plate, {}), with(around, {}), 0},
+  };
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    const auto& [part, blank, out] = table[k];
+    const Span found = sticking_out(part, blank, 1e-6);
+    EXPECT_LE(found.low, out + 1e-9) << k;
+    EXPECT_GE(found.high, out - 1e-9) << k;
+    EXPECT_LE(found.high - found.low, 2.1e-6) << k;
+    // Enough is enough.
+    if (out > 0) EXPECT_GT(sticking_out(part, blank, 1e-6, out / 2).low, out / 2) << k;
+    const Span all = sticking_out(part, blank, 1e-6, out + 1);
+    EXPECT_LE(all.high - all.low, 2.1e-6) << k;
   }
 }
 

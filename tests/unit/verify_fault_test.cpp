@@ -275,5 +275,115 @@ TEST(Touching, WhereFractionsDoNotHelpNothingIsClaimed) {
                  region(box("-9", "-9", "9", "9")));
 }
 
+TEST(Touching, ArcsThatCrossOrTouchInsideBoth) {
+  // Plates bounded by an arc of a circle about (0, 0) and by lines left of it; by an arc of less than half a
+  // turn, of half, and of more. Where the other's arc or line passes through is asked in every part of them.
+  const auto cap = [](const char* from, const char* to, const std::vector<const char*>& corners) {
+    std::string text = arc(from, to, "0, 0");
+    const char* last = to;
+    for (const char* corner : corners) text += ", " + line(last, corner), last = corner;
+    return region("[" + text + ", " + line(last, from) + "]");
+  };
+  const std::string less = cap("3, -4", "3, 4", {"-9, 4", "-9, -4"}),
+                    half = cap("0, -5", "0, 5", {"-9, 5", "-9, -5"}),
+                    more = cap("-3, -4", "-3, 4", {"-9, 4", "-9, -4"});
+  for (const std::string& blank : {less, half, more}) {
+    expect_touches(blank, blank);
+    expect_touches(region(box("-8", "-3", "4", "3")), blank);  // corners on the arc
+    expect_less(region(box("-8", "-3", "4.5", "3")), blank);   // lines across the arc
+    expect_less(region(box("-8", "-0.1", "5.1", "0.1")), blank);
+    expect_touches(region(polygon({"-8, 0", "4, -3", "5, 0", "4, 3"})), blank);
+    expect_touches(region(circle(2, 0, 3)), blank);  // a circle touches the arc
+    expect_less(region(circle(3, 0, 3)), blank);     // and one crosses it
+    expect_less(region("[" + arc("4, -1", "4, 1", "4, 0", false) + ", " + line("4, 1", "9, 1") + ", " +
+                       line("9, 1", "9, -1") + ", " + line("9, -1", "4, -1") + "]"),
+                blank);
+  }
+  // The part's own arcs, of each turn, about another centre, in a circle that holds and one that does not.
+  for (const std::string& part : {less, half, more}) {
+    expect_touches(part, region(box("-9", "-9", "9", "9")));
+    expect_touches(part, region(box("-10", "-10", "5", "9")));  // tangent at (5, 0)
+    expect_less(part, region(box("-10", "-10", "4.5", "9")));
+    expect_less(
+        part,
+        region(polygon({"-10, -10", "9, -10", "9, -1", "4.9, -1", "4.9, 1", "9, 1", "9, 9", "-10, 9"})));
+  }
+  // Arcs of more than half a turn reach around: a line across each of their ends' sides.
+  expect_less(more,
+              region(polygon({"-10, -9", "9, -9", "9, 9", "0, 9", "0, 4.5", "-1, 4.5", "-1, 9", "-10, 9"})));
+  expect_less(
+      more,
+      region(polygon({"-10, -9", "-1, -9", "-1, -4.5", "0, -4.5", "0, -9", "9, -9", "9, 9", "-10, 9"})));
+}
+
+TEST(Touching, CarriersThatMeetBesideTheSidesDoNoHarm) {
+  const std::string blank = region(box("0", "0", "10", "10"));
+  // The part touches below; its other sides' lines and circles meet the blank's beyond their ends.
+  expect_touches(region(polygon({"4, 0", "6, 3", "5, 6"})), blank);
+  expect_touches(region("[" + arc("3, 1", "3, 5", "3, 3") + ", " + line("3, 5", "2, 0") + ", " +
+                        line("2, 0", "3, 1") + "]"),
+                 blank);
+  // A circle about (5, 5) tangent to the blank's lower side where the side is not: a notch.
+  expect_touches(region("[" + arc("5, 0", "5, 10", "5, 5") + ", " + line("5, 10", "5, 0") + "]"), blank);
+  expect_touches(region(circle(5, 5, 5)),
+                 region(polygon({"0, 0", "4, 0", "4, -1", "6, -1", "6, 0", "10, 0", "10, 10", "0, 10"})));
+  // Lines on one line that have nothing in common, and parallel ones.
+  expect_touches(region(polygon({"1, 0", "2, 0", "2, 1", "1, 1"})),
+                 region(polygon({"0, 0", "3, 0", "3, -1", "5, -1", "5, 0", "8, 0", "8, 8", "0, 8"})));
+  // Circles about one centre.
+  expect_touches(region(circle(0, 0, 2), {circle(0, 0, 1)}), region(circle(0, 0, 2)));
+  expect_touches(region(circle(0, 0, 2), {circle(0, 0, 1)}), region(circle(0, 0, 2), {circle(0, 0, 0.5)}));
+  expect_less(region(circle(0, 0, 2)), region(circle(0, 0, 2), {circle(0, 0, 1)}));
+}
+
+TEST(Touching, ManyPlacesOnOneSide) {
+  // Teeth that touch the upper side of the blank, written in any order, and one that sticks out.
+  std::vector<std::string> corners{"0, 5", "20, 5"};
+  for (int x = 19; x > 0; x -= 2) {
+    corners.push_back(fmt::format("{}, 10", x));
+    corners.push_back(fmt::format("{}, 6", x - 1));
+  }
+  const std::string comb = region(polygon(corners));
+  expect_touches(comb, region(box("-1", "0", "21", "10")));
+  expect_touches(comb, region(polygon({"21, 10", "-1, 10", "-1, 0", "21, 0"})));
+  expect_less(comb, region(polygon({"-1, 0", "21, 0", "21, 10", "12, 10", "11, 9", "10, 10", "-1, 10"})));
+  // Corners all round a circle: each stretch between them is asked.
+  const std::vector<std::string> on{"5, 0",  "4, 3",   "3, 4",   "0, 5",  "-3, 4", "-4, 3",
+                                    "-5, 0", "-4, -3", "-3, -4", "0, -5", "3, -4", "4, -3"};
+  expect_touches(region(polygon(on)), region(circle(0, 0, 5)));
+  expect_touches(region(circle(0, 0, 5)), region(box("-9", "-9", "9", "5")));
+  // The blank's hole is the polygon, and the part fills all but a disc: the circle's stretches lie outside
+  // it.
+  expect_touches(region(box("-9", "-9", "9", "9"), {circle(0, 0, 5)}),
+                 region(box("-9", "-9", "9", "9"), {polygon(on)}));
+  expect_less(region(box("-9", "-9", "9", "9"), {polygon(on)}),
+              region(box("-9", "-9", "9", "9"), {circle(0, 0, 5)}));
+}
+
+TEST(Touching, AnOwnOutlineMovedOrMirroredIsAnother) {
+  const std::string triangle = region(polygon({"0, 0", "3, 0.25", "1, 2"}));
+  expect_touches(triangle, triangle);
+  expect_less(triangle, triangle, 1, 0);
+  expect_less(triangle, triangle, 0, 1);
+  expect_less(triangle, triangle, 0, 0, true);
+  const std::string with_arc =
+                        region("[" + arc("0, -5", "0, 5", "0, 0") + ", " + line("0, 5", "0, -5") + "]"),
+                    reversed = region("[" + line("0, -5", "0, 5") + ", " +
+                                      arc("0, 5", "0, -5", "0, 0", false) + "]");
+  expect_touches(with_arc, reversed);
+  expect_less(with_arc, with_arc, 0, 0, true);
+}
+
+TEST(Touching, WhatCannotBeToldEnclosesTheTruth) {
+  // 1e-18 from the blank's side, turned by next to nothing.
+  const Enclosure found =
+      clearance(region(box("0", "2", "3", "4")), region(box("0", "0", "10", "10")), 1e-18, 0, false, 1e-200);
+  EXPECT_LE(found.low, 1e-18);
+  EXPECT_GE(found.high, 1e-18);
+  EXPECT_EQ(refusal(region(box("0", "0", "1", "1")), {1e12, 0, 0, false}), "");
+  EXPECT_EQ(refusal(region(box("0", "0", "1", "1")), {0, -1e12, 0, false}), "");
+  EXPECT_EQ(refusal(region(box("0", "0", "1", "1")), {0, 0, 1e12, false}), "");
+}
+
 }  // namespace
 }  // namespace lekalo::verify::verify_fault_test

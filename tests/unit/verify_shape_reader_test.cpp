@@ -286,5 +286,91 @@ TEST(VerifyShapeReader, AnOpenEdgeIsNoneOfItsNeighboursAndNotTheOneAcross) {
     }
 }
 
+TEST(VerifyShapeReader, WhatAnEdgeLacksIsNamed) {
+  const std::string arc_to = R"("to": [0, 1], "ccw": true)";
+  const std::vector<std::pair<std::string, std::string>> table{
+      {"{}", "r.outer[0] is not an object"},
+      {R"({"line": 5})", "r.outer[0] is not an object"},
+      {R"({"curve": {"from": [0, 0], "to": [1, 0]}})", "r.outer[0] is not an object"},
+      {R"({"line": {"to": [1, 0]}})", "field r.outer[0].from is not a list"},
+      {R"({"line": {"from": [0, 0]}})", "field r.outer[0].to is not a list"},
+      {R"({"line": {"from": [0, 0], "centre": [1, 0]}})", "field r.outer[0].to is not a list"},
+      {R"({"arc": {"from": [1, 0], "note": [0, 0], )" + arc_to + "}}",
+       "field r.outer[0].centre is not a list"},
+      {R"({"arc": {"from": [1, 0], "note": [0, 0], "to": [0, 1]}})", "field r.outer[0].centre is not a list"},
+      {R"({"line": {"from": [0, 0], "to": "1, 0"}})", "field r.outer[0].to is not a list"},
+      {R"({"line": {"from": [0, 0, 0, "a"], "to": [1, 0]}})", "r.outer[0].from is not two numbers"},
+      {line("0, 0", "2e9, 2e9"), "r.outer[0].to is farther than 1000000000 mm from the origin"},
+      {arc("0, 0", "1, 0", "0, 0"), "r.outer[0] is an arc that is a full circle or nothing"},
+      {arc("1.000000000000000000000000000001, 1", "1, 6", "1, 1"), "r.outer[0] is an arc without a radius"},
+      {arc("1, 6", "1.000000000000000000000000000001, 1", "1, 1"), "r.outer[0] is an arc without a radius"},
+  };
+  for (const auto& [edge, sentence] : table) EXPECT_EQ(complaint(region({edge})), sentence) << edge;
+}
+
+TEST(VerifyShapeReader, ABillionMillimetresInInches) {
+  const auto far = [](const std::string& x) {
+    return read(region({line("0, 0", x + ", 0"), line(x + ", 0", "0, 1"), line("0, 1", "0, 0")}), true)
+        .complaint;
+  };
+  EXPECT_EQ(far("39370078.740157480314960629921259842"), "");
+  EXPECT_EQ(far("39370078.741"), "r.outer[0].to is farther than 1000000000 mm from the origin");
+}
+
+TEST(VerifyShapeReader, OnlyTheLastEndIsMovedToTheBegin) {
+  const std::string third = "0.3333333333333333", same = "0.33333333333333331";
+  const Shape s = shape(region({line(third + ", 0", "9, 0"), line("9, 0", same + ", 0"),
+                                line(same + ", 0", "9, 9"), line("9, 9", same + ", 0")}));
+  EXPECT_EQ(compare(s.exact[1].to_x, *parse_decimal(same)), 0);
+  EXPECT_EQ(compare(s.exact[3].to_x, *parse_decimal(third)), 0);
+  // Loose edges have no begin to be moved to.
+  const std::string loose = "[" + line(third + ", 0", same + ", 0") + "]";
+  std::string said;
+  EXPECT_EQ(read_loose_edges(*parse_json(loose, "r"), "r", said).size(), 1U);
+  EXPECT_EQ(said, "");
+}
+
+TEST(VerifyShapeReader, OutlinesThroughPointsLeaveOutRepeatedOnes) {
+  const auto through = [](const std::vector<std::string>& x) {
+    std::vector<Decimal> xs, ys;
+    for (const std::string& text : x) xs.push_back(*parse_decimal(text)), ys.push_back(Decimal{});
+    ys.back() = *parse_decimal("0");
+    return outline_through(xs, ys);
+  };
+  EXPECT_EQ(through({"0", "0", "3", "5", "5", "0", "0"}).sides.size(), 3U);
+  const Shape two = through({"0", "3", "3", "0"});
+  ASSERT_EQ(two.sides.size(), 2U);
+  EXPECT_TRUE(is(two.sides[1].from, 3, 0) && is(two.sides[1].to, 0, 0));
+  EXPECT_EQ(through({"4", "4", "4"}).sides.size(), 1U);
+}
+
+TEST(VerifyShapeReader, EqualWithinATolerance) {
+  const auto triangle = [](const std::string& corner) {
+    return shape(region({line("0, 0", corner), line(corner, "0, 9"), line("0, 9", "0, 0")}));
+  };
+  const Shape plain = triangle("0.5, 0.5");
+  const auto same = [&](const std::string& corner, double tolerance) {
+    return same_edges(plain, triangle(corner), tolerance);
+  };
+  EXPECT_TRUE(same("0.5, 0.5", 0));
+  // One end of the enclosure is the same double, the other is not.
+  for (const std::string near : {"0.5000000000000000001", "0.4999999999999999999"}) {
+    EXPECT_FALSE(same(near + ", 0.5", 0)) << near;
+    EXPECT_FALSE(same("0.5, " + near, 0)) << near;
+  }
+  // The bound itself is near enough, as it is computed.
+  const double bound = absolute(just(0.5) - just(0.75)).high;
+  for (const std::string off : {"0.75, 0.5", "0.5, 0.75"}) {
+    EXPECT_TRUE(same(off, bound));
+    EXPECT_FALSE(same(off, step_down(bound)));
+  }
+  // A circle of whatever direction, and an arc that hardly begins.
+  const std::string out = line("5, 0", "6, 0"), back = line("6, 0", "5, 0");
+  const Shape circle = shape(region({arc("5, 0", "5, 0", "0, 0"), out, back}));
+  EXPECT_TRUE(same_edges(circle, shape(region({arc("5, 0", "5, 0", "0, 0", "false"), out, back})), 1e-6));
+  EXPECT_FALSE(same_edges(
+      circle, shape(region({arc("5, 0", "5, 1e-9", "0, 0"), line("5, 1e-9", "6, 0"), back})), 1e-6));
+}
+
 }  // namespace
 }  // namespace lekalo::verify::verify_shape_reader_test

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "lekalo/base/stop.hpp"
 #include "shape_distance.hpp"
@@ -15,6 +16,7 @@ struct Spot {
 };
 Spot operator+(const Spot& a, const Spot& b) { return {a.x + b.x, a.y + b.y}; }
 Spot operator-(const Spot& a, const Spot& b) { return {a.x - b.x, a.y - b.y}; }
+Spot operator-(const Spot& a) { return {-a.x, -a.y}; }
 Spot operator*(const Fraction& by, const Spot& a) { return {by * a.x, by * a.y}; }
 bool operator==(const Spot& a, const Spot& b) { return a.x == b.x && a.y == b.y; }
 Fraction cross(const Spot& a, const Spot& b) { return a.x * b.y - a.y * b.x; }
@@ -26,13 +28,10 @@ Span enclosed(const Fraction& value) {
 }
 Vec enclosed(const Spot& spot) { return {enclosed(spot.x), enclosed(spot.y)}; }
 
-/// Returns the sign of a + b sqrt(s), s >= 0.
+/// Returns the sign of a + b sqrt(s), s >= 0. It is that of the sum of the squares, each with its term's
+/// sign.
 int sign(const Fraction& a, const Fraction& b, const Fraction& s) {
-  const int of_a = sgn(a), of_b = sgn(s) == 0 ? 0 : sgn(b);
-  if (of_a == of_b || of_b == 0) return of_a;
-  if (of_a == 0) return of_b;
-  const int larger = cmp(Fraction(a * a), Fraction(b * b * s));
-  return larger > 0 ? of_a : (larger < 0 ? of_b : 0);
+  return sgn(Fraction(sgn(a) * a * a + sgn(b) * b * b * s));
 }
 /// The point rational + irrational sqrt(root).
 struct RootSpot {
@@ -42,7 +41,8 @@ struct RootSpot {
 
 /// A side in fractions, counter-clockwise if it is an arc, with the places where it is cut.
 struct ExactSide {
-  /// `known` is false for an arc whose ends do not lie on one circle exactly.
+  /// `known` is false for an arc whose ends do not lie on one circle exactly, and for lines that join such an
+  /// arc, which have its decimals.
   bool arc = false, full = false, known = true;
   Spot from, to, centre;
   Fraction squared_radius;
@@ -90,16 +90,10 @@ int standing(const ExactSide& side, const RootSpot& p) {
   const Spot first = side.from - side.centre, last = side.to - side.centre;
   const int after = sign_of([&](const Spot&v) { return cross(first, v); }),
             before = sign_of([&](const Spot&v) { return cross(v, last); });
-  const auto is_at = [&](const Spot& end) {
-    return sign_of([&](const Spot& v) { return cross(end, v); }) == 0 &&
-           sign_of([&](const Spot& v) { return dot(end, v); }) > 0;
-  };
-  if (is_at(first) || is_at(last)) return 0;
-  if (side.turn > 0) return after > 0 && before > 0 ? 1 : -1;
-  if (side.turn < 0) return after > 0 || before > 0 ? 1 : -1;
-  return after > 0 ? 1 : -1;
+  // The result is 0 at the ends alone: across from one of them the other number decides.
+  return side.turn == -1 ? std::max(after, before) : std::min(after, before);
 }
-int standing(const ExactSide& side, const Spot& p) { return standing(side, {p, {0, 0}, 0}); }
+int standing(const ExactSide& side, const Spot& p) { return standing(side, {p, {}, {}}); }
 
 bool carries(const ExactSide& side, const Spot& p) {
   if (!side.arc) return cross(side.along(), p - side.from) == 0;
@@ -123,12 +117,12 @@ bool cut_where_they_touch(ExactSide& a, ExactSide& b) {
         one->cuts.push_back(end);
       }
   if (same_carrier(a, b)) return true;
-  const auto crosses = [&](const RootSpot& p) { return standing(a, p) > 0 && standing(b, p) > 0; };
+  const auto is_inside_both = [&](const RootSpot& p) { return standing(a, p) > 0 && standing(b, p) > 0; };
   if (!a.arc && !b.arc) {
     const Fraction turn = cross(a.along(), b.along());
     if (turn == 0) return true;
     const Fraction share = cross(b.from - a.from, b.along()) / turn;
-    return !crosses({a.from + share * a.along(), {0, 0}, 0});
+    return !is_inside_both({a.from + share * a.along(), {}, {}});
   }
   // The carriers meet at middle +- sqrt(root) across.
   Spot middle, across;
@@ -149,35 +143,32 @@ bool cut_where_they_touch(ExactSide& a, ExactSide& b) {
     root = (arc.squared_radius - dot(height, height)) / whole;
   }
   if (sgn(root) < 0) return true;
-  // Tangent carriers touch and do not cross.
+  // Tangent carriers touch and do not cross. Where they touch in an end it is a cut already.
   if (sgn(root) == 0) {
-    if (standing(a, middle) >= 0 && standing(b, middle) >= 0)
-      a.cuts.push_back(middle), b.cuts.push_back(middle);
+    if (is_inside_both({middle, {}, {}})) a.cuts.push_back(middle), b.cuts.push_back(middle);
     return true;
   }
-  return !crosses({middle, across, root}) && !crosses({middle, Fraction(-1) * across, root});
+  return !is_inside_both({middle, across, root}) && !is_inside_both({middle, -across, root});
 }
 
 /// Returns the ends and cuts in order along the side, each once.
 std::vector<Spot> stops_of(const ExactSide& side) {
-  std::vector<Spot> stops = side.cuts;
-  if (!side.full) stops.push_back(side.from), stops.push_back(side.to);
-  if (stops.empty()) stops.push_back(side.from);
+  std::vector<Spot> spots = side.cuts;
+  if (!side.full) spots.push_back(side.from), spots.push_back(side.to);
+  if (spots.empty()) spots.push_back(side.from);
   const Spot u = side.along();
-  const Spot first = (side.full ? stops.front() : side.from) - side.centre;
-  // Returns 0 for the place `first` and up to half a turn on from it, 1 for the other half.
-  const auto half = [&](const Spot& p) {
-    const Fraction turned = cross(first, p);
-    return turned > 0 || (turned == 0 && dot(first, p) > 0) ? 0 : 1;
+  const Spot first = (side.full ? spots.front() : side.from) - side.centre;
+  // Returns a number that grows along the side: of a line, or of a circle, there first for half a turn.
+  const auto place = [&](const Spot& p) -> Fraction {
+    if (!side.arc) return dot(u, p - side.from);
+    const Spot v = p - side.centre;
+    if (cross(first, v) > 0 || v == first) return -dot(first, v);
+    return 2 * side.squared_radius + dot(first, v);
   };
-  std::sort(stops.begin(), stops.end(), [&](const Spot& p, const Spot& q) {
-    if (!side.arc) return dot(u, p - side.from) < dot(u, q - side.from);
-    const Spot v = p - side.centre, w = q - side.centre;
-    const int of_v = half(v), of_w = half(w);
-    if (of_v != of_w) return of_v < of_w;
-    return cross(v, w) > 0;
-  });
-  stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
+  std::map<Fraction, Spot> in_order;
+  for (const Spot& p : spots) in_order.emplace(place(p), p);
+  std::vector<Spot> stops;
+  for (const auto& [at, p] : in_order) stops.push_back(p);
   if (side.full) stops.push_back(stops.front());
   return stops;
 }
@@ -215,8 +206,7 @@ class Touching {
       for (const std::size_t j : sides_meeting(blank_, part_.tree->box(i))) {
         ask();
         if (distance(part_.sides[i], blank_.sides[j]).low > 0) continue;
-        const bool written = part_.sides[i].written && blank_.sides[j].written;
-        if (!written || !of_part_[i].known || !of_blank_[j].known) return false;
+        if (!of_part_[i].known || !of_blank_[j].known) return false;
         if (!cut_where_they_touch(of_part_[i], of_blank_[j])) return false;
       }
     return all(of_part_, part_,
@@ -243,7 +233,7 @@ class Touching {
   static bool all(const std::vector<ExactSide>& sides, const Shape& shape, Check&& check) {
     for (std::size_t i = 0; i < sides.size(); ++i) {
       // A side that touches nothing is told by any of its points.
-      if (!sides[i].known || !shape.sides[i].written) {
+      if (!sides[i].known) {
         if (!check(i, {points_of(shape.sides[i]).front(), {}})) return false;
         continue;
       }
@@ -259,8 +249,7 @@ class Touching {
                                const Shape& shape, const Middle& middle) {
     for (const std::size_t j : sides_meeting(shape, box_of(middle.at))) {
       ask();
-      if (!side.known || !others[j].known || !shape.sides[j].written || !same_carrier(side, others[j]))
-        continue;
+      if (!side.known || !others[j].known || !same_carrier(side, others[j])) continue;
       if (surely_beside(shape.sides[j], middle.at)) return j;
     }
     return kNoSide;
@@ -292,7 +281,7 @@ class Touching {
 Touch touches_from_inside(const Shape& part, const Shape& blank, const ExactShift& shift) {
   Touching touching(part, blank, shift);
   const bool inside = touching.from_inside();
-  return {inside, inside && touching.touches()};
+  return {inside, touching.touches()};
 }
 
 }  // namespace lekalo::verify

@@ -14,7 +14,8 @@ struct ExactShift {
 struct Touch {
   /// True when the part surely lies in the blank.
   bool inside = false;
-  /// True when it also touches the blank's outline, so that its clearance is exactly 0.
+  /// True when it also touches the blank's outline, so that its clearance is exactly 0. Says nothing of a
+  /// part that is not inside.
   bool touches = false;
 };
 
