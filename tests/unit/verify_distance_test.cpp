@@ -356,6 +356,19 @@ TEST(VerifyDistance, CarriersApart) {
   EXPECT_TRUE(circles(full(0, 0, 5), straight(-9, 6, 9, 6)));
   EXPECT_FALSE(circles(full(0, 0, 5), straight(-9, 4, 9, 4)));
   EXPECT_FALSE(circles(full(0, 0, 5), straight(-9, 5, 9, 5)));
+  bool met_tangent = false;
+  for (double r = 5; r < 5 + 2e-14; r = step_up(r))
+    for (double y = 5; y < 5 + 2e-14; y = step_up(y)) {
+      a.radius = just(r), a.centre = {just(0), just(0)};
+      const Side line = side_between({just(-9), just(y)}, {just(9), just(y)});
+      const Vec along = line.to - line.from;
+      const double height = squared(cross(along, a.centre - line.from)).low,
+                   reach = ((squared(along.x) + squared(along.y)) * squared(a.radius + just(0.0))).high;
+      met_tangent = met_tangent || height == reach;
+      EXPECT_EQ(circles(a, line), height > reach) << r << ' ' << y;
+    }
+  EXPECT_TRUE(met_tangent);
+  EXPECT_TRUE(circles(straight(1, 1, 1, 3), straight(0, 0, 4, 0)));
   // Lines: either may have the other on one side.
   EXPECT_TRUE(circles(straight(0, 0, 4, 0), straight(1, 1, 1, 3)));
   EXPECT_TRUE(circles(straight(0, 0, 4, 0), straight(1, -1, 1, -3)));
@@ -496,7 +509,8 @@ TEST(VerifyDistance, PartsStickOutOfBlanksByWhatSamplesSay) {
     EXPECT_LE(found.low, out + 1e-9) << k;
     EXPECT_GE(found.high, out - 1e-9) << k;
     EXPECT_LE(found.high - found.low, 2.1e-6) << k;
-    // Enough is enough.
+    // Enough is enough, and no less.
+    if (out == 0) EXPECT_LE(sticking_out(part, blank, 1e-6, 0).high, 2.1e-6) << k;
     if (out > 0) EXPECT_GT(sticking_out(part, blank, 1e-6, out / 2).low, out / 2) << k;
     const Span all = sticking_out(part, blank, 1e-6, out + 1);
     EXPECT_LE(all.high - all.low, 2.1e-6) << k;

@@ -377,7 +377,7 @@ TEST(Touching, AnOwnOutlineMovedOrMirroredIsAnother) {
 TEST(Touching, WhatCannotBeToldEnclosesTheTruth) {
   // 1e-18 from the blank's side, turned by next to nothing.
   const Enclosure found =
-      clearance(region(box("0", "2", "3", "4")), region(box("0", "0", "10", "10")), 1e-18, 0, false, 1e-200);
+      clearance(region(box("1", "2", "3", "4")), region(box("1", "0", "10", "10")), 1e-18, 0, false, 1e-200);
   EXPECT_LE(found.low, 1e-18);
   EXPECT_GE(found.high, 1e-18);
   EXPECT_EQ(refusal(region(box("0", "0", "1", "1")), {1e12, 0, 0, false}), "");

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "verify/read/json.hpp"
@@ -298,6 +299,10 @@ TEST(VerifyShapeReader, WhatAnEdgeLacksIsNamed) {
       {R"({"arc": {"from": [1, 0], "note": [0, 0], )" + arc_to + "}}",
        "field r.outer[0].centre is not a list"},
       {R"({"arc": {"from": [1, 0], "note": [0, 0], "to": [0, 1]}})", "field r.outer[0].centre is not a list"},
+      {R"({"arc": {"note": true, "from": [1, 0], "to": [0, 1], "centre": [0, 0]}})",
+       "r.outer[0].ccw is neither true nor false"},
+      {R"({"arc": {"from": [1, 0], "note": true, "to": [0, 1], "centre": [0, 0]}})",
+       "r.outer[0].ccw is neither true nor false"},
       {R"({"line": {"from": [0, 0], "to": "1, 0"}})", "field r.outer[0].to is not a list"},
       {R"({"line": {"from": [0, 0, 0, "a"], "to": [1, 0]}})", "r.outer[0].from is not two numbers"},
       {line("0, 0", "2e9, 2e9"), "r.outer[0].to is farther than 1000000000 mm from the origin"},
@@ -341,7 +346,19 @@ TEST(VerifyShapeReader, OutlinesThroughPointsLeaveOutRepeatedOnes) {
   const Shape two = through({"0", "3", "3", "0"});
   ASSERT_EQ(two.sides.size(), 2U);
   EXPECT_TRUE(is(two.sides[1].from, 3, 0) && is(two.sides[1].to, 0, 0));
+  EXPECT_EQ(two.piece_starts, (std::vector<std::size_t>{0, 1}));
   EXPECT_EQ(through({"4", "4", "4"}).sides.size(), 1U);
+}
+
+TEST(VerifyShapeReader, WholeNumbersBeyondDoublesAreEnclosedTightly) {
+  for (const auto& [text, low, high] :
+       std::vector<std::tuple<std::string, double, double>>{{"9007199254740993", 0x1p53, 0x1p53 + 2},
+                                                            {"9007199254740994", 0x1p53 + 2, 0x1p53 + 2},
+                                                            {"9007199254740995", 0x1p53 + 2, 0x1p53 + 4}}) {
+    const Span found = enclosed(*parse_decimal(text));
+    EXPECT_EQ(found.low, low) << text;
+    EXPECT_EQ(found.high, high) << text;
+  }
 }
 
 TEST(VerifyShapeReader, EqualWithinATolerance) {

@@ -46,17 +46,18 @@ std::optional<int> crossings_of_arc(const Side& arc, const Vec& p) {
   // is tried.
   const Span off{-arc.off, arc.off};
   const auto level = [&](const Vec& end) { return compare(p.y, end.y + off) == 0; };
-  if (arc.sweep != Sweep::full && (level(arc.from) || level(arc.to))) return std::nullopt;
+  if (level(arc.from) || level(arc.to)) return std::nullopt;
   const Span height = p.y - arc.centre.y;
   const int beyond_circle = compare(absolute(height), arc.radius);
-  if (beyond_circle == 0) return std::nullopt;
   if (beyond_circle > 0) return 0;
+  if (beyond_circle == 0) return std::nullopt;
   const Span half = square_root((arc.radius - height) * (arc.radius + height));
   int count = 0;
   for (const bool right : {true, false}) {
     const Span step = right ? half : -half;
     const int beyond = compare(arc.centre.x + step, p.x);
-    if (beyond < 0 || !may_face(arc, {step, height})) continue;
+    if (beyond < 0) continue;
+    if (!may_face(arc, {step, height})) continue;
     if (beyond == 0 || !surely_faces(arc, {step, height})) return std::nullopt;
     count += right == arc.ccw ? 1 : -1;
   }
@@ -102,7 +103,7 @@ Around around(const Shape& shape, const Vec& p, std::size_t except = kNoContour)
     // turned on by an angle that is no fraction of a turn, while those of corners of regular shapes are.
     Ray ray{just(1), just(0)};
     std::optional<int> turns = winding(shape, contour, p, ray);
-    for (int others = 5; !turns && others > 0; --others) {
+    for (int others = 5; !turns && others != 0; --others) {
       const Span cosine = just(3) / just(5), sine = just(4) / just(5);
       ray = {ray.cosine * cosine - ray.sine * sine, ray.sine * cosine + ray.cosine * sine};
       turns = winding(shape, contour, p, ray);

@@ -56,8 +56,7 @@ class Search {
   void reached_at(const Vec& p, double off) {
     const double out = (from_blank(p) - just(off)).low;
     if (!(out > low_)) return;
-    const auto in = holds(blank_, p);
-    if (in && !*in) low_ = out;
+    if (holds(blank_, p) == false) low_ = out;
   }
 
   [[nodiscard]] double most_of(const Side& piece) const {
@@ -69,15 +68,14 @@ class Search {
         box, most, [&](std::size_t k) { most = std::min(most, farthest(piece, corners, blank_.sides[k])); });
     // None of the piece sticks out when all of it lies in the blank's material.
     const Vec middle = (piece.from + piece.to) * just(0.5);
-    if (from_blank(middle).low > (just(farthest(piece, middle)) + just(piece.off)).high) {
-      const auto in = holds(blank_, middle);
-      if (in && *in) return 0;
-    }
+    if (from_blank(middle).low > (just(farthest(piece, middle)) + just(piece.off)).high &&
+        holds(blank_, middle) == true)
+      return 0;
     return most;
   }
 
   void add(const Side& piece, double at_most, int cuts) {
-    if (cuts > 0 && piece.arc) {
+    if (cuts != 0) {
       for (const Side& half : halves(piece)) add(half, at_most, cuts - 1);
       return;
     }
@@ -88,7 +86,7 @@ class Search {
   void along_the_outline() {
     // Arcs are cut into eighths of a turn or less.
     for (const Side& side : part_.sides) {
-      add(side, kInfinity, side.sweep == Sweep::less ? 2 : 3);
+      add(side, kInfinity, !side.arc ? 0 : side.sweep == Sweep::less ? 2 : 3);
       if (decided()) return;
     }
     for (std::size_t looked = 0; !open_.empty(); ++looked) {
@@ -135,11 +133,8 @@ class Search {
     const Span to_part = signed_distance(centre, part_);
     // The square holds no material of the part.
     if (to_part.high < -radius) return;
-    if (out.low > radius) {
-      const auto in = holds(blank_, centre);
-      // All of the square lies in the blank.
-      if (in && *in) return;
-    }
+    // All of the square lies in the blank.
+    if (out.low > radius && holds(blank_, centre) == true) return;
     const std::optional<double> maximum = maximum_in(centre, radius, out, high);
     if (!maximum) return;
     high = std::min(high, *maximum);
