@@ -336,6 +336,17 @@ TEST(Touching, CarriersThatMeetBesideTheSidesDoNoHarm) {
   expect_less(region(circle(0, 0, 2)), region(circle(0, 0, 2), {circle(0, 0, 1)}));
 }
 
+TEST(Touching, AnArcThatEndsOnALineThatItsCircleCrossesAgain) {
+  // The circle about (0, 3) crosses the blank's lower side in (4, 0), where arcs begin, and in (-4, 0).
+  const std::string blank = region(box("-9", "0", "9", "9"));
+  expect_touches(region("[" + arc("4, 0", "5, 3", "0, 3") + ", " + line("5, 3", "4, 5") + ", " +
+                        line("4, 5", "4, 0") + "]"),
+                 blank);
+  expect_touches(region("[" + arc("4, 0", "-4.8, 1.6", "0, 3") + ", " + line("-4.8, 1.6", "4, 0") + "]"),
+                 blank);
+  expect_touches(region("[" + arc("4, 0", "-4, 6", "0, 3") + ", " + line("-4, 6", "4, 0") + "]"), blank);
+}
+
 TEST(Touching, ManyPlacesOnOneSide) {
   // Teeth that touch the upper side of the blank, written in any order, and one that sticks out.
   std::vector<std::string> corners{"0, 5", "20, 5"};
