@@ -199,16 +199,14 @@ std::optional<double> Search::maximum_in(const Vec& centre, double radius, Span 
   if (sides == 1) return std::nullopt;
   for (Nearest& one : near) {
     one.apart = length(one.from);
-    if (!(one.apart.low > 0)) return kInfinity;
+    if (!surely_not_zero(one.from)) return kInfinity;
     one.away = unit(one.from);
   }
+  if (near.empty()) return known;
+  std::ranges::stable_sort(near, {}, [](const Nearest& one) { return one.apart.low; });
   // Two directions are tried for n: away from the nearest point, and away from all of them.
-  std::array<Vec, 2> tries{Vec{just(0), just(0)}, Vec{just(0), just(0)}};
-  double nearest = kInfinity;
-  for (const Nearest& one : near) {
-    tries[1] = tries[1] + one.away;
-    if (one.apart.low < nearest) nearest = one.apart.low, tries[0] = one.away;
-  }
+  std::array<Vec, 2> tries{near.front().away, Vec{}};
+  for (const Nearest& one : near) tries[1] = tries[1] + one.away;
   for (Vec& n : tries) {
     if (!(length(n).low > 1e-6)) continue;
     n = unit(n);
@@ -219,11 +217,9 @@ std::optional<double> Search::maximum_in(const Vec& centre, double radius, Span 
   }
   // Half the sum is no less than half of the two distances, so that pairs are left where those are too far.
   std::erase_if(near, [](const Nearest& one) { return !one.bounds; });
-  std::sort(near.begin(), near.end(),
-            [](const Nearest& a, const Nearest& b) { return a.apart.low < b.apart.low; });
   const Span r = just(radius);
   double least = known;
-  for (std::size_t i = 0; i < near.size() && near[i].apart.low < least; ++i) {
+  for (std::size_t i = 0; i < near.size(); ++i) {
     for (std::size_t j = i; j < near.size(); ++j) {
       const Nearest &a = near[i], &b = near[j];
       if (!(0.5 * (a.apart.low + b.apart.low) < least)) break;
