@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,10 +23,11 @@ Vec direction_of_degrees(const Fraction& degrees) {
           {turn.sine.low_double(), turn.sine.high_double()}};
 }
 
-bool surely_apart(const Vec& a, const Vec& b) {
-  const Vec d = a - b;
-  return d.x.low > 0 || d.x.high < 0 || d.y.low > 0 || d.y.high < 0;
-}
+/// Says whether a number is surely above 0.
+bool positive(const Span& a) { return a.low > 0; }
+
+/// Says whether a line of a length, or a circle of a radius, draws nothing. Beyond the doubles it may draw.
+bool is_nothing(const Span& size) { return !positive(size) && size.high < kInfinity; }
 
 using Poles = std::array<Vec, 4>;
 
@@ -58,7 +61,7 @@ double off_its_chord(const Poles& p) {
   const Span whole = length(chord);
   double aside = 0;
   for (std::size_t k = 1; k < 3; ++k) {
-    if (!(dot(chord, p[k] - p[0]).low >= 0 && dot(chord, p[3] - p[k]).low >= 0)) return off_by_bend(p);
+    if (!positive(dot(chord, p[k] - p[0])) || !positive(dot(chord, p[3] - p[k]))) return off_by_bend(p);
     aside = std::max(aside, (absolute(cross(chord, p[k] - p[0])) / whole).high);
   }
   return std::min(aside, off_by_bend(p));
@@ -78,13 +81,13 @@ std::optional<CurvePiece> arc_along(const Poles& p) {
                cx = p[3].x.low - ax, cy = p[3].y.low - ay;
   const double turn = 2 * (bx * cy - by * cx), b = bx * bx + by * by, c = cx * cx + cy * cy;
   const Vec centre{just(ax + (cy * b - by * c) / turn), just(ay + (bx * c - cx * b) / turn)};
-  const bool ccw = turn > 0;
+  const bool ccw = !std::signbit(turn);
   Poles v;
   for (std::size_t k = 0; k < 4; ++k) v[k] = p[ccw ? k : 3 - k] - centre;
   // The sector is convex, so it holds the cubic if it holds the poles.
-  if (!(cross(v[0], v[3]).low > 0)) return std::nullopt;
+  if (!positive(cross(v[0], v[3]))) return std::nullopt;
   for (std::size_t k = 1; k < 3; ++k)
-    if (!(cross(v[0], v[k]).low >= 0 && cross(v[k], v[3]).low >= 0)) return std::nullopt;
+    if (!positive(cross(v[0], v[k])) || !positive(cross(v[k], v[3]))) return std::nullopt;
   const Span two = just(2), three = just(3);
   const std::array<Span, 7> squares{dot(v[0], v[0]),
                                     dot(v[0], v[1]),
@@ -95,15 +98,14 @@ std::optional<CurvePiece> arc_along(const Poles& p) {
                                     dot(v[3], v[3])};
   Span square = squares[0];
   for (const Span& s : squares) square = {std::min(square.low, s.low), std::max(square.high, s.high)};
-  if (!(square.low > 0)) return std::nullopt;
+  if (!positive(square)) return std::nullopt;
   const Span away = square_root(square);
   Side side;
   side.arc = true;
   side.centre = centre, side.radius = just(0.5 * (away.low + away.high));
   side.first = unit(v[0]), side.last = unit(v[3]);
   side.from = centre + side.first * side.radius, side.to = centre + side.last * side.radius;
-  return CurvePiece{side,
-                    std::max((just(away.high) - side.radius).high, (side.radius - just(away.low)).high)};
+  return CurvePiece{side, absolute(away - side.radius).high};
 }
 
 }  // namespace
@@ -112,15 +114,34 @@ Affine operator*(const Affine& after, const Affine& before) {
   return {after.direction(before.x), after.direction(before.y), after(before.shift)};
 }
 
-void CurveMaker::line(const Affine& map, const Vec& from, const Vec& to) {
-  const Vec a = map(from), b = map(to);
-  if (surely_apart(a, b)) curve_.pieces.push_back({side_between(a, b), 0});
+void CurveMaker::line(const Affine& map, const Vec& from, const Vec& to) { stroke(map(from), map(to), 0); }
+
+void CurveMaker::stroke(const Vec& from, const Vec& to, double off) {
+  if (!is_nothing(length(to - from))) curve_.pieces.push_back({side_between(from, to), off});
+}
+
+bool CurveMaker::too_many(double strokes, const char* curves) {
+  if (strokes <= kMostStrokes) return false;
+  drawing_.not_read.insert(fmt::format("{} that are large against the tolerance", curves));
+  return true;
+}
+
+template <class Part, class Take>
+void CurveMaker::in_parts(const Part& whole, const char* curves, const Take& take) {
+  std::vector<Part> open{whole};
+  for (double count = 0; !open.empty(); ++count) {
+    if (too_many(count, curves)) return;
+    const Part part = open.back();
+    open.pop_back();
+    const std::optional<std::array<Part, 2>> two = take(part);
+    if (two) open.push_back((*two)[1]), open.push_back((*two)[0]);
+  }
 }
 
 void CurveMaker::arc(const Affine& map, const DrawnArc& arc) {
   const Vec turned{-map.x.y, map.x.x};
-  const Span size = length(map.x), handed = cross(map.x, map.y);
-  const bool mirrors = handed.high < 0;
+  const Span size = length(map.x);
+  const bool mirrors = positive(-cross(map.x, map.y));
   const Vec off = mirrors ? map.y + turned : map.y - turned;
   if (!(length(off).high <= kKeepsCircles * size.low)) {
     if (!arc.from_deg) return strokes(map, arc);
@@ -134,8 +155,7 @@ void CurveMaker::arc(const Affine& map, const DrawnArc& arc) {
   side.last = unit(map.direction(mirrors ? arc.first : arc.last));
   side.sweep = arc.sweep;
   side.from = side.centre + side.first * side.radius, side.to = side.centre + side.last * side.radius;
-  if (!(side.radius.low > 0)) return;
-  curve_.pieces.push_back({side, (length(off) * arc.radius).high});
+  if (!is_nothing(side.radius)) curve_.pieces.push_back({side, (length(off) * arc.radius).high});
 }
 
 /// An arc whose angles are not stated is halved until its chords are near enough.
@@ -146,45 +166,32 @@ void CurveMaker::strokes(const Affine& map, const DrawnArc& arc) {
   whole.first = arc.first, whole.last = arc.last, whole.sweep = arc.sweep;
   const double reach = (arc.radius * (length(map.x) + length(map.y))).high;
   const auto on_circle = [&](const Vec& direction) { return map(arc.centre + direction * arc.radius); };
-  std::vector<Side> open{whole};
-  for (double count = 0; !open.empty(); ++count) {
-    if (!(count <= kMostStrokes))
-      return void(drawing_.not_read.insert("arcs of ellipses that are large against the tolerance"));
-    const Side piece = open.back();
-    open.pop_back();
+  using Halves = std::optional<std::array<Side, 2>>;
+  in_parts(whole, "arcs of ellipses", [&](const Side& piece) -> Halves {
     // Less than half a turn is at most pi / 2 times its chord on the unit circle, and a chord of h is within
     // h^2 / 8 of the half diameters.
     const double turn = 1.5708 * length(piece.first - piece.last).high;
-    if (piece.sweep == Sweep::less && turn * turn * reach <= 8 * off_) {
-      curve_.pieces.push_back({side_between(on_circle(piece.first), on_circle(piece.last)), off_});
-      continue;
-    }
-    const std::array<Side, 2> two = halves(piece);
-    open.push_back(two[1]), open.push_back(two[0]);
-  }
+    if (piece.sweep != Sweep::less || !(turn * turn * reach <= 8 * off_)) return halves(piece);
+    stroke(on_circle(piece.first), on_circle(piece.last), off_);
+    return std::nullopt;
+  });
 }
 
 void CurveMaker::bulge(const Affine& map, const Vec& from, const Vec& to, const Decimal& bulge) {
-  if (sgn(bulge.digits) == 0 || !surely_apart(from, to)) return line(map, from, to);
-  const bool ccw = sgn(bulge.digits) > 0;
-  Decimal size = bulge;
-  size.digits = abs(size.digits);
-  const Span b = enclosed(size), whole = length(to - from);
+  // An arc that turns clockwise is the other way the one that turns counter-clockwise.
+  if (sgn(bulge.digits) < 0) return this->bulge(map, to, from, {-bulge.digits, bulge.exponent});
+  const Span b = enclosed(bulge), whole = length(to - from);
+  if (is_nothing(whole)) return line(map, from, to);
   // A flat arc is its chord within its height.
-  if (b.high < 1e-7) {
-    line(map, from, to);
-    if (!curve_.pieces.empty())
-      curve_.pieces.back().off = (just(0.5) * b * whole * (length(map.x) + length(map.y))).high;
-    return;
-  }
+  if (b.high < 1e-7)
+    return stroke(map(from), map(to), (just(0.5) * b * whole * (length(map.x) + length(map.y))).high);
   const Vec chord = to - from, left{-chord.y, chord.x};
   const Span up = (just(1) - b * b) / (just(4) * b);
   DrawnArc arc;
-  arc.centre = (from + to) * just(0.5) + left * (ccw ? up : -up);
+  arc.centre = (from + to) * just(0.5) + left * up;
   arc.radius = whole * (just(1) + b * b) / (just(4) * b);
-  const Vec a = unit(from - arc.centre), c = unit(to - arc.centre);
-  arc.first = ccw ? a : c, arc.last = ccw ? c : a;
-  const int against = compare(size, Decimal{1, 0});
+  arc.first = unit(from - arc.centre), arc.last = unit(to - arc.centre);
+  const int against = compare(bulge, Decimal{1, 0});
   arc.sweep = against < 0 ? Sweep::less : (against > 0 ? Sweep::more : Sweep::half);
   this->arc(map, arc);
 }
@@ -196,13 +203,12 @@ void CurveMaker::ellipse(const Affine& map, const Vec& centre, const Vec& u, con
   // Between parameters h apart a chord is within h^2 / 8 of the half diameters.
   const double turn = cut_to_double(to_deg - from_deg) * 0.0174533;
   const double count = std::ceil(std::abs(turn) * std::sqrt(reach / (8 * off_)) + 4);
-  if (!(count <= kMostStrokes))
-    return void(drawing_.not_read.insert("ellipses that are large against the tolerance"));
+  if (too_many(count, "ellipses")) return;
   Vec at{};
   for (double k = 0; k <= count; ++k) {
     const Vec d = direction_of_degrees(from_deg + (to_deg - from_deg) * Fraction(k) / Fraction(count));
     const Vec next = middle + along * d.x + across * d.y;
-    if (k > 0) curve_.pieces.push_back({side_between(at, next), off_});
+    if (k > 0) stroke(at, next, off_);
     at = next;
   }
 }
@@ -215,27 +221,18 @@ void CurveMaker::cubic(const Affine& map, const std::array<Vec, 4>& given) {
   struct Part {
     double from, to;
   };
-  std::vector<Part> open{{0, 1}};
-  for (double count = 0; !open.empty(); ++count) {
-    if (!(count <= kMostStrokes))
-      return void(drawing_.not_read.insert("Bezier curves that are large against the tolerance"));
-    const auto [from, to] = open.back();
-    open.pop_back();
-    const Poles part = part_of(whole, from, to);
+  using Halves = std::optional<std::array<Part, 2>>;
+  in_parts(Part{0, 1}, "Bezier curves", [&](const Part& of) -> Halves {
+    const Poles part = part_of(whole, of.from, of.to);
     // The bound of the whole shrinks with the square of the share; that of a short part is mostly rounding.
-    const double share = to - from;
+    const double share = of.to - of.from;
     const double off_line = std::min(off_its_chord(part), step_up(bend * share * share));
-    if (off_line <= off_) {
-      if (surely_apart(part[0], part[3])) curve_.pieces.push_back({side_between(part[0], part[3]), off_line});
-      continue;
-    }
-    if (const std::optional<CurvePiece> along = arc_along(part); along && along->off <= off_) {
-      curve_.pieces.push_back(*along);
-      continue;
-    }
-    const double middle = 0.5 * (from + to);
-    open.push_back({middle, to}), open.push_back({from, middle});
-  }
+    if (off_line <= off_) return stroke(part[0], part[3], off_line), std::nullopt;
+    if (const std::optional<CurvePiece> along = arc_along(part); along && along->off <= off_)
+      return curve_.pieces.push_back(*along), std::nullopt;
+    const double middle = 0.5 * (of.from + of.to);
+    return {{Part{of.from, middle}, Part{middle, of.to}}};
+  });
 }
 
 void CurveMaker::done(const std::string& layer, bool hidden) {

@@ -38,16 +38,17 @@ struct DrawnCurve {
   bool hidden = false;
 };
 
+/// A drawing with more curves than this is not read.
+inline constexpr std::size_t kMostCurves = 2'000'000;
+
 /// The curves of a drawing, mm. Bezier curves and ellipses are lines that are within `off` of them.
 struct ReadDrawing {
   std::vector<DrawnCurve> curves;
   /// Kinds of things that draw curves and are not read here.
   std::set<std::string> not_read;
   bool says_unit = false;
+  [[nodiscard]] bool too_large() const { return curves.size() > kMostCurves; }
 };
-
-/// A drawing with more curves than this is not read.
-inline constexpr std::size_t kMostCurves = 2'000'000;
 
 /// Returns a name in capitals: DXF tells no names apart that differ in nothing else.
 [[nodiscard]] std::string key_of(std::string_view name);
@@ -69,6 +70,14 @@ class CurveMaker {
 
  private:
   void strokes(const Affine& map, const DrawnArc& arc);
+  /// Adds a line that stands for a curve within `off`.
+  void stroke(const Vec& from, const Vec& to, double off);
+  /// Says whether such curves take more strokes than are made; then the drawing is not read.
+  bool too_many(double strokes, const char* curves);
+  /// Calls take(part) for the whole or for its parts in their order; it returns the halves of those that it
+  /// does not take.
+  template <class Part, class Take>
+  void in_parts(const Part& whole, const char* curves, const Take& take);
 
   ReadDrawing& drawing_;
   double off_;

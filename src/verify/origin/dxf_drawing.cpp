@@ -15,7 +15,7 @@ namespace {
 constexpr int kDeepestBlock = 32;
 
 struct Pair {
-  int code = 0;
+  int code;
   std::string_view value;
 };
 struct Entity {
@@ -32,7 +32,6 @@ struct LayerState {
   bool off = false, frozen = false;
 };
 
-/// Names compare without the case of A to Z.
 /// Millimetres in a unit of $INSUNITS.
 std::optional<Decimal> unit_of(long code) {
   static const std::array<Decimal, 17> kUnits{{{0, 0},
@@ -104,7 +103,7 @@ class DxfReader {
       const Pair& pair = pairs_[at_];
       if (pair.code == 102)
         application = pair.value.substr(0, 1) == "{";
-      else if (!application && pair.code < 1000)
+      else if (!application)
         entity.pairs.push_back(pair);
     }
     return entity;
@@ -226,14 +225,14 @@ class DxfReader {
   };
   /// Planes are seen from above or from below; others count as nothing that is drawn.
   Plane plane_of(const Entity& entity) {
-    std::array<double, 3> normal{0, 0, 1};
-    for (int k = 0; k < 3; ++k)
-      if (const auto value = number(entity, 210 + 10 * k))
-        normal[static_cast<std::size_t>(k)] = approximate(*value);
-    const double lean = std::max(std::abs(normal[0]), std::abs(normal[1]));
-    if (lean > 0 && lean <= 1e-9 * std::abs(normal[2]))
-      drawing_.not_read.insert("planes that lean by rounding");
-    return {lean <= 1e-9 * std::abs(normal[2]) && normal[2] != 0, normal[2] < 0};
+    const auto or_else = [&](int code, long otherwise) {
+      return approximate(number(entity, code).value_or(Decimal{otherwise, 0}));
+    };
+    const double x = or_else(210, 0), y = or_else(220, 0), z = or_else(230, 1);
+    const double lean = std::max(std::abs(x), std::abs(y));
+    const bool upright = lean <= 1e-9 * std::abs(z);
+    if (lean > 0 && upright) drawing_.not_read.insert("planes that lean by rounding");
+    return {upright && z != 0, std::signbit(z)};
   }
 
   void draw(const Entity& entity, const Affine& map, const std::string& layer_around, bool frozen_around,
@@ -246,11 +245,11 @@ class DxfReader {
     if (layer == "0" && depth > 0) layer = layer_around;
     if (frozen_around) layer = layer_around;
     const LayerState& state = layers_[key_of(layer)];
-    if (drawing_.curves.size() > kMostCurves) return complain("it has too many curves");
+    if (drawing_.too_large()) return complain("it has too many curves");
     Affine seen = map;
     if (plane.mirrored) seen = map * Affine{{just(-1), just(0)}, {just(0), just(1)}, {just(0), just(0)}};
     const std::string_view type = entity.type;
-    if (type == "INSERT") return insert(entity, seen, layer, frozen_around || state.frozen, depth);
+    if (type == "INSERT") return insert(entity, seen, layer, state.frozen, depth);
     // These stand in the coordinates of the drawing, whatever their direction.
     if (type == "LINE")
       draw_line(entity, map);
@@ -284,7 +283,6 @@ class DxfReader {
     arc.to_deg = *arc.from_deg + sweep;
     arc.sweep = sweep_of(sweep);
     arc.first = direction(*arc.from_deg), arc.last = direction(*arc.to_deg);
-    if (arc.sweep == Sweep::full) arc.last = arc.first;
     maker_.arc(map, arc);
   }
   /// Returns degrees, above 0 and up to 360, that differ by whole turns.
@@ -362,7 +360,7 @@ class DxfReader {
         const Vec d = direction(degrees);
         return u * d.x + across * d.y;
       };
-      const Vec begin = at(first), end = sweep == 360 ? begin : at(first + sweep);
+      const Vec begin = at(first), end = at(first + sweep);
       arc.first = from_below ? end : begin, arc.last = from_below ? begin : end;
       arc.sweep = sweep_of(sweep);
       return maker_.arc(map, arc);
@@ -389,7 +387,7 @@ class DxfReader {
       if (pair.code == 10) x = *value;
       if (pair.code == 20 && x) poles.push_back({to_fraction(*x), to_fraction(*value)}), x.reset();
     }
-    const auto p = static_cast<std::size_t>(std::max(0L, degree));
+    const auto p = static_cast<std::size_t>(degree);
     if (weighed || p < 1 || p > 3 || poles.size() <= p || knots.size() != poles.size() + p + 1)
       return void(drawing_.not_read.insert("splines with weights, of a degree above 3, or without knots"));
     if (!std::is_sorted(knots.begin(), knots.end())) return complain("a SPLINE whose knots descend");
@@ -452,16 +450,15 @@ class DxfReader {
     if (static_cast<double>(columns) * static_cast<double>(rows) > static_cast<double>(kMostCurves))
       return complain("an INSERT makes too many copies");
     const Span dx = in_mm(or_else(44, 0)), dy = in_mm(or_else(45, 0));
-    for (long row = 0; row < rows && complaint_.empty(); ++row)
-      for (long column = 0; column < columns && complaint_.empty(); ++column) {
-        Affine step{along * sx, across * sy, {}};
-        Vec shift = *at - step.direction(block.base);
-        if (column > 0) shift = shift + along * (dx * just(static_cast<double>(column)));
-        if (row > 0) shift = shift + across * (dy * just(static_cast<double>(row)));
-        step.shift = shift;
-        const Affine inner = map * step;
-        for (const Entity& each : block.entities) draw(each, inner, layer, frozen, depth + 1);
-      }
+    Affine step{along * sx, across * sy, {}};
+    const Vec first = *at - step.direction(block.base);
+    for (long copy = 0; copy < rows * columns && complaint_.empty(); ++copy) {
+      const Span row = just(static_cast<double>(copy / columns)),
+                 column = just(static_cast<double>(copy % columns));
+      step.shift = first + along * (dx * column) + across * (dy * row);
+      const Affine inner = map * step;
+      for (const Entity& each : block.entities) draw(each, inner, layer, frozen, depth + 1);
+    }
   }
 
   const Document& document_;

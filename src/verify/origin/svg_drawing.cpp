@@ -17,7 +17,7 @@ constexpr int kDeepestGroup = 32;
 
 Span enclosed(const Fraction& value) {
   const double near = cut_to_double(value);
-  return std::isfinite(near) && Fraction(near) == value ? just(near) : outwards(near, near);
+  return outwards(near, near);
 }
 
 /// Reads numbers and words of an attribute one by one.
@@ -146,46 +146,39 @@ class SvgReader {
     }
     drawing_.says_unit = said;
     if (said && pixels) not_read("pages with two kinds of units");
-    std::array<Fraction, 4> view{0, 0, 0, 0};
-    const bool has_view = !root.get("viewBox").empty();
+    if (root.get("viewBox").empty()) {
+      if (!size[1]) not_read("pages without a height");
+      // Without a view box a unit of the drawing is a pixel of 1/96 inch where the page says its size.
+      const Fraction scale = said ? Fraction(127) / Fraction(480) : fallback_;
+      return set_page(around, scale, scale, 0, size[1].value_or(Fraction(0)));
+    }
+    std::array<Fraction, 4> view;
     Scanner scanner(root.get("viewBox"));
-    for (std::size_t k = 0; has_view && k < 4; ++k) {
+    for (Fraction& each : view) {
       const auto number = scanner.number();
       if (!number) return complain("its viewBox is not four numbers");
-      view[k] = to_fraction(*number);
+      each = to_fraction(*number);
     }
-    if (has_view && !(view[2] > 0 && view[3] > 0)) return complain("its viewBox is empty");
-    Fraction scale_x = fallback_, scale_y = fallback_, height = 0;
-    if (has_view) {
-      if (!size[0] && !size[1]) size = {view[2] * fallback_, view[3] * fallback_};
-      if (!size[0]) size[0] = *size[1] * view[2] / view[3];
-      if (!size[1]) size[1] = *size[0] * view[3] / view[2];
-      scale_x = *size[0] / view[2], scale_y = *size[1] / view[3];
-      if (scale_x != scale_y && root.get("preserveAspectRatio") != "none")
-        return keep_ratio(root.get("preserveAspectRatio"), view, size, around);
-      height = *size[1];
-    } else {
-      if (!size[1]) not_read("pages without a height");
-      height = size[1].value_or(Fraction(0));
-      // Without a view box a unit of the drawing is a pixel of 1/96 inch where the page says its size.
-      if (said) scale_x = scale_y = Fraction(127) / Fraction(480);
-    }
-    set_page(around, scale_x, scale_y, -view[0] * scale_x, height + view[1] * scale_y);
+    if (!(view[2] > 0 && view[3] > 0)) return complain("its viewBox is empty");
+    if (!size[0] && !size[1]) size = {view[2] * fallback_, view[3] * fallback_};
+    if (!size[0]) size[0] = *size[1] * view[2] / view[3];
+    if (!size[1]) size[1] = *size[0] * view[3] / view[2];
+    place_view(root.get("preserveAspectRatio"), view, *size[0], *size[1], around);
   }
 
-  void keep_ratio(std::string_view how, const std::array<Fraction, 4>& view,
-                  const std::array<std::optional<Fraction>, 2>& size, Around& around) {
+  void place_view(std::string_view how, const std::array<Fraction, 4>& view, const Fraction& width,
+                  const Fraction& height, Around& around) {
     const bool slice = how.find("slice") != std::string_view::npos;
-    const Fraction x = *size[0] / view[2], y = *size[1] / view[3];
-    const Fraction scale = (x < y) != slice ? x : y;
+    Fraction x = width / view[2], y = height / view[3];
+    if (how != "none") x = y = slice ? std::max(x, y) : std::min(x, y);
     const auto placed_by = [&](const char* low, const char* high) {
       return how.find(low) != std::string_view::npos    ? Fraction(0)
              : how.find(high) != std::string_view::npos ? Fraction(1)
                                                         : Fraction(1) / Fraction(2);
     };
-    const Fraction left = (*size[0] - view[2] * scale) * placed_by("xMin", "xMax"),
-                   top = (*size[1] - view[3] * scale) * placed_by("YMin", "YMax");
-    set_page(around, scale, scale, left - view[0] * scale, *size[1] - top + view[1] * scale);
+    const Fraction left = (width - view[2] * x) * placed_by("xMin", "xMax"),
+                   top = (height - view[3] * y) * placed_by("YMin", "YMax");
+    set_page(around, x, y, left - view[0] * x, height - top + view[1] * y);
   }
 
   static void set_page(Around& around, const Fraction& sx, const Fraction& sy, const Fraction& x,
@@ -194,15 +187,14 @@ class SvgReader {
   }
 
   static std::string_view property(const XmlElement& element, std::string_view name) {
-    const std::string_view style = element.get("style");
+    std::string_view style = element.get("style");
     std::string_view found;
-    for (std::size_t at = 0; at < style.size();) {
-      const std::size_t end = std::min(style.find(';', at), style.size());
-      const std::string_view one = style.substr(at, end - at);
+    while (!style.empty()) {
+      const std::string_view one = style.substr(0, style.find(';'));
       const std::size_t colon = one.find(':');
       if (colon != std::string_view::npos && stripped(one.substr(0, colon)) == name)
         found = stripped(one.substr(colon + 1));
-      at = end + 1;
+      style.remove_prefix(std::min(one.size() + 1, style.size()));
     }
     return found.empty() ? element.get(name) : found;
   }
@@ -217,11 +209,10 @@ class SvgReader {
   void draw(const XmlElement& element, Around around, int depth) {
     if (!complaint_.empty()) return;
     if (depth > kDeepestGroup) return not_read("groups nested too deep");
-    if (drawing_.curves.size() > kMostCurves) return complain("it has too many curves");
+    if (drawing_.too_large()) return complain("it has too many curves");
     const std::string& name = element.name;
     const bool group = name == "g" || name == "a";
-    if (name == "svg" || name == "switch" || name == "symbol")
-      return name == "symbol" ? void() : not_read(name + " within the page");
+    if (name == "svg" || name == "switch") return not_read(name + " within the page");
     if (!group && name != "path" && name != "line" && name != "polyline" && name != "polygon" &&
         name != "rect" && name != "circle" && name != "ellipse" && name != "use")
       return;
@@ -235,7 +226,7 @@ class SvgReader {
       const std::string label(element.get("inkscape:label").empty() ? element.get("id")
                                                                     : element.get("inkscape:label"));
       const bool marked = element.get("inkscape:groupmode") == "layer";
-      if (layers_are_marked_ ? marked : around.layer.empty() && !label.empty()) around.layer = label;
+      if (layers_are_marked_ ? marked : around.layer.empty()) around.layer = label;
       for (const XmlElement& child : element.children) draw(child, around, depth + 1);
       return;
     }
@@ -263,7 +254,7 @@ class SvgReader {
       std::vector<Decimal> n;
       if (scanner.peek() != '(') return complain("a transform that is not understood"), map;
       scanner.take();
-      while (scanner.peek() != ')' && scanner.peek() != '\0')
+      while (scanner.peek() != ')')
         if (const auto number = scanner.number())
           n.push_back(*number);
         else
@@ -287,7 +278,7 @@ class SvgReader {
         const Turn turn = turn_by_degrees(to_fraction(n[0]));
         const Span c{turn.cosine.low_double(), turn.cosine.high_double()},
             s{turn.sine.low_double(), turn.sine.high_double()};
-        const Span slope = c.high < 0 ? -(s / -c) : s / c;
+        const Span slope = s * c / squared(c);
         (word == "skewX" ? one.y.x : one.x.y) = slope;
       } else {
         return complain("a transform that is not understood"), map;
@@ -305,7 +296,7 @@ class SvgReader {
     Scanner scanner(text);
     const auto number = scanner.number();
     const std::string_view unit = scanner.word();
-    if (!number) return complain(fmt::format("{} is no length", key)), Fraction(0);
+    if (!number) return complain(fmt::format("{} is no length", key)), Fraction();
     if (unit.empty() || unit == "px") return to_fraction(*number);
     const auto mm = mm_of(unit);
     if (!mm) not_read("lengths in shares of the page or of letters");
@@ -336,7 +327,8 @@ class SvgReader {
     std::vector<Vec> points;
     while (!scanner.done()) {
       const auto x = scanner.number(), y = scanner.number();
-      if (!x || !y) return complain("points that are no numbers");
+      // Without an x there is no y either.
+      if (!y) return complain("points that are no numbers");
       points.push_back({verify::enclosed(*x), verify::enclosed(*y)});
     }
     for (std::size_t k = 0; k + 1 < points.size(); ++k) maker_.line(map, points[k], points[k + 1]);
@@ -379,16 +371,16 @@ class SvgReader {
   void draw_path(std::string_view text, const Affine& map) {
     Scanner scanner(text);
     // The exact places keep relative steps from losing digits.
-    std::array<Fraction, 2> at{0, 0}, begin{0, 0}, control{0, 0};
+    std::array<Fraction, 2> at, begin, control;
     char command = '\0', before = '\0';
     const auto vec = [](const std::array<Fraction, 2>& p) { return Vec{enclosed(p[0]), enclosed(p[1])}; };
     bool broken = false;
     const auto number = [&]() -> Fraction {
       const auto value = scanner.number();
-      if (!value) return broken = true, Fraction(0);
+      if (!value) return broken = true, Fraction();
       return to_fraction(*value);
     };
-    while (!scanner.done() && !broken && complaint_.empty()) {
+    while (!scanner.done() && !broken) {
       const char next = scanner.peek();
       if (std::isalpha(static_cast<unsigned char>(next)) != 0)
         scanner.take(), command = next;
@@ -438,7 +430,8 @@ class SvgReader {
         const Fraction rx = number(), ry = number(), turned = number();
         const auto large = scanner.flag(), sweep = scanner.flag();
         to = point();
-        if (!large || !sweep) return complain("an arc of a path without its flags");
+        // Without the first flag there is no second one either.
+        if (!sweep) return complain("an arc of a path without its flags");
         draw_arc(map, at, to, {abs(rx), abs(ry), turned, *large, *sweep});
       } else {
         return complain("a path that is not understood");
@@ -474,11 +467,11 @@ class SvgReader {
     draw_round(map * axes, {{just(0), just(0)}, over, just(1), exact}, said);
   }
 
-  /// Returns the square of the diameter less that of the chord, in the latter; 0 where they are the same
-  /// exactly.
+  /// Returns the square of the diameter less that of the chord, in the latter; 0 where the diameter is no
+  /// longer.
   static Span room_over(const Fraction& dx, const Fraction& dy, const Fraction& radius) {
-    const Fraction square = dx * dx + dy * dy;
-    return enclosed(Fraction((4 * radius * radius - square) / square));
+    const Fraction square = dx * dx + dy * dy, room = (4 * radius * radius - square) / square;
+    return room <= 0 ? just(0) : enclosed(room);
   }
 
   /// An arc of a circle between two ends.

@@ -20,7 +20,7 @@ class XmlReader {
 
   std::optional<XmlElement> read() {
     std::vector<XmlElement> open;
-    while (at_ < text_.size() && good_) {
+    while (at_ < text_.size()) {
       if (text_[at_] != '<') {
         const std::size_t end = std::min(text_.find('<', at_), text_.size());
         if (!open.empty()) open.back().text += text_.substr(at_, end - at_);
@@ -30,7 +30,7 @@ class XmlReader {
       } else if (begins("<![CDATA[")) {
         const std::size_t begin = at_ + 9;
         skip_to("]]>");
-        if (!open.empty() && good_) open.back().text += text_.substr(begin, at_ - 3 - begin);
+        if (!open.empty()) open.back().text += text_.substr(begin, at_ - 3 - begin);
       } else if (begins("<?")) {
         skip_to("?>");
       } else if (begins("<!")) {
@@ -64,7 +64,7 @@ class XmlReader {
   [[nodiscard]] bool begins(std::string_view with) const { return text_.substr(at_, with.size()) == with; }
   void skip_to(std::string_view end) {
     const std::size_t found = text_.find(end, at_);
-    good_ = good_ && found != std::string_view::npos;
+    good_ = found != std::string_view::npos;
     at_ = good_ ? found + end.size() : text_.size();
   }
   /// A document type may not declare anything of its own.
@@ -94,7 +94,7 @@ class XmlReader {
   /// Returns whether the element ends with its tag.
   bool read_tag(XmlElement& element) {
     element.name = name();
-    good_ = good_ && !element.name.empty();
+    good_ = !element.name.empty();
     while (good_) {
       skip_blanks();
       if (take('>')) return false;
@@ -104,10 +104,10 @@ class XmlReader {
       }
       std::string key = name();
       skip_blanks();
-      good_ = !key.empty() && take('=');
+      if (key.empty() || !take('=')) return good_ = false;
       skip_blanks();
       const char quote = at_ < text_.size() ? text_[at_] : '\0';
-      if (!good_ || (quote != '"' && quote != '\'')) return good_ = false;
+      if (quote != '"' && quote != '\'') return good_ = false;
       const std::size_t begin = ++at_, end = text_.find(quote, begin);
       if (end == std::string_view::npos) return good_ = false;
       element.attributes.emplace_back(std::move(key), resolved(text_.substr(begin, end - begin)));
