@@ -110,6 +110,7 @@ TEST(VerifyDxfDrawing, PolylinesOfTheOldKindHaveVertices) {
             ": L 0,0 9,0\n");
   EXPECT_EQ(entities("0 POLYLINE 0 VERTEX 10 0 20 0 0 VERTEX 10 5"), "d.dxf: a VERTEX lacks a number");
   EXPECT_EQ(entities("0 POLYLINE 0 VERTEX 10 0 20 0 0 VERTEX 20 5"), "d.dxf: a VERTEX lacks a number");
+  EXPECT_EQ(read("0 SECTION 2 ENTITIES 0 POLYLINE 0 VERTEX 10 1 20 2 0 VERTEX 10 3 20 5"), ": L 1,2 3,5\n");
 }
 
 TEST(VerifyDxfDrawing, EllipsesRunBetweenTheirParameters) {
@@ -127,6 +128,9 @@ TEST(VerifyDxfDrawing, EllipsesRunBetweenTheirParameters) {
   EXPECT_EQ(entities(turned + "40 1 41 0 42 6.28318530717958"), ": A 1,2 8 1,10 1,10 o\n");
   EXPECT_EQ(entities(turned + "40 1 41 0 42 6.2831"), ": A 1,2 8 1,10 1.001,10 +\n");
   EXPECT_EQ(entities(turned + "40 1 41 0 42 6.28318"), ": A 1,2 8 1,10 1,10 +\n");
+  // Parameters that lack a ten-thousandth of a degree are those of the whole.
+  EXPECT_EQ(entities(turned + "40 1 41 0 42 6.2831827"), ": A 1,2 8 1,10 1,10 +\n");
+  EXPECT_EQ(entities(turned + "40 1 41 0 42 6.2831840"), ": A 1,2 8 1,10 1,10 o\n");
   EXPECT_EQ(entities(turned + "40 1 41 0 42 7.85398163397448"), ": A 1,2 8 1,10 -7,2 -\n");
   EXPECT_EQ(entities(turned + "40 1 41 1 42 1"), ": A 1,2 8 -5.732,6.322 -5.732,6.322 o\n");
   for (const char* part : {"10 1 ", "21 8 ", "40 1 ", "41 0 ", "42 1 "}) {
@@ -161,6 +165,7 @@ TEST(VerifyDxfDrawing, SplinesAreTheBezierCurvesBetweenTheirKnots) {
   EXPECT_EQ(entities("0 SPLINE 71 3 41 2 41 1 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1" + poles3), not_read);
   EXPECT_EQ(entities("0 SPLINE 71 3 40 0 40 0 40 0 40 0 40 1 40 1 40 1" + poles3), not_read);
   EXPECT_EQ(entities("0 SPLINE 71 0 40 0 40 0 40 0 40 0 40 1" + poles3), not_read);
+  EXPECT_EQ(entities("0 SPLINE 71 0 40 0 40 0 40 0 40 0 40 1 40 1" + poles3), not_read);
   EXPECT_EQ(entities("0 SPLINE 71 -1 40 0 40 0 40 0 40 0" + poles3), not_read);
   EXPECT_EQ(
       entities("0 SPLINE 71 4 40 0 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1 40 1" + poles3 + " 10 50 20 0"),
@@ -170,6 +175,10 @@ TEST(VerifyDxfDrawing, SplinesAreTheBezierCurvesBetweenTheirKnots) {
   EXPECT_EQ(entities("0 SPLINE 71 1 40 0 40 0 40 2 40 1 40 3 40 3" + poles3),
             "d.dxf: a SPLINE whose knots descend");
   EXPECT_EQ(entities("0 SPLINE 71 1 40 x"), "d.dxf: \"x\" is no number");
+  // Knots before and behind the poles bound no span, and a place needs its x.
+  EXPECT_EQ(entities("0 SPLINE 71 1 40 0 40 1 40 2 40 3 40 4 40 5" + poles3),
+            ": L 0,0 0,40 L 0,40 40,40 L 40,40 40,0\n");
+  EXPECT_EQ(entities("0 SPLINE 71 1 20 9 40 0 40 0 40 1 40 1 10 0 20 0 10 5 20 7"), ": L 0,0 5,7\n");
   // A double knot is no span.
   EXPECT_EQ(entities("0 SPLINE 71 1 40 0 40 0 40 1 40 1 40 3 40 3" + poles3), ": L 0,0 0,40 L 40,40 40,0\n");
 }
@@ -220,6 +229,8 @@ TEST(VerifyDxfDrawing, LayersAreOffOrFrozen) {
   EXPECT_EQ(with_layers("0 LAYER 2 [", "0 LINE 8 { 10 1 20 2 11 3 21 5"), "{: L 1,2 3,5\n");
   EXPECT_EQ(with_layers("0 LAYER 2 { 70 1", "0 LINE 8 [ 10 1 20 2 11 3 21 5"), "[: L 1,2 3,5\n");
   EXPECT_EQ(with_layers("0 LAYER 2 @ 70 1", "0 LINE 8 ` 10 1 20 2 11 3 21 5"), "`: L 1,2 3,5\n");
+  // The name of the table is no layer.
+  EXPECT_EQ(with_layers("2 LAYER 70 1 0 LAYER 2 A", kLine), ": L 1,2 3,5\n");
 }
 
 TEST(VerifyDxfDrawing, CountsAndBitsAreWholeNumbersOfAUsualSize) {
@@ -228,6 +239,7 @@ TEST(VerifyDxfDrawing, CountsAndBitsAreWholeNumbersOfAUsualSize) {
   EXPECT_EQ(with_header("9 $INSUNITS 70 1e20"), no);
   EXPECT_EQ(with_blocks("0 BLOCK 2 b " + kLine + " 0 ENDBLK", "0 INSERT 2 b 10 0 20 0 70 1e20"), no);
   EXPECT_EQ(with_layers("0 LAYER 2 A 70 0.5", kLine), "d.dxf: 0.5 is no whole number of up to 1e9");
+  EXPECT_EQ(with_layers("0 LAYER 2 A 70 1e9", kLine), ": L 1,2 3,5\n");
 }
 
 TEST(VerifyDxfDrawing, WhatIsOnPaperOrInvisibleOrLeansIsNotDrawn) {
@@ -266,6 +278,11 @@ TEST(VerifyDxfDrawing, BlocksAreInsertedWhereTheySay) {
             ": L 0,0 -3,2\n: L 0,10 -3,12\n: L -20,0 -23,2\n: L -20,10 -23,12\n");
   EXPECT_EQ(insert("10 0 20 0 70 0 71 -3"), ": L 0,0 2,3\n");
   EXPECT_EQ(insert("10 0 20 0 70 2000 71 1001"), "d.dxf: an INSERT makes too many copies");
+  // The first copy that is wrong ends it, be it of 2 million.
+  for (const char* copies : {"70 2000000", "71 2000000", "70 2000 71 1000"})
+    EXPECT_EQ(with_blocks("0 BLOCK 2 b 0 LINE 0 ENDBLK", "0 INSERT 2 b 10 0 20 0 " + std::string(copies)),
+              "d.dxf: a LINE lacks an end")
+        << copies;
   EXPECT_EQ(insert("10 0"), "d.dxf: an INSERT lacks a number");
   EXPECT_EQ(with_blocks(block, "0 INSERT 2 c 10 0 20 0"), "");
   EXPECT_EQ(with_blocks("0 BLOCK 2 b " + kLine + " 0 ENDBLK", "0 INSERT 2 b 10 0 20 0"), ": L 1,2 3,5\n");
@@ -276,6 +293,9 @@ TEST(VerifyDxfDrawing, BlocksAreInsertedWhereTheySay) {
   EXPECT_EQ(
       with_blocks("0 BLOCK 2 b 0 ARC 10 0 20 0 40 5 50 0 51 90 0 ENDBLK", "0 INSERT 2 b 10 0 20 0 41 2 42 2"),
       ": A 0,0 10 10,0 0,10 -\n");
+  EXPECT_EQ(with_blocks("0 BLOCK 2 b 0 LWPOLYLINE 10 0 20 0 42 2 10 0 20 0 0 ENDBLK",
+                        "0 INSERT 2 b 10 0 20 0 41 2"),
+            "");
   EXPECT_EQ(
       with_blocks("0 BLOCK 2 b 0 LWPOLYLINE 10 0 20 0 42 0.5 10 10 20 0 0 ENDBLK",
                   "0 INSERT 2 b 10 0 20 0 41 2"),
@@ -316,7 +336,9 @@ TEST(VerifyDxfDrawing, GroupsAreACodeAndAValue) {
   EXPECT_EQ(entities("999 0 0 LINE 999 10 10 1 20 2 11 3 21 5"), ": L 1,2 3,5\n");
   // What applications add says nothing of the drawing.
   EXPECT_EQ(entities("0 LINE 102 {a 10 9 102 } 10 1 20 2 11 3 21 5 1000 x 1010 4"), ": L 1,2 3,5\n");
+  EXPECT_EQ(entities("5 ENDSEC " + kLine), ": L 1,2 3,5\n");
   EXPECT_EQ(read("x"), "d.dxf: line 1 is no group of a DXF");
+  EXPECT_EQ(read("0 SECTION  2 ENTITIES"), "d.dxf: line 4 is no group of a DXF");
   EXPECT_EQ(read("0"), "d.dxf: line 1 is no group of a DXF");
   EXPECT_EQ(read("0 SECTION x ENTITIES"), "d.dxf: line 4 is no group of a DXF");
   EXPECT_EQ(read("0 SECTION 10000 a"), "d.dxf: line 4 is no group of a DXF");
@@ -325,6 +347,8 @@ TEST(VerifyDxfDrawing, GroupsAreACodeAndAValue) {
   EXPECT_EQ(read("0 SECTION 2 ENTITIES " + kLine + " 0 ENDSEC 0 EOF\n\n\n"), ": L 1,2 3,5\n");
   EXPECT_EQ(read(""), "");
   EXPECT_EQ(read("0 SECTION"), "");
+  for (const char* section : {"HEADER 9 $X", "TABLES 0 TABLE", "BLOCKS 0 BLOCK", "ENTITIES", "HEADER"})
+    EXPECT_EQ(read("0 SECTION 2 " + std::string(section)), "") << section;
   EXPECT_EQ(read("5 a 0 SECTION 2 ENTITIES " + kLine), ": L 1,2 3,5\n");
   EXPECT_EQ(read("0 SECTION 2 OBJECTS " + kLine + " 0 ENDSEC"), "");
 }

@@ -51,6 +51,9 @@ TEST(VerifySvgDrawing, ShapesAreTheirSides) {
     EXPECT_EQ(on_page(std::string("<rect ") + none + "/>"), "") << none;
   EXPECT_EQ(on_page("<rect width='3' height='5' rx='0' ry='0'/>"),
             ": L 0,100 3,100 L 3,100 3,95 L 3,95 0,95 L 0,95 0,100\n");
+  EXPECT_EQ(on_page("<rect width='4' height='8' rx='1' ry='2'/>", 100),
+            ": L 1,100 3,100 L 4,98 4,94 L 3,92 1,92 L 0,94 0,98 L 4,94 3,92~ L 1,92 0,94~ L 0,98 1,100~ L "
+            "3,100 4,98~\n");
   for (const char* round : {"rx='1'", "ry='1'"})
     EXPECT_EQ(on_page(std::string("<rect width='3' height='5' ") + round + "/>"),
               ": L 1,100 2,100 L 3,99 3,96 L 2,95 1,95 L 0,96 0,99 A 2,96 1 2,95 3,96 - A 1,96 1 0,96 1,95 - "
@@ -65,6 +68,7 @@ TEST(VerifySvgDrawing, ShapesAreTheirSides) {
 TEST(VerifySvgDrawing, CirclesStayCirclesAndEllipsesBecomeStrokes) {
   EXPECT_EQ(on_page("<circle cx='10' cy='20' r='5'/>"), ": A 10,80 5 15,80 15,80 o\n");
   EXPECT_EQ(on_page("<ellipse cx='10' cy='20' rx='5' ry='5'/>"), ": A 10,80 5 15,80 15,80 o\n");
+  EXPECT_EQ(on_page("<circle r='0.5'/>"), ": A 0,100 0.5 0.5,100 0.5,100 o\n");
   for (const char* none : {"<circle r='0'/>", "<circle r='-1'/>", "<circle/>", "<ellipse rx='1' ry='0'/>",
                            "<ellipse rx='0' ry='1'/>", "<ellipse rx='1'/>", "<ellipse ry='1'/>"})
     EXPECT_EQ(on_page(none), "") << none;
@@ -208,6 +212,7 @@ TEST(VerifySvgDrawing, PathsRunAsTheirLettersSay) {
   EXPECT_EQ(path("M1 2L3 4Z"), ": L 1,98 3,96 L 3,96 1,98\n");
   EXPECT_EQ(path("M1 2h3m4 0h5z"), ": L 1,98 4,98 L 8,98 13,98 L 13,98 8,98\n");
   EXPECT_EQ(path("M1-2+3.5.5"), ": L 1,102 3.5,99.5\n");
+  EXPECT_EQ(path("M1. 2L3 4"), ": L 1,98 3,96\n");
   EXPECT_EQ(path("M1e1,2E+0,3e-1 4"), ": L 10,98 0.3,96\n");
   EXPECT_EQ(path("M1\t2\r\nL3\n,4"), ": L 1,98 3,96\n");
   EXPECT_EQ(path(""), "");
@@ -267,6 +272,9 @@ TEST(VerifySvgDrawing, ArcsOfPathsTurnAsTheirFlagsSay) {
   EXPECT_EQ(path("M10 20a1 1 0 0 1 10 0"), ": A 15,80 5 20,80 10,80 =\n");
   EXPECT_EQ(path("M10 20a5.000001 5.000001 0 0 1 10 0"), "not read: arcs of nearly half a turn in paths\n");
   EXPECT_EQ(path("M10 20a5.00001 5.00001 0 0 1 10 0"), ": A 15,79.99 5 20,80 10,80 -\n");
+  // The squares of diameter and chord differ by a millionth and hardly more.
+  const std::string radius = "0.5000002499999375000313180768";
+  EXPECT_EQ(path("M0 0a" + radius + " " + radius + " 0 0 1 1 0"), ": A 0.5,100 0.5 1,100 0,100 -\n");
   EXPECT_EQ(path("M10 20a0 5 0 0 1 10 0"), ": L 10,80 20,80\n");
   EXPECT_EQ(path("M10 20a5 0 0 0 1 10 0"), ": L 10,80 20,80\n");
   EXPECT_EQ(path("M10 20a5 5 0 0 1 0 0"), "");
@@ -274,6 +282,8 @@ TEST(VerifySvgDrawing, ArcsOfPathsTurnAsTheirFlagsSay) {
       path("M10 20a5 6 0 0 1 10 0"),
       ": L 10,80 10.38,82.3~ L 10.38,82.3 11.46,84.24~ L 11.46,84.24 13.09,85.54~ L 13.09,85.54 15,86~ "
       "L 15,86 16.91,85.54~ L 16.91,85.54 18.54,84.24~ L 18.54,84.24 19.62,82.3~ L 19.62,82.3 20,80~\n");
+  // Turned by a quarter the two half diameters change places.
+  EXPECT_EQ(path("M10 20a5 6 90 0 1 10 0"), path("M10 20a6 5 0 0 1 10 0"));
   for (const char* flags : {"2 1", "0 2", "0 x", "x 0"})
     EXPECT_EQ(path("M10 20a5 5 0 " + std::string(flags) + " 10 0"),
               "d.svg: an arc of a path without its flags");
@@ -282,6 +292,7 @@ TEST(VerifySvgDrawing, ArcsOfPathsTurnAsTheirFlagsSay) {
 TEST(VerifySvgDrawing, AMapThatKeepsCirclesKeepsArcs) {
   const std::string arc = "<path d='M10 20A5 5 0 0 1 15 25' transform='";
   EXPECT_EQ(on_page(arc + "scale(2)'/>"), ": A 20,50 10 30,50 20,60 -\n");
+  EXPECT_EQ(on_page(arc + "scale(0.5)'/>"), ": A 5,87.5 2.5 7.5,87.5 5,90 -\n");
   EXPECT_EQ(on_page(arc + "scale(-1 1)'/>"), ": A -10,75 5 -10,80 -15,75 -\n");
   EXPECT_EQ(on_page(arc + "rotate(90)'/>"), ": A -25,90 5 -25,85 -20,90 -\n");
   EXPECT_EQ(
@@ -306,13 +317,30 @@ TEST(VerifySvgDrawing, TransformsAreMapsOneAfterTheOther) {
   EXPECT_EQ(transformed("skewX(45)"), ": L 3,98 12,92\n");
   EXPECT_EQ(transformed("skewY(45)"), ": L 1,97 4,88\n");
   EXPECT_EQ(transformed("skewX(135)"), ": L -1,98 -4,92\n");
+  EXPECT_EQ(transformed("skewY(135)"), ": L 1,99 4,96\n");
   EXPECT_EQ(transformed("matrix(1 2 3 4 5 6)"), ": L 12,84 33,54\n");
   EXPECT_EQ(transformed("translate(10,20) scale(2)"), ": L 12,76 18,64\n");
   EXPECT_EQ(transformed("scale(2),translate(10,20)"), ": L 22,56 28,44\n");
-  for (const char* wrong :
-       {"turn(3)", "scale", "scale(", "scale()", "scale(1 2 3)", "translate()", "translate(1 2 3)",
-        "rotate()", "rotate(1 2)", "rotate(1 2 3 4)", "skewX()", "skewX(1 2)", "skewY(1 2)",
-        "matrix(1 2 3 4 5)", "matrix(1 2 3 4 5 6 7)", "scale(x)", "scale 2", "scale(2) 3"})
+  for (const char* wrong : {"turn(3)",
+                            "scale",
+                            "scale(",
+                            "scale()",
+                            "scale(1 2 3)",
+                            "translate()",
+                            "translate(1 2 3)",
+                            "rotate()",
+                            "rotate(1 2)",
+                            "rotate(1 2 3 4)",
+                            "skewX()",
+                            "skewX(1 2)",
+                            "skewY(1 2)",
+                            "matrix(1 2 3 4 5)",
+                            "matrix(1 2 3 4 5 6 7)",
+                            "scale(x)",
+                            "scale 2",
+                            "scale(2) 3",
+                            "scale(2",
+                            "scale(1 2 3 4 5 6)"})
     EXPECT_EQ(transformed(wrong), "d.svg: a transform that is not understood") << wrong;
   EXPECT_EQ(on_page("<g style='transform: var(--a)'><line x2='1'/></g>"),
             "not read: transforms by variables\n");
@@ -330,7 +358,8 @@ TEST(VerifySvgDrawing, APageSaysItsUnitAndItsPlace) {
   EXPECT_EQ(page("width='200mm' height='200mm' viewBox='0 0 100 100'"), ": L 20,180 40,120\n");
   EXPECT_EQ(page("width='100mm' height='100mm' viewBox='5 6 100 100'"), ": L 5,96 15,66\n");
   EXPECT_EQ(page("width='100mm' viewBox='0 0 100 50'"), ": L 10,40 20,10\n");
-  EXPECT_EQ(page("height='50mm' viewBox='0 0 100 50'"), ": L 10,40 20,10\n");
+  EXPECT_EQ(page("height='100mm' viewBox='0 0 100 50'"), ": L 20,80 40,20\n");
+  EXPECT_EQ(page("width='100mm' height='100mm' viewBox='0 0 1 1'"), ": L 1000,-900 2000,-3900\n");
   EXPECT_EQ(page("width='80%' height='50mm' viewBox='0 0 100 50'"), ": L 10,40 20,10\n");
   EXPECT_EQ(page("viewBox='0 0 100 50'"), ": L 10,40 20,10\n");
   EXPECT_EQ(page("viewBox='0 0 100 50'", 2), ": L 20,80 40,20\n");
@@ -408,6 +437,9 @@ TEST(VerifySvgDrawing, LayersAreGroupsAndWhatIsHiddenIsMarked) {
   EXPECT_EQ(on_page("<line x2='1' style='fill:none;display : none '/>"), "!" + drawn);
   EXPECT_EQ(on_page("<line x2='1' style='display:none;display:inline' display='none'/>"), drawn);
   EXPECT_EQ(on_page("<line x2='1' style='display' display='none'/>"), "!" + drawn);
+  EXPECT_EQ(on_page("<line x2='1' style='display:none;fill:red'/>"), "!" + drawn);
+  EXPECT_EQ(on_page("<line x2='1' style='fill:none'/>"), drawn);
+  EXPECT_EQ(on_page("<line x2='1' style=' :a; display: ;' display='none'/>"), "!" + drawn);
   EXPECT_EQ(on_page("<line x2='1' visibility='hidden'/>"), "!" + drawn);
   EXPECT_EQ(on_page("<line x2='1' visibility='collapse'/>"), "!" + drawn);
   EXPECT_EQ(on_page("<g visibility='hidden'>" + line + "<line x2='1' visibility='visible'/></g>"),
@@ -448,6 +480,22 @@ TEST(VerifySvgDrawing, GroupsAreReadTo32Deep) {
   };
   EXPECT_EQ(nested(32), ": L 0,100 1,100\n");
   EXPECT_EQ(nested(33), "not read: groups nested too deep\n");
+  const auto used = [](int depth) {
+    std::string text = "<use href='#l'/>";
+    for (int k = 0; k < depth; ++k) text = "<g>" + text + "</g>";
+    return on_page("<defs><line id='l' x2='1'/></defs>" + text);
+  };
+  EXPECT_EQ(used(31), ": L 0,100 1,100\n");
+  EXPECT_EQ(used(32), "not read: groups nested too deep\n");
+}
+
+TEST(VerifySvgDrawing, ADrawingOfMoreThanTwoMillionCurvesIsTooLarge) {
+  ReadDrawing drawing;
+  drawing.curves.reserve(2'000'001);
+  drawing.curves.resize(2'000'000);
+  EXPECT_FALSE(drawing.too_large());
+  drawing.curves.emplace_back();
+  EXPECT_TRUE(drawing.too_large());
 }
 
 TEST(VerifySvgDrawing, LengthsAreNumbersOrHaveUnits) {
@@ -478,6 +526,8 @@ TEST(VerifyXml, ElementsHaveNamesAttributesTextAndChildren) {
   EXPECT_EQ(parsed("\xEF\xBB\xBF <a></a>"), "a");
   EXPECT_EQ(parsed("<a></a >"), "a");
   EXPECT_EQ(parsed("<svg:a><svg:b/></svg:a>"), "a(b)");
+  EXPECT_EQ(parsed("<a\rb='1'/>"), "a b=1");
+  EXPECT_EQ(parsed("<![CDATA[b]]><a/>"), "a");
   EXPECT_EQ(parsed("<x:a\tb = '1'\n c=\"2'\"><b/>text<c d=''>more</c></x:a>"),
             "x:a b=1 c=2' 'text'(b)(c d= 'more')");
   EXPECT_EQ(parsed("<?xml version='1.0'?><!-- <x> --><!DOCTYPE svg><a>1<!-- 2 -->3<![CDATA[<4>]]></a>"),
@@ -494,6 +544,9 @@ TEST(VerifyXml, EverythingElseIsRefused) {
                            "<a b",
                            "<a b=",
                            "<a b=1/>",
+                           "<a b=1 c=1/>",
+                           "<a b '1'/>",
+                           "<></>",
                            "<a b='1/>",
                            "<a b='1' c/>",
                            "<a ='1'/>",

@@ -129,7 +129,7 @@ bool CurveMaker::too_many(double strokes, const char* curves) {
 template <class Part, class Take>
 void CurveMaker::in_parts(const Part& whole, const char* curves, const Take& take) {
   std::vector<Part> open{whole};
-  for (double count = 0; !open.empty(); ++count) {
+  for (double count{}; !open.empty(); ++count) {
     if (too_many(count, curves)) return;
     const Part part = open.back();
     open.pop_back();

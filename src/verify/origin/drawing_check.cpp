@@ -117,7 +117,6 @@ class DrawingCheck {
 
 WrittenDrawing read_written_drawing(Json value, const std::string& path, std::string& complaint) {
   WrittenDrawing written;
-  if (value.text.empty() || value.is_null()) return written;
   Fields fields(value, path, complaint);
   fields.each("layers", [&](Json item, const std::string& at) {
     if (!item.is_string()) return fields.complain(at + " is not a text");
