@@ -343,7 +343,7 @@ TEST(VerifySvgDrawing, TransformsAreMapsOneAfterTheOther) {
                             "scale(1 2 3 4 5 6)"})
     EXPECT_EQ(transformed(wrong), "d.svg: a transform that is not understood") << wrong;
   EXPECT_EQ(on_page("<g style='transform: var(--a)'><line x2='1'/></g>"),
-            "not read: transforms by variables\n");
+            "not read: styles that move or shape\n");
   EXPECT_EQ(on_page("<g transform='translate(5)'><g transform='scale(2)'><line x2='1'/></g></g>"),
             ": L 5,100 7,100\n");
 }
@@ -439,6 +439,7 @@ TEST(VerifySvgDrawing, LayersAreGroupsAndWhatIsHiddenIsMarked) {
   EXPECT_EQ(on_page("<line x2='1' style='display' display='none'/>"), "!" + drawn);
   EXPECT_EQ(on_page("<line x2='1' style='display:none;fill:red'/>"), "!" + drawn);
   EXPECT_EQ(on_page("<line x2='1' style='fill:none'/>"), drawn);
+  EXPECT_EQ(on_page("<line x2='1' style='Display:None !important'/>"), "!" + drawn);
   EXPECT_EQ(on_page("<line x2='1' style=' :a; display: ;' display='none'/>"), "!" + drawn);
   EXPECT_EQ(on_page("<line x2='1' visibility='hidden'/>"), "!" + drawn);
   EXPECT_EQ(on_page("<line x2='1' visibility='collapse'/>"), "!" + drawn);
@@ -450,10 +451,38 @@ TEST(VerifySvgDrawing, LayersAreGroupsAndWhatIsHiddenIsMarked) {
   EXPECT_EQ(on_page("<switch>" + line + "</switch>"), "not read: switch within the page\n");
 }
 
+/// Whoever shows the drawing does what they say, so that what is drawn without them is another one.
+TEST(VerifySvgDrawing, StylesThatMoveOrShapeAreNotRead) {
+  for (const char* style :
+       {"transform:scale(2)", "fill:none; TRANSLATE: 5px", "rotate:9deg", "scale:2", "d:path(\"\")", "x:5px",
+        "y:5px", "cx:5px", "cy:5px", "r:5px", "rx:5px", "ry:5px", "/**/x:5px", "\\78:5px"})
+    EXPECT_EQ(on_page("<rect width='1' height='1' style='" + std::string(style) + "'/>"),
+              "not read: styles that move or shape\n")
+        << style;
+  const std::string drawn = ": L 0,0 1,0\n";
+  const auto root = [](const std::string& words) {
+    return read("<svg viewBox='0 0 9 9' height='9mm' width='9mm' " + words +
+                "><line y1='9' x2='1' y2='9'/></svg>");
+  };
+  EXPECT_EQ(root(""), drawn);
+  EXPECT_EQ(root("style='fill:none'"), drawn);
+  EXPECT_EQ(root("style='scale:2'"), drawn + "not read: pages that are moved\n");
+  EXPECT_EQ(root("transform='scale(2)'"), drawn + "not read: pages that are moved\n");
+  EXPECT_EQ(root("display='none'"), "!" + drawn);
+  EXPECT_EQ(root("visibility='hidden'"), "!" + drawn);
+}
+
 TEST(VerifySvgDrawing, StyleSheetsThatHideOrMoveAreNotRead) {
   for (const char* word : {"display", "visibility", "transform"})
     EXPECT_EQ(on_page("<style>.a{" + std::string(word) + ":none}</style>"),
               "not read: style sheets that hide or move\n");
+  for (const char* rule :
+       {"a{DISPLAY:none}", "a{ x : 5px}", "a{fill:none;r:5px}", "@media print{a{rotate:9deg}}",
+        "a{fill:none}b{scale:2}", "/* a */a{visibility:hidden}", "a{\\78:5px}"})
+    EXPECT_EQ(on_page("<style>" + std::string(rule) + "</style>"),
+              "not read: style sheets that hide or move\n")
+        << rule;
+  EXPECT_EQ(on_page("<style>/* a */ .a{fill:none;stroke:red}</style>"), "");
   EXPECT_EQ(on_page("<style>.a{fill:none}</style>"), "");
   EXPECT_EQ(on_page("<text>display</text>"), "");
 }

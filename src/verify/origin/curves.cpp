@@ -88,14 +88,15 @@ std::optional<CurvePiece> arc_along(const Poles& p) {
   if (!positive(cross(v[0], v[3]))) return std::nullopt;
   for (std::size_t k = 1; k < 3; ++k)
     if (!positive(cross(v[0], v[k])) || !positive(cross(v[k], v[3]))) return std::nullopt;
+  const auto own = [](const Vec& a) { return dot(a, a); };
   const Span two = just(2), three = just(3);
-  const std::array<Span, 7> squares{dot(v[0], v[0]),
+  const std::array<Span, 7> squares{own(v[0]),
                                     dot(v[0], v[1]),
-                                    (two * dot(v[0], v[2]) + three * dot(v[1], v[1])) / just(5),
+                                    (two * dot(v[0], v[2]) + three * own(v[1])) / just(5),
                                     (dot(v[0], v[3]) + just(9) * dot(v[1], v[2])) / just(10),
-                                    (two * dot(v[1], v[3]) + three * dot(v[2], v[2])) / just(5),
+                                    (two * dot(v[1], v[3]) + three * own(v[2])) / just(5),
                                     dot(v[2], v[3]),
-                                    dot(v[3], v[3])};
+                                    own(v[3])};
   Span square = squares[0];
   for (const Span& s : squares) square = {std::min(square.low, s.low), std::max(square.high, s.high)};
   if (!positive(square)) return std::nullopt;

@@ -197,6 +197,9 @@ class DxfReader {
       if (pair.code == code) return number_of(pair);
     return std::nullopt;
   }
+  Decimal number_or(const Entity& entity, int code, long otherwise) {
+    return number(entity, code).value_or(Decimal{otherwise, 0});
+  }
   std::optional<Decimal> number_of(const Pair& pair) {
     auto value = parse_decimal(pair.value);
     if (!value) complain(fmt::format("\"{}\" is no number", excerpt(pair.value)));
@@ -225,10 +228,8 @@ class DxfReader {
   };
   /// Planes are seen from above or from below; others count as nothing that is drawn.
   Plane plane_of(const Entity& entity) {
-    const auto or_else = [&](int code, long otherwise) {
-      return approximate(number(entity, code).value_or(Decimal{otherwise, 0}));
-    };
-    const double x = or_else(210, 0), y = or_else(220, 0), z = or_else(230, 1);
+    const double x = approximate(number_or(entity, 210, 0)), y = approximate(number_or(entity, 220, 0)),
+                 z = approximate(number_or(entity, 230, 1));
     const double lean = std::max(std::abs(x), std::abs(y));
     const bool upright = lean <= 1e-9 * std::abs(z);
     if (lean > 0 && upright) drawing_.not_read.insert("planes that lean by rounding");
@@ -327,7 +328,7 @@ class DxfReader {
   }
 
   void draw_polyline(const Entity& entity, const Affine& flat, const Affine& seen) {
-    const Decimal flags = number(entity, 70).value_or(Decimal{});
+    const Decimal flags = number_or(entity, 70, 0);
     if (bit(flags, 16) || bit(flags, 64)) return;
     const bool in_space = bit(flags, 8);
     std::vector<Corner> corners;
@@ -336,7 +337,7 @@ class DxfReader {
       if (!at) return complain("a VERTEX lacks a number");
       // Points of a spline's frame are no points of the curve.
       if (const auto kind = number(vertex, 70); kind && bit(*kind, 16)) continue;
-      corners.push_back({*at, in_space ? Decimal{} : number(vertex, 42).value_or(Decimal{})});
+      corners.push_back({*at, in_space ? Decimal{} : number_or(vertex, 42, 0)});
     }
     draw_corners(in_space ? flat : seen, corners, bit(flags, 1));
   }
@@ -440,9 +441,7 @@ class DxfReader {
     const Block& block = found->second;
     const auto at = point(entity, 10, 20);
     if (!at) return complain("an INSERT lacks a number");
-    const auto or_else = [&](int code, long otherwise) {
-      return number(entity, code).value_or(Decimal{otherwise, 0});
-    };
+    const auto or_else = [&](int code, long otherwise) { return number_or(entity, code, otherwise); };
     const Span sx = enclosed(or_else(41, 1)), sy = enclosed(or_else(42, 1));
     const Vec turn = direction(to_fraction(or_else(50, 0)));
     const Vec along{turn.x, turn.y}, across{-turn.y, turn.x};

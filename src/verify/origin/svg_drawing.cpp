@@ -36,7 +36,8 @@ class Scanner {
     skip();
     return at_ < text_.size() ? text_[at_] : '\0';
   }
-  char take() { return at_ < text_.size() ? text_[at_++] : '\0'; }
+  /// Goes on behind what peek() showed.
+  void take() { ++at_; }
   std::string_view word() {
     skip();
     const std::size_t begin = at_;
@@ -97,6 +98,8 @@ class SvgReader {
     if (root.name != "svg") complain("its root is no svg");
     Around around;
     if (complaint_.empty()) read_page(root, around);
+    if (!root.get("transform").empty() || shapes(root.get("style"))) not_read("pages that are moved");
+    hide(root, around);
     for (const XmlElement& child : root.children) draw(child, around, 0);
     if (!complaint_.empty())
       return failure(ErrorCode::bad_input, fmt::format("{}: {}", document_.name, complaint_));
@@ -111,10 +114,7 @@ class SvgReader {
 
   void index(const XmlElement& element) {
     layers_are_marked_ = layers_are_marked_ || element.get("inkscape:groupmode") == "layer";
-    if (element.name == "style" && (element.text.find("display") != std::string::npos ||
-                                    element.text.find("visibility") != std::string::npos ||
-                                    element.text.find("transform") != std::string::npos))
-      not_read("style sheets that hide or move");
+    if (element.name == "style" && hides_or_shapes(element.text)) not_read("style sheets that hide or move");
     if (const std::string_view id = element.get("id"); !id.empty()) by_id_.emplace(std::string(id), &element);
     for (const XmlElement& child : element.children) index(child);
   }
@@ -186,17 +186,44 @@ class SvgReader {
     around.map = {{enclosed(sx), just(0)}, {just(0), -enclosed(sy)}, {enclosed(x), enclosed(y)}};
   }
 
-  static std::string_view property(const XmlElement& element, std::string_view name) {
-    std::string_view style = element.get("style");
-    std::string_view found;
+  /// Returns what a style says last of a property, in capitals.
+  static std::string styled(std::string_view style, std::string_view name) {
+    std::string found;
     while (!style.empty()) {
       const std::string_view one = style.substr(0, style.find(';'));
       const std::size_t colon = one.find(':');
-      if (colon != std::string_view::npos && stripped(one.substr(0, colon)) == name)
-        found = stripped(one.substr(colon + 1));
+      if (colon != std::string_view::npos && key_of(stripped(one.substr(0, colon))) == key_of(name))
+        found = key_of(stripped(one.substr(colon + 1, one.find('!') - colon - 1)));
       style.remove_prefix(std::min(one.size() + 1, style.size()));
     }
-    return found.empty() ? element.get(name) : found;
+    return found;
+  }
+  static bool says_shape(std::string_view style) {
+    constexpr std::array<std::string_view, 12> kShapes{
+        "transform", "translate", "rotate", "scale", "d", "x", "y", "cx", "cy", "r", "rx", "ry"};
+    return std::any_of(kShapes.begin(), kShapes.end(),
+                       [&](std::string_view name) { return !styled(style, name).empty(); });
+  }
+  /// Says whether a style moves or shapes anything, or may behind a comment or an escape.
+  static bool shapes(std::string_view style) {
+    return style.find("\\") != std::string_view::npos || style.find("/*") != std::string_view::npos ||
+           says_shape(style);
+  }
+  static bool hides_or_shapes(std::string_view sheet) {
+    std::string rules = key_of(sheet);
+    for (char& c : rules)
+      if (c == '{' || c == '}') c = ';';
+    const auto names = [&](std::string_view word) { return rules.find(word) != std::string::npos; };
+    return names("DISPLAY") || names("VISIBILITY") || names("TRANSFORM") || names("\\") || says_shape(rules);
+  }
+  static std::string property(const XmlElement& element, std::string_view name) {
+    const std::string found = styled(element.get("style"), name);
+    return found.empty() ? key_of(element.get(name)) : found;
+  }
+  static void hide(const XmlElement& element, Around& around) {
+    if (property(element, "display") == "NONE") around.hidden_layer = true;
+    if (const auto visible = property(element, "visibility"); !visible.empty())
+      around.hidden = visible == "HIDDEN" || visible == "COLLAPSE";
   }
   static std::string_view stripped(std::string_view text) {
     while (!text.empty() && std::string_view(" \t\r\n").find(text.front()) != std::string_view::npos)
@@ -216,12 +243,9 @@ class SvgReader {
     if (!group && name != "path" && name != "line" && name != "polyline" && name != "polygon" &&
         name != "rect" && name != "circle" && name != "ellipse" && name != "use")
       return;
-    if (property(element, "transform").find("var(") != std::string_view::npos)
-      return not_read("transforms by variables");
+    if (shapes(element.get("style"))) return not_read("styles that move or shape");
     around.map = around.map * read_transform(element.get("transform"));
-    if (property(element, "display") == "none") around.hidden_layer = true;
-    if (const auto visible = property(element, "visibility"); !visible.empty())
-      around.hidden = visible == "hidden" || visible == "collapse";
+    hide(element, around);
     if (group) {
       const std::string label(element.get("inkscape:label").empty() ? element.get("id")
                                                                     : element.get("inkscape:label"));
