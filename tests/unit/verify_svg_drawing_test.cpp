@@ -476,9 +476,9 @@ TEST(VerifySvgDrawing, StyleSheetsThatHideOrMoveAreNotRead) {
   for (const char* word : {"display", "visibility", "transform"})
     EXPECT_EQ(on_page("<style>.a{" + std::string(word) + ":none}</style>"),
               "not read: style sheets that hide or move\n");
-  for (const char* rule :
-       {"a{DISPLAY:none}", "a{ x : 5px}", "a{fill:none;r:5px}", "@media print{a{rotate:9deg}}",
-        "a{fill:none}b{scale:2}", "/* a */a{visibility:hidden}", "a{\\78:5px}"})
+  for (const char* rule : {"a{DISPLAY:none}", "a{ x : 5px}", "a{fill:none;r:5px}",
+                           "@media print{a{rotate:9deg}}", "a{fill:none}b{scale:2}", "a{b{fill:none}x:5px}",
+                           "a{/* b */transform:scale(2)}", "/* a */a{visibility:hidden}", "a{\\78:5px}"})
     EXPECT_EQ(on_page("<style>" + std::string(rule) + "</style>"),
               "not read: style sheets that hide or move\n")
         << rule;
