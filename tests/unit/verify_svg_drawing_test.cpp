@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "lekalo/base/limits.hpp"
 #include "support/drawn_text.hpp"
 #include "verify/origin/drawing.hpp"
 #include "verify/origin/xml.hpp"
@@ -42,6 +43,8 @@ TEST(VerifySvgDrawing, ShapesAreTheirSides) {
   EXPECT_EQ(on_page("<polygon points='1,2'/><polygon points=''/>"), "");
   EXPECT_EQ(on_page("<polygon points='1,2 3'/>"), "d.svg: points that are no numbers");
   EXPECT_EQ(on_page("<polygon points='1,2 3,x'/>"), "d.svg: points that are no numbers");
+  const std::string too_long(limits::kMostDigits + 1, '9');
+  EXPECT_EQ(on_page("<polygon points='" + too_long + ",2'/>"), "d.svg: points that are no numbers");
   EXPECT_EQ(on_page("<rect x='1' y='2' width='3' height='5'/>"),
             ": L 1,98 4,98 L 4,98 4,93 L 4,93 1,93 L 1,93 1,98\n");
   EXPECT_EQ(on_page("<rect width='3' height='5'/>"),

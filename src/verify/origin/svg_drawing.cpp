@@ -186,23 +186,24 @@ class SvgReader {
     around.map = {{enclosed(sx), just(0)}, {just(0), -enclosed(sy)}, {enclosed(x), enclosed(y)}};
   }
 
-  /// Returns what a style says last of a property, in capitals.
-  static std::string styled(std::string_view style, std::string_view name) {
-    std::string found;
+  /// Calls f(name in capitals, value) for all that a style says.
+  template <class F>
+  static void each_said(std::string_view style, const F& f) {
     while (!style.empty()) {
       const std::string_view one = style.substr(0, style.find(';'));
       const std::size_t colon = one.find(':');
-      if (colon != std::string_view::npos && key_of(stripped(one.substr(0, colon))) == key_of(name))
-        found = key_of(stripped(one.substr(colon + 1, one.find('!') - colon - 1)));
+      if (colon != std::string_view::npos) f(key_of(stripped(one.substr(0, colon))), one.substr(colon + 1));
       style.remove_prefix(std::min(one.size() + 1, style.size()));
     }
-    return found;
   }
   static bool says_shape(std::string_view style) {
     constexpr std::array<std::string_view, 12> kShapes{
-        "transform", "translate", "rotate", "scale", "d", "x", "y", "cx", "cy", "r", "rx", "ry"};
-    return std::any_of(kShapes.begin(), kShapes.end(),
-                       [&](std::string_view name) { return !styled(style, name).empty(); });
+        "TRANSFORM", "TRANSLATE", "ROTATE", "SCALE", "D", "X", "Y", "CX", "CY", "R", "RX", "RY"};
+    bool found = false;
+    each_said(style, [&](const std::string& name, std::string_view) {
+      found = found || std::find(kShapes.begin(), kShapes.end(), name) != kShapes.end();
+    });
+    return found;
   }
   /// Says whether a style moves or shapes anything, or may behind a comment or an escape.
   static bool shapes(std::string_view style) {
@@ -216,8 +217,12 @@ class SvgReader {
     const auto names = [&](std::string_view word) { return rules.find(word) != std::string::npos; };
     return names("DISPLAY") || names("VISIBILITY") || names("TRANSFORM") || names("\\") || says_shape(rules);
   }
+  /// Returns the value of a property, in capitals: the last of its style, else the attribute.
   static std::string property(const XmlElement& element, std::string_view name) {
-    const std::string found = styled(element.get("style"), name);
+    std::string found;
+    each_said(element.get("style"), [&](const std::string& said, std::string_view value) {
+      if (said == key_of(name)) found = key_of(stripped(value.substr(0, value.find('!'))));
+    });
     return found.empty() ? key_of(element.get(name)) : found;
   }
   static void hide(const XmlElement& element, Around& around) {
@@ -351,8 +356,7 @@ class SvgReader {
     std::vector<Vec> points;
     while (!scanner.done()) {
       const auto x = scanner.number(), y = scanner.number();
-      // Without an x there is no y either.
-      if (!y) return complain("points that are no numbers");
+      if (!x || !y) return complain("points that are no numbers");
       points.push_back({verify::enclosed(*x), verify::enclosed(*y)});
     }
     for (std::size_t k = 0; k + 1 < points.size(); ++k) maker_.line(map, points[k], points[k + 1]);
