@@ -457,8 +457,8 @@ TEST(VerifySvgDrawing, LayersAreGroupsAndWhatIsHiddenIsMarked) {
 /// Whoever shows the drawing does what they say, so that what is drawn without them is another one.
 TEST(VerifySvgDrawing, StylesThatMoveOrShapeAreNotRead) {
   for (const char* style :
-       {"transform:scale(2)", "fill:none; TRANSLATE: 5px", "rotate:9deg", "scale:2", "d:path(\"\")", "x:5px",
-        "y:5px", "cx:5px", "cy:5px", "r:5px", "rx:5px", "ry:5px", "/**/x:5px", "\\78:5px"})
+       {"transform:scale(2)", "fill:none; TRANSLATE: 5px", "rotate:9deg", "scale:2", "d:path(\"\")",
+        "x:5px;fill:none", "y:5px", "cx:5px", "cy:5px", "r:5px", "rx:5px", "ry:5px", "/**/x:5px", "\\78:5px"})
     EXPECT_EQ(on_page("<rect width='1' height='1' style='" + std::string(style) + "'/>"),
               "not read: styles that move or shape\n")
         << style;
