@@ -143,6 +143,7 @@ TEST(VerifyDemands, PointsOfTheTradeOffHaveAMarginFrom0OnAndAHand) {
   EXPECT_EQ(complaint_of(with("true", 0)), "");
   EXPECT_EQ(complaint_of(with("true", -0.5)), "demands.trade_off[0].margin is negative");
   EXPECT_EQ(complaint_of(with("1", 0)), "demands.trade_off[0].mirrored is no truth value");
+  EXPECT_EQ(complaint_of(with("null", 0)), "demands.trade_off[0].mirrored is no truth value");
   EXPECT_TRUE(Checked(with("true", 1), square(40, 60)).read.curve.at(0).mirrored);
   EXPECT_FALSE(Checked(with("false", 1), square(40, 60)).read.curve.at(0).mirrored);
 }
@@ -339,6 +340,93 @@ TEST(VerifyDemands, OfArcsEveryPointCounts) {
   EXPECT_TRUE(has(missing(lacking(1, -3), disc(52.001)), "at edge 0 more is missing "));
 }
 
+/// A feature of an edge that the part has not has been found; the other claims about it are of nothing.
+TEST(VerifyDemands, AnEdgeThatThePartHasNotIsNothing) {
+  Tree one = lacking(0, -3);
+  one["features"].push_back(feature("[4]", R"({"maximum": 1})"));
+  EXPECT_TRUE(has(missing(one, square(2, 98)), "has edge 4, which the part has not"));
+  one["margin"] = 0;
+  EXPECT_EQ(placement(one, square(40, 60)), "feature \"f\" has edge 4, which the part has not\n");
+  EXPECT_TRUE(Checked(one, square(40, 60)).check->caps(just(0)).at(0).sides.empty());
+}
+
+/// An arc whose ends lie 0.001 within its circle, which begins the outline, and the lines to them.
+TEST(VerifyDemands, LinesThatJoinAnArcToItsCircleBelongToItsEdge) {
+  const std::string part =
+      R"({"outer": [{"arc": {"from": [60, 40], "to": [60, 60], "centre": [60.001, 50], "ccw": true}},
+      {"line": {"from": [60, 60], "to": [40, 60]}},
+      {"arc": {"from": [40, 60], "to": [40, 40.002], "centre": [40, 50], "ccw": true}},
+      {"line": {"from": [40, 40.002], "to": [60, 40]}}]})";
+  Tree one = demands();
+  one["features"].push_back(feature("[0]", R"({"maximum": 1})"));
+  one["features"].push_back(feature("[2]", R"({"maximum": 2})"));
+  one["features"].push_back(feature("[3]", R"({"maximum": 3})"));
+  const Checked checked(one, part);
+  EXPECT_EQ(checked.said(), "");
+  const auto caps = checked.check->caps(just(0));
+  ASSERT_EQ(checked.part.sides.size(), 6U);
+  EXPECT_EQ(caps[0].sides, std::vector<std::size_t>{0});
+  EXPECT_EQ(caps[1].sides, (std::vector<std::size_t>{2, 3, 4}));
+  EXPECT_EQ(caps[2].sides, std::vector<std::size_t>{5});
+}
+
+/// The demands of every edge were once held against the edge before it, where the first one was such an arc.
+TEST(VerifyDemands, AnOutlineThatBeginsWithAnArcThatMissesItsEndsHasItsEdgesInOrder) {
+  const std::string part =
+      R"({"outer": [{"arc": {"from": [60, 40], "to": [60, 60.002], "centre": [60, 50], "ccw": true}},
+      {"line": {"from": [60, 60.002], "to": [10, 60]}}, {"line": {"from": [10, 60], "to": [10, 40]}},
+      {"line": {"from": [10, 40], "to": [60, 40]}}]})";
+  Tree one = demands();
+  one["features"].push_back(feature("[3]", R"({"maximum": 11})"));
+  EXPECT_TRUE(has(placement(one, part), "feature \"f\" has an allowance above 10.99"));
+  one = demands();
+  one["features"].push_back(feature("[2]", R"({"maximum": 11})"));
+  EXPECT_EQ(placement(one, part), "");
+  one = demands();
+  one["features"].push_back(feature("[4]"));
+  EXPECT_EQ(placement(one, part), "feature \"f\" has edge 4, which the part has not\n");
+}
+
+TEST(VerifyDemands, WhatIsOutsideIsNotDeep) {
+  // No point of the part is in the blank: nothing of it is deep.
+  Tree one = demands();
+  one["largest"] = 5;
+  EXPECT_FALSE(has(placement(one, square(140, 160)), "allowance above"));
+  // A part that reaches from outside deep into the blank.
+  EXPECT_TRUE(has(placement(one, rectangle(-50, 40, 50, 60)), "the part has an allowance above 4.99"));
+  one = demands();
+  one["largest"] = 60;
+  EXPECT_FALSE(has(placement(one, rectangle(-50, 40, 50, 60)), "allowance above"));
+}
+
+TEST(VerifyDemands, ACornerSticksOutBetweenEdgesWithTheirMiddleInside) {
+  // A corner between two edges, both of which have their middle in the blank.
+  const std::string wedge =
+      R"({"outer": [{"line": {"from": [50, -5], "to": [90, 60]}}, {"line": {"from": [90, 60], "to": [10, 60]}},
+      {"line": {"from": [10, 60], "to": [50, -5]}}]})";
+  EXPECT_TRUE(has(missing(lacking(1, -3), wedge), "at edge 0 more is missing"));
+  EXPECT_TRUE(has(missing(lacking(0, -3), rectangle(10, -3.001, 90, 50)), "at edge 0 more is missing"));
+  EXPECT_EQ(missing(lacking(0, -3), rectangle(10, -2.999, 90, 50)), "shown");
+  // What is missing is all that an edge needs.
+  EXPECT_EQ(missing(lacking(3, -3), rectangle(10, 0.001, 90, 50)), "shown");
+  EXPECT_TRUE(has(missing(lacking(3, -3), rectangle(10, -0.001, 90, 50)), "at edge 0 more is missing"));
+}
+
+/// A part of 2 by 40 whose right edge demands 20, and a hole or a notch of the blank beside its upper end.
+TEST(VerifyDemands, WhatIsDemandedIsLookedAtInSquares) {
+  const auto beside = [](double radius, double margin) {
+    const std::string hole = fmt::format(
+        R"({{"outer": [{{"line": {{"from": [0, 0], "to": [200, 0]}}}}, {{"line": {{"from": [200, 0], "to": [200, 300]}}}},
+        {{"line": {{"from": [200, 300], "to": [0, 300]}}}}, {{"line": {{"from": [0, 300], "to": [0, 0]}}}}],
+        "holes": [[{{"arc": {{"from": [{}, 205], "to": [{}, 205], "centre": [120, 205], "ccw": false}}}}]]}})",
+        120 + radius, 120 + radius);
+    Tree one = lacking(0, margin);
+    one["features"].push_back(feature("[1]", R"({"minimum": 30})"));
+    return missing(one, rectangle(98, 50, 100, 210), 0, hole);
+  };
+  EXPECT_EQ(beside(6, -12), "shown");
+}
+
 // ---- the criteria -----------------------------------------------------------------------------------------
 
 /// What is said about a result whose criterion is `largest`, with these changes.
@@ -408,6 +496,11 @@ TEST(VerifyDemands, TheNumbersOfTheCriteriaBelongTogether) {
       {R"({"smallest_largest": null, "criterion": "smallest"})", "margin_found is not margin\n"},
       {R"({"criterion": "smallest", "margin": 10})",
        "there is a smallest_largest, which was not asked for or cannot be\n"},
+      {R"({"margin_found": 0, "margin": 0, "margin_bound": 0, "second": {"margin": 0}})", ""},
+      {R"({"margin_gap": 0.49999999999999994})", ""},  // by a rounding
+      {R"({"second": {"bound": 28, "gap": 1.9999999999999998, "kept": 30}})", ""},
+      {R"({"smallest_largest": null, "criterion": "other", "margin": 7.999999999999999})", ""},
+      {R"({"smallest_largest": null, "criterion": "other", "margin": 9})", ""},
       // With more to give up than was found nothing is kept.
       {R"({"give_up": 20, "margin": 0, "second": {"margin": 0}})", ""},
       {R"({"give_up": 20, "margin": 0.5, "second": {"margin": -10}})",
@@ -453,6 +546,9 @@ TEST(VerifyDemands, ThePartIsGrownByTheMinimaAndTheirSharesOfTheMargin) {
   EXPECT_NEAR(by[2], -4, 1e-12);
   EXPECT_NEAR(by[3], 3, 1e-12);
   for (const double none : Checked(demands(), square(40, 60)).check->growth(just(0))) EXPECT_EQ(none, 0);
+  one = demands();
+  one["features"].push_back(feature("[0, 1, 2, 3]"));
+  for (const double none : Checked(one, square(40, 60)).check->growth(just(0))) EXPECT_EQ(none, 0);
 }
 
 TEST(VerifyDemands, CapsAreTheMaximaOfTheirSidesAndOneOfAllThatIsNotFinished) {
@@ -567,6 +663,14 @@ TEST(VerifyDemands, TheBoundOfTheMarginFollowsFromTheCertificates) {
   EXPECT_EQ(bound(R"({"shift": 2})", true), "");
   EXPECT_TRUE(has(bound(R"({"shift": 1.999})", true), "is above its shift 1.99"));
   EXPECT_EQ(bound(R"({"shift": 1})"), "");
+  Tree finished = demands();
+  finished["margin_bound"] = 10, finished["grown_for"] = 8, finished["bound"] = 2, finished["shift"] = 1.999;
+  finished["features"].push_back(feature("[0]", R"({"finished": 90})"));
+  Checked checked(finished, square(40, 60));
+  checked.check->check_bound();
+  EXPECT_TRUE(has(checked.said(), "is above its shift 1.99"));
+  EXPECT_EQ(bound(R"({"margin_bound": 0.5, "grown_for": 0.25, "bound": 0.25})"), "");
+  EXPECT_TRUE(bound(R"({"margin_bound": -1, "grown_for": 2, "bound": -4})").starts_with(below));
 }
 
 TEST(VerifyDemands, TheBoundOfLargestAllowancesFollowsFromItsCertificate) {
@@ -593,6 +697,7 @@ TEST(VerifyDemands, TheBoundOfLargestAllowancesFollowsFromItsCertificate) {
   EXPECT_EQ(with(R"({"limit": 29.624})"), "");
   EXPECT_TRUE(with(R"({"limit": 29.626})").starts_with("smallest_largest.bound 29.626 does not follow"));
   EXPECT_EQ(with(R"({"shift": 0.126})", true), "");
+  EXPECT_TRUE(has(with(R"({"shift": 0.125})", true), "of largest allowances is not below its shift"));
   EXPECT_TRUE(has(with(R"({"shift": 0.124})", true), "of largest allowances is not below its shift"));
   EXPECT_EQ(with(R"({"shift": 0.124, "limit": 29})"), "");
 }

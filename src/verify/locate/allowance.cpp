@@ -10,11 +10,12 @@
 namespace lekalo::verify {
 namespace {
 
-/// Bounds the error of the distances that the filter computes in doubles, for points with coordinates below 1
-/// in magnitude. With u = 2^-53: a point is within 2 u of the exact one in each coordinate, a unit normal
-/// within 8 u, and the sum of two products of a normal with a difference below 2 gathers less than 60 u.
-/// Clamping to a segment moves its foot by a few u more. 128 u covers all of it.
-constexpr double kFilterError = 0x1p-46;
+/// Two distances that the filter computes in doubles may differ by so much where the true ones do not, for
+/// points with coordinates up to 1 in magnitude: by twice the error of one. With u = 2^-53: a point is within
+/// 2 u of the exact one in each coordinate, a unit normal within 8 u, and the sum of two products of a normal
+/// with a difference up to 2 gathers less than 60 u. Clamping to a segment moves its foot by a few u more.
+/// 128 u covers all of it.
+constexpr double kFilterSlack = 0x1p-45;
 
 Turn rotation(const Decimal& angle, Precision precision) {
   return turn_by(Interval(angle, precision + angle_bits(angle)));
@@ -46,7 +47,7 @@ FlatPoint operator-(FlatPoint a, FlatPoint b) { return {a.x - b.x, a.y - b.y}; }
 
 /// The outlines as seen from one corner of the blank, so that a blank far from the origin keeps its digits.
 /// The placed points of the part are intervals. Both outlines also stand here as doubles in units of 2^scale,
-/// which makes every coordinate smaller than 1.
+/// which makes no coordinate larger than 1.
 class SeenFromBlank {
  public:
   SeenFromBlank(const Outline& blank, const Outline& part, const Pose& pose, const Turn& turn,
@@ -58,7 +59,7 @@ class SeenFromBlank {
       placed_.push_back({turn.cosine * x - turn.sine * y + tx, turn.sine * x + turn.cosine * y + ty});
     }
     for (const IntervalPoint& p : placed_) {
-      scale_ = std::max({scale_, bits_of(p.x) + 1, bits_of(p.y) + 1});
+      scale_ = std::max({scale_, bits_of(p.x), bits_of(p.y)});
     }
     for (const Point& q : blank.points) {
       scale_ = std::max({scale_, bits_of(q.x - origin_.x), bits_of(q.y - origin_.y)});
@@ -153,21 +154,21 @@ class PointTree {
 
 using Pair = std::pair<std::size_t, std::size_t>;
 
-/// Finds the pairs (row, point) whose true distance may be the least, given distances within kFilterError of
-/// the true ones. Step 3 of docs/design/verify.md decides between them exactly.
-/// \param row_of  gives of a row's number what tells the distance of a point, and a bound for those in a box
+/// Finds the pairs (row, point) whose true distance may be the least, given distances within half
+/// kFilterSlack of the true ones. Step 3 of docs/design/verify.md decides between them exactly. \param row_of
+/// gives of a row's number what tells the distance of a point, and a bound for those in a box
 template <class RowOf>
 std::vector<Pair> near_minimal(std::size_t rows, std::vector<FlatPoint> points, RowOf row_of) {
   const PointTree tree(std::move(points));
   double limit = std::numeric_limits<double>::infinity();
   const auto visit_below_limit = [&](const auto& row, const auto& visit) {
-    tree.visit_but([&](const FlatBox& box) { return row.bound(box) > limit + 2 * kFilterError; }, visit);
+    tree.visit_but([&](const FlatBox& box) { return row.bound(box) > limit + kFilterSlack; }, visit);
   };
   for (std::size_t r = 0; r < rows; ++r) {
     const auto row = row_of(r);
     visit_below_limit(row, [&](std::size_t, FlatPoint p) { limit = std::min(limit, row.distance(p)); });
   }
-  limit += 2 * kFilterError;
+  limit += kFilterSlack;
   std::vector<Pair> pairs;
   for (std::size_t r = 0; r < rows; ++r) {
     const auto row = row_of(r);
@@ -187,16 +188,18 @@ struct LineRow {
     return normal.x * w.x + normal.y * w.y - dent;
   }
   [[nodiscard]] double bound(const FlatBox& box) const {
-    return distance({normal.x > 0 ? box.low.x : box.high.x, normal.y > 0 ? box.low.y : box.high.y});
+    const FlatPoint low = box.low - at, high = box.high - at;
+    return std::min(normal.x * low.x, normal.x * high.x) + std::min(normal.y * low.y, normal.y * high.y) -
+           dent;
   }
 };
 
 struct SegmentRow {
   FlatPoint a, b;
+  /// No number where the segment is too short for doubles, and then the pair is decided exactly.
   [[nodiscard]] double distance(FlatPoint p) const {
     const FlatPoint e = b - a, w = p - a;
-    const double squared = e.x * e.x + e.y * e.y;
-    const double t = squared > 0 ? std::clamp((w.x * e.x + w.y * e.y) / squared, 0.0, 1.0) : 0.0;
+    const double t = std::clamp((w.x * e.x + w.y * e.y) / (e.x * e.x + e.y * e.y), 0.0, 1.0);
     const FlatPoint rest{w.x - t * e.x, w.y - t * e.y};
     return std::sqrt(rest.x * rest.x + rest.y * rest.y);
   }
@@ -253,9 +256,10 @@ Interval segment_distance(const IntervalPoint& p, const IntervalPoint& a, const 
   if (certainly_above(along, squared)) return from_b;
   if (!certainly_positive(squared)) return hull(Interval(p.x.precision()), from_a);
   const Interval cross_product = e.x * w.y - e.y * w.x;
-  const Interval line = square_root(square(cross_product) / squared);
-  const bool between = certainly_positive(along) && certainly_above(squared, along);
-  return between ? line : hull(line, minimum(from_a, from_b));
+  Interval nearest = square_root(square(cross_product) / squared);
+  if (!certainly_positive(along)) nearest = hull(nearest, from_a);
+  if (!certainly_above(squared, along)) nearest = hull(nearest, from_b);
+  return nearest;
 }
 
 /// Returns the distance between two outlines that do not cross: from part points to blank edges, and from

@@ -14,12 +14,11 @@
 namespace lekalo::verify {
 namespace {
 
-/// A claim counts as not confirmed when it takes more pieces of outlines than this.
+/// A claim counts as not confirmed when it takes more pieces of outlines, or squares, than this.
 constexpr std::size_t kMostPieces = 200'000;
-/// A margin below 0 counts as not shown when it takes more squares than this.
-constexpr std::size_t kMostSquares = 200'000;
 
-bool is_positive(Span value) { return value.low > 0; }
+bool surely_above(Span a, Span b) { return a.low > b.high; }
+bool is_positive(Span value) { return surely_above(value, just(0)); }
 
 bool above(const Decimal& a, const Decimal& b) { return compare(a, b) > 0; }
 
@@ -83,7 +82,7 @@ WrittenDemands read_demands(Json value, std::string& complaint) {
     t.clearance = enclosed(point.number("clearance"));
     t.margin = enclosed(point.number("margin")), t.largest = enclosed(point.number("largest"));
     if (!point.get("mirrored").is_bool()) point.complain(fmt::format("{}.mirrored is no truth value", path));
-    t.mirrored = point.get("mirrored").is_bool() && point.get("mirrored").is_true();
+    t.mirrored = point.get("mirrored").is_true();
     if (t.margin.low < 0) point.complain(fmt::format("{}.margin is negative", path));
     d.curve.push_back(t);
   });
@@ -115,9 +114,11 @@ WrittenDemands read_demands(Json value, std::string& complaint) {
 DemandCheck::DemandCheck(const WrittenDemands& demands, const Shape& part, const Shape& placed_part,
                          const Shape& blank, Span off, std::vector<std::string>& findings)
     : d_(demands), part_(part), placed_(placed_part), blank_(blank), off_(off), findings_(findings) {
-  // A line that joins an arc's end to its circle belongs to the edge beside it.
+  // An arc that misses its ends has a line to either of them, which belongs to its edge.
+  bool between_lines = false;
   for (std::size_t k = 0; k < part.sides.size(); ++k) {
-    if (part.sides[k].written || sides_of_edge_.empty()) sides_of_edge_.emplace_back();
+    if (!between_lines) sides_of_edge_.emplace_back();
+    if (!part.sides[k].written) between_lines = !between_lines;
     sides_of_edge_.back().push_back(k);
   }
   feature_of_edge_.assign(sides_of_edge_.size(), nullptr);
@@ -133,14 +134,25 @@ DemandCheck::DemandCheck(const WrittenDemands& demands, const Shape& part, const
     }
 }
 
-bool DemandCheck::any_finished() const {
-  return std::any_of(d_.features.begin(), d_.features.end(),
-                     [](const WrittenFeature& f) { return f.finished.has_value(); });
+std::vector<DemandCheck::Rim> DemandCheck::rims() const {
+  std::vector<Rim> rims;
+  for (const WrittenFeature& f : d_.features)
+    if (f.finished)
+      for (const std::size_t k : sides_of(f)) rims.push_back({k, f.finished->low});
+  return rims;
+}
+
+std::vector<std::size_t> DemandCheck::sides_of(const WrittenFeature& feature) const {
+  std::vector<std::size_t> sides;
+  for (const std::size_t edge : feature.edges)
+    if (edge < sides_of_edge_.size())
+      sides.insert(sides.end(), sides_of_edge_[edge].begin(), sides_of_edge_[edge].end());
+  return sides;
 }
 
 bool DemandCheck::any_cap() const {
   return std::any_of(d_.features.begin(), d_.features.end(),
-                     [](const WrittenFeature& f) { return f.maximum || f.finished; });
+                     [](const WrittenFeature& f) { return f.most().has_value(); });
 }
 
 double DemandCheck::least_scale() const {
@@ -164,12 +176,7 @@ void DemandCheck::check_placement() {
   check_material();
   check_depth(unfinished_sides(), (d_.largest - off_).low, "the part");
   for (const WrittenFeature& f : d_.features) {
-    if (!f.maximum && !f.finished) continue;
-    std::vector<std::size_t> sides;
-    for (const std::size_t edge : f.edges)
-      if (edge < sides_of_edge_.size())
-        sides.insert(sides.end(), sides_of_edge_[edge].begin(), sides_of_edge_[edge].end());
-    check_depth(sides, ((f.finished ? *f.finished : *f.maximum) - off_).low, "feature \"" + f.name + "\"");
+    if (f.most()) check_depth(sides_of(f), (*f.most() - off_).low, "feature \"" + f.name + "\"");
   }
 }
 
@@ -180,13 +187,12 @@ void DemandCheck::check_minima() {
     const Span needed = f == nullptr ? d_.minimum + d_.margin : f->minimum + f->scale * d_.margin;
     for (const std::size_t k : sides_of_edge_[edge]) {
       const Span apart = distance(placed_.sides[k], blank_);
-      if ((needed + off_).high <= apart.low) continue;
+      if (surely_above(apart, needed + off_)) continue;
       find("edge {} needs {} mm for the margin {}, but is {} mm from the outline of the blank", edge,
            needed.low, d_.margin.low, (apart - off_).low);
       return;
     }
-    const std::optional<bool> in = holds(blank_, placed_.sides[sides_of_edge_[edge].front()].from);
-    if (!in || !*in) {
+    if (holds(blank_, placed_.sides[sides_of_edge_[edge].front()].from) != true) {
       find("edge {} is not inside the blank, or cannot be told from it", edge);
       return;
     }
@@ -196,43 +202,35 @@ void DemandCheck::check_minima() {
 /// Only the rims of finished features may stick out: where the blank's outline runs through the part's
 /// material, it must do so within such a rim.
 void DemandCheck::check_material() {
-  if (!any_finished()) {
-    const std::optional<bool> inside = lies_within(placed_, blank_);
-    if (!inside || !*inside) find("the margin is not negative, but the part is not inside the blank");
+  const std::vector<Rim> rims = this->rims();
+  if (rims.empty()) {
+    if (lies_within(placed_, blank_) != true)
+      find("the margin is not negative, but the part is not inside the blank");
     return;
   }
   std::size_t looked = 0;
   for (const Side& side : blank_.sides)
-    if (!beside_finished(side, looked))
+    if (!beside_finished(side, rims, looked))
       return find("the outline of the blank runs through the part's material beside its finished features");
 }
 
-bool DemandCheck::beside_finished(const Side& whole, std::size_t& looked) const {
+bool DemandCheck::beside_finished(const Side& whole, const std::vector<Rim>& rims,
+                                  std::size_t& looked) const {
   std::vector<Side> open{whole};
   while (!open.empty()) {
-    if (++looked > kMostPieces) return false;
+    if (looked++ == kMostPieces) return false;
     const Side piece = open.back();
     open.pop_back();
-    if (distance(piece, placed_).low > 0) {
-      const auto in = holds(placed_, piece.from);
-      // No point of this piece lies in the part.
-      if (in && !*in) continue;
-    }
-    bool in_rim = false;
-    const bool short_arc = !piece.arc || piece.sweep == Sweep::less;
-    if (short_arc) {
+    // No point of this piece lies in the part.
+    if (is_positive(distance(piece, placed_)) && holds(placed_, piece.from) == false) continue;
+    if (piece.sweep == Sweep::less) {
       const Corners corners = corners_of(piece);
-      for (std::size_t edge = 0; edge < sides_of_edge_.size() && !in_rim; ++edge) {
-        const WrittenFeature* const f = feature_of_edge_[edge];
-        if (f == nullptr || !f->finished) continue;
-        for (const std::size_t k : sides_of_edge_[edge])
-          in_rim =
-              in_rim || (just(farthest(piece, corners, placed_.sides[k])) + off_).high <= f->finished->low;
-      }
+      const auto in_rim = [&](const Rim& rim) {
+        return surely_above(just(rim.by), just(farthest(piece, corners, placed_.sides[rim.side])) + off_);
+      };
+      if (std::any_of(rims.begin(), rims.end(), in_rim)) continue;
     }
-    if (in_rim) continue;
-    const auto two = halves(piece);
-    open.insert(open.end(), two.begin(), two.end());
+    for (const Side& half : halves(piece)) open.push_back(half);
   }
   return true;
 }
@@ -250,23 +248,20 @@ bool DemandCheck::is_depth_kept(const std::vector<std::size_t>& sides, double mo
   for (std::size_t looked = 0; !open.empty(); ++looked) {
     const Side piece = open.back();
     open.pop_back();
-    if (piece.arc && piece.sweep != Sweep::less) {
-      for (const Side& half : halves(piece)) open.push_back(half);
-      continue;
-    }
-    const Corners corners = corners_of(piece);
-    bool near_enough = false;
-    blank_.tree->visit_near(box_of(piece), most, [&](std::size_t k) {
-      near_enough = near_enough || farthest(piece, corners, blank_.sides[k]) <= most;
-    });
-    if (near_enough) continue;
-    if (distance(piece, blank_).low > 0) {
-      const auto in = holds(blank_, piece.from);
+    if (piece.sweep == Sweep::less) {
+      const Corners corners = corners_of(piece);
+      bool near_enough = false;
+      blank_.tree->visit_near(box_of(piece), most, [&](std::size_t k) {
+        near_enough =
+            near_enough || surely_above(just(most), just(farthest(piece, corners, blank_.sides[k])));
+      });
+      if (near_enough) continue;
       // No point of this piece lies in the blank.
-      if (in && !*in) continue;
+      if (is_positive(distance(piece, blank_)) && holds(blank_, piece.from) == false) continue;
+      refuted = surely_above(signed_distance(piece.from, blank_), just(most));
+      if (refuted) return false;
     }
-    refuted = signed_distance(piece.from, blank_).low > most;
-    if (refuted || looked == kMostPieces) return false;
+    if (looked == kMostPieces) return false;
     for (const Side& half : halves(piece)) open.push_back(half);
   }
   return true;
@@ -281,20 +276,17 @@ bool DemandCheck::keeps(const Side& whole, Span needed) const {
     const Side piece = open.back();
     open.pop_back();
     if (looked == kMostPieces) return false;
-    if (!piece.arc || piece.sweep == Sweep::less) {
+    if (piece.sweep == Sweep::less) {
       const Vec middle = piece.arc ? piece.from : (piece.from + piece.to) * just(0.5);
-      Span apart{kInfinity, kInfinity};
-      for (const Side& side : blank_.sides) apart.low = std::min(apart.low, distance(piece, side).low);
-      if (apart.low > 0 && apart.low >= needed.high) {
-        const auto in = holds(blank_, middle);
-        if (in && *in) continue;
-      }
-      if (needed.high < 0) {
-        const Corners corners = corners_of(piece);
-        const auto near = [&](const Side& side) { return farthest(piece, corners, side) <= -needed.high; };
-        if (std::any_of(blank_.sides.begin(), blank_.sides.end(), near)) continue;
-      }
-      if (signed_distance(middle, blank_).high < needed.low) return false;
+      double apart = kInfinity;
+      for (const Side& side : blank_.sides) apart = std::min(apart, distance(piece, side).low);
+      if (apart > std::max(0.0, needed.high) && holds(blank_, middle) == true) continue;
+      const Corners corners = corners_of(piece);
+      const auto near = [&](const Side& side) {
+        return surely_above(-needed, just(farthest(piece, corners, side)));
+      };
+      if (std::any_of(blank_.sides.begin(), blank_.sides.end(), near)) continue;
+      if (surely_above(needed, signed_distance(middle, blank_))) return false;
     }
     for (const Side& half : halves(piece)) open.push_back(half);
   }
@@ -310,22 +302,22 @@ bool DemandCheck::sticks_out_less(const Side& side, double by, double most, std:
     double half = 0;
   };
   const Box box = box_of(side);
-  const double half = 0.5 * std::max(box.high_x - box.low_x, box.high_y - box.low_y) + by;
+  // The first one is twice as large as it has to be, so that rounding does not matter.
   std::vector<Square> open{
-      {{just(0.5 * (box.low_x + box.high_x)), just(0.5 * (box.low_y + box.high_y))}, half * (1 + 0x1p-40)}};
+      {{just(0.5 * box.low_x + 0.5 * box.high_x), just(0.5 * box.low_y + 0.5 * box.high_y)},
+       std::max(box.high_x - box.low_x, box.high_y - box.low_y) + by + by}};
   while (!open.empty()) {
-    if (++looked > kMostSquares) return false;
+    if (looked++ == kMostPieces) return false;
     const Square square = open.back();
     open.pop_back();
-    const double radius = 1.4142136 * square.half;
-    if (distance(square.centre, side).low > (just(by) + just(radius)).high) continue;
-    const Span out = distance(square.centre, blank_);
-    if ((out + just(radius)).high <= most) continue;
-    if (out.low > std::min(radius, most)) {
-      const auto in = holds(blank_, square.centre);
-      if (out.low > radius && in && *in) continue;
-      if (out.low > most && in && !*in && distance(square.centre, side).high <= by) return false;
-    }
+    const double radius = length(Vec{just(square.half), just(square.half)}).high;
+    const Span from_side = distance(square.centre, side), out = distance(square.centre, blank_);
+    if (surely_above(from_side, just(by) + just(radius))) continue;
+    if (surely_above(just(most), out + just(radius))) continue;
+    if (surely_above(out, just(radius)) && holds(blank_, square.centre) == true) continue;
+    if (surely_above(out, just(most)) && surely_above(just(by), from_side) &&
+        holds(blank_, square.centre) == false)
+      return false;
     const double quarter = 0.5 * square.half;
     for (const double dx : {-quarter, quarter})
       for (const double dy : {-quarter, quarter})
@@ -336,16 +328,15 @@ bool DemandCheck::sticks_out_less(const Side& side, double by, double most, std:
 
 /// Says whether a point within `by` of a side of the part surely sticks out by more.
 bool DemandCheck::grown_sticks_out(std::size_t side, Span by, double more_than) const {
+  // A finished edge is cut in and has nothing around it, and a point beyond a part's other side is of no edge
+  // here.
+  if (by.low < 0) return false;
   for (const Vec& p : points_of(placed_.sides[side])) {
     const Side& s = placed_.sides[side];
     const Vec along = s.arc ? p - s.centre : s.to - s.from;
     const Vec normal = unit(s.arc ? along : Vec{-along.y, along.x});
-    for (const Vec& q : {p, p + normal * just(by.low), p - normal * just(by.low)}) {
-      if (!(signed_distance(q, blank_).high < -more_than)) continue;
-      // A finished edge is cut in and has nothing around it, and a point beyond a part's other side is of no
-      // edge here.
-      if (by.low >= 0) return true;
-    }
+    for (const Vec& q : {p, p + normal * just(by.low), p - normal * just(by.low)})
+      if (surely_above(just(-more_than), signed_distance(q, blank_))) return true;
   }
   return false;
 }
@@ -357,25 +348,20 @@ bool DemandCheck::check_missing() {
   std::size_t looked = 0;
   for (std::size_t edge = 0; edge < sides_of_edge_.size(); ++edge) {
     const WrittenFeature* const f = feature_of_edge_[edge];
-    const Span minimum = f == nullptr ? d_.minimum : (f->finished ? -*f->finished : f->minimum);
+    const bool rim = f != nullptr && f->finished;
+    const Span minimum = f == nullptr ? d_.minimum : (rim ? -*f->finished : f->minimum);
     for (const std::size_t k : sides_of_edge_[edge]) {
       if (keeps(placed_.sides[k], minimum + d_.margin + off_)) continue;
       if (grown_sticks_out(k, minimum, missing)) {
         find("at edge {} more is missing than the {} mm that the margin says", edge, -d_.margin.high);
         return true;
       }
-      shown = shown && minimum.low >= 0 && sticks_out_less(placed_.sides[k], minimum.high, most, looked);
+      if (rim || !sticks_out_less(placed_.sides[k], minimum.high, most, looked)) shown = false;
     }
   }
   for (const WrittenFeature& f : d_.features) {
-    if (!f.maximum && !f.finished) continue;
-    std::vector<std::size_t> sides;
-    for (const std::size_t edge : f.edges)
-      if (edge < sides_of_edge_.size())
-        sides.insert(sides.end(), sides_of_edge_[edge].begin(), sides_of_edge_[edge].end());
     bool refuted = false;
-    if (is_depth_kept(sides, ((f.finished ? *f.finished : *f.maximum) - d_.margin - off_).low, refuted))
-      continue;
+    if (!f.most() || is_depth_kept(sides_of(f), (*f.most() - d_.margin - off_).low, refuted)) continue;
     if (refuted) {
       find("feature \"{}\" has more than its maximum by more than the {} mm that the margin says", f.name,
            -d_.margin.high);
@@ -405,8 +391,7 @@ void DemandCheck::check_criteria(bool optimal) {
     if (compare(d_.margin_as_written, d_.margin_found) != 0) find("margin_found is not margin");
     return;
   }
-  Decimal kept = d_.margin_found - d_.give_up;
-  if (sgn(kept.digits) < 0) kept = Decimal{};
+  const Decimal kept = above(d_.give_up, d_.margin_found) ? Decimal{} : d_.margin_found - d_.give_up;
   if (!d_.second) {
     if (!leaves_choice_open()) return find("smallest_largest is missing, the second criterion");
     if (above(kept, d_.margin_as_written) && differ(d_.margin_as_written, kept, d_.margin_found))
@@ -452,13 +437,7 @@ std::vector<double> DemandCheck::growth(Span grown_for) const {
 std::vector<CoverTree::Cap> DemandCheck::caps(Span shift, const std::optional<Span>& most) const {
   std::vector<CoverTree::Cap> caps;
   for (const WrittenFeature& f : d_.features) {
-    if (!f.maximum && !f.finished) continue;
-    CoverTree::Cap cap;
-    cap.most = ((f.finished ? *f.finished : *f.maximum) + shift).high;
-    for (const std::size_t edge : f.edges)
-      if (edge < sides_of_edge_.size())
-        cap.sides.insert(cap.sides.end(), sides_of_edge_[edge].begin(), sides_of_edge_[edge].end());
-    caps.push_back(std::move(cap));
+    if (f.most()) caps.push_back({sides_of(f), (*f.most() + shift).high});
   }
   if (most) caps.push_back({unfinished_sides(), (*most + shift).high});
   return caps;
@@ -479,18 +458,18 @@ double DemandCheck::off_grown_part(const Vec& p, Span grown_for) const {
 /// scale times the difference (its finished features, where they have `bound` to spare), and each cap would
 /// have more left than `shift`. So neither number may be below `bound`.
 void DemandCheck::check_bound() {
-  if (d_.margin_bound.high < 0) {
+  if (surely_above(just(0), d_.margin_bound)) {
     // Here the demands themselves cannot be met.
-    if (!(d_.grown_for.low == 0 && d_.grown_for.high == 0 && d_.bound.high <= d_.margin_bound.low))
+    if (!(d_.grown_for.high == 0 && d_.bound.high <= d_.margin_bound.low))
       find("margin_bound {} does not follow from the bound {} of the certificate", d_.margin_bound.low,
            d_.bound.low);
     return;
   }
   const Span spare = just(least_scale()) * (d_.margin_bound - d_.grown_for);
-  if (!((d_.margin_bound - d_.grown_for).high >= 0 && d_.bound.low <= spare.high))
+  if (surely_above(d_.grown_for, d_.margin_bound) || surely_above(d_.bound, spare))
     find("margin_bound {} does not follow from the bound {} of the certificate", d_.margin_bound.low,
          d_.bound.low);
-  if (any_cap() && !(d_.bound.low <= d_.shift.high))
+  if (any_cap() && surely_above(d_.bound, d_.shift))
     find(
         "the certificate's bound {} is above its shift {}: it says nothing of placements that keep the "
         "maxima",
@@ -505,13 +484,13 @@ void DemandCheck::check_largest_bound() {
   const WrittenSecond& s = *d_.second;
   const WrittenSecond::Proof& p = *s.proof;
   const Span spare = just(least_scale()) * (enclosed(s.margin) - enclosed(p.grown_for));
-  if (above(p.grown_for, s.margin) || !(p.bound.high < spare.low))
+  if (above(p.grown_for, s.margin) || !surely_above(spare, p.bound))
     find("the certificate of largest allowances says nothing of placements with a margin of {}",
          approximate(s.margin));
-  if (any_cap() && !(p.bound.high < p.shift.low))
+  if (any_cap() && !surely_above(p.shift, p.bound))
     find("the bound {} of the certificate of largest allowances is not below its shift {}", p.bound.low,
          p.shift.low);
-  if (!(enclosed(s.bound).high <= (p.most + p.shift - p.bound).low))
+  if (!surely_above(p.most + p.shift - p.bound, enclosed(s.bound)))
     find("smallest_largest.bound {} does not follow from the bound {} of its certificate",
          approximate(s.bound), p.bound.low);
 }

@@ -17,6 +17,9 @@ struct WrittenFeature {
   Span minimum, scale;
   std::optional<Span> maximum, finished;
   FeatureNumbers numbers;  ///< the same, to be held against the file of features
+
+  /// The allowance that none of its points may exceed, if there is one.
+  [[nodiscard]] const std::optional<Span>& most() const { return finished ? finished : maximum; }
 };
 
 /// The answer to the second criterion as a result writes it, with the numbers of its certificate.
@@ -92,7 +95,13 @@ class DemandCheck {
   void find(fmt::format_string<Args...> format, Args&&... args) {
     findings_.push_back(fmt::format(format, std::forward<Args>(args)...));
   }
-  [[nodiscard]] bool any_finished() const;
+  /// A side of the placed part along which it is finished, and the width that may stick out.
+  struct Rim {
+    std::size_t side = 0;
+    double by = 0;
+  };
+  [[nodiscard]] std::vector<Rim> rims() const;
+  [[nodiscard]] std::vector<std::size_t> sides_of(const WrittenFeature& feature) const;
   [[nodiscard]] bool any_cap() const;
   [[nodiscard]] double least_scale() const;
   [[nodiscard]] std::vector<std::size_t> unfinished_sides() const;
@@ -103,7 +112,8 @@ class DemandCheck {
   [[nodiscard]] bool grown_sticks_out(std::size_t side, Span by, double more_than) const;
   [[nodiscard]] bool is_depth_kept(const std::vector<std::size_t>& sides, double most, bool& refuted) const;
   void check_depth(const std::vector<std::size_t>& sides, double most, const std::string& whose);
-  [[nodiscard]] bool beside_finished(const Side& piece, std::size_t& looked) const;
+  [[nodiscard]] bool beside_finished(const Side& piece, const std::vector<Rim>& rims,
+                                     std::size_t& looked) const;
 
   const WrittenDemands& d_;
   const Shape& part_;

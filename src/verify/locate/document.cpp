@@ -17,7 +17,7 @@ tl::unexpected<Error> bad(const std::string& name, const std::string& sentence) 
 bool has_format(Fields& fields, std::string_view format) {
   std::string ignored;
   Fields of(fields.get("format"), "format", ignored);
-  return of.get("name").is_string() && json_text(of.get("name")) == format && of.get("version").text == "1";
+  return of.text("name") == format && of.get("version").text == "1";
 }
 
 WrittenInput read_input(Fields& fields) {
@@ -187,7 +187,7 @@ Result<WrittenInterval> read_interval(Json item, std::size_t index, const std::s
     return complain("it is not an object with each field once");
   WrittenInterval interval{found[0].text, found[1].text, {}};
   for (const Json& end : {found[0], found[1]}) {
-    if (!end.is_number() || !parse_decimal(end.text)) {
+    if (!parse_decimal(end.text)) {
       return complain(fmt::format("\"{}\" is not {}", excerpt(end.text), decimal_rule()));
     }
   }
@@ -203,7 +203,7 @@ Result<WrittenInterval> read_interval(Json item, std::size_t index, const std::s
     }
     std::array<double, 3> numbers{};
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto number = values[i].is_number() ? parse_decimal(values[i].text) : std::nullopt;
+      const auto number = parse_decimal(values[i].text);
       const bool whole = number && sgn(number->digits) >= 0 && number->exponent >= 0;
       if (!number || (i < 2 && !whole)) {
         return complain(fmt::format("{} is \"{}\"", kContactKeys[i], excerpt(values[i].text)));

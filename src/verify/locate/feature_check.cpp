@@ -172,7 +172,7 @@ bool check_without_file(const DemandClaims& claims, LocateReport& report) {
 IgnoredRegions read_ignored(const std::optional<Document>& file) {
   const Result<Json> root = file ? parse_json(file->bytes, file->name) : Json{};
   std::string complaint;
-  if (!root || !root->is_object()) return {};
+  if (!root) return {};
   const StatedDemands stated = read_features(*root, LengthUnit::millimetre, complaint);
   return {stated.ignored, stated.unit};
 }
@@ -187,12 +187,12 @@ bool check_features(const std::optional<Document>& file, const DemandClaims& cla
     return report.findings.push_back(fmt::format("{}: {}", file->name, complaint)), true;
   FeatureCheck as_mm(file->name, in_mm, claims);
   as_mm.run();
-  if (in_mm.unit || as_mm.findings().empty()) return hand_over(as_mm, report);
+  if (in_mm.unit) return hand_over(as_mm, report);
   // A file that does not say its unit may have been given one on the command line.
   const StatedDemands in_inches = read_features(*root, LengthUnit::inch, complaint);
   FeatureCheck as_inches(file->name, in_inches, claims);
   as_inches.run();
-  return hand_over(complaint.empty() && as_inches.findings().empty() ? as_inches : as_mm, report);
+  return hand_over(as_inches.findings().empty() ? as_inches : as_mm, report);
 }
 
 }  // namespace lekalo::verify

@@ -69,7 +69,7 @@ class FeatureReader {
                   [&](Json edge, const std::string& at) { edges.push_back(fields.index_of(edge, at)); });
     }
     FeatureNumbers& n = f.numbers;
-    n.minimum = length(fields, "minimum").value_or(0);
+    n.minimum = length(fields, "minimum").value_or(n.minimum);
     n.target = length(fields, "target"), n.maximum = length(fields, "maximum");
     n.finished = length(fields, "finished");
     if (has(fields, "scale")) n.scale = approximate(fields.number("scale"));

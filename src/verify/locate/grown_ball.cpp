@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "lekalo/base/stop.hpp"
@@ -52,7 +53,8 @@ Vec nearest_point(const Side& piece, const Vec& c) {
   }
   const Vec along = piece.to - piece.from;
   const double share = middle_of(dot(c - piece.from, along)) / middle_of(dot(along, along));
-  return share > 0 ? piece.from + along * just(std::min(share, 1.0)) : piece.from;
+  // Of a share that is no number nothing is left.
+  return piece.from + along * just(std::min(std::max(0.0, share), 1.0));
 }
 
 class GrownBall {
@@ -62,16 +64,15 @@ class GrownBall {
     for (std::size_t k = 0; k < part.sides.size(); ++k) {
       const Side& side = part.sides[k];
       const double apart = distance(c, side).low;
+      const bool rim = growth[k] < 0;
       // A rim is taken to be wider by what the arc's ends miss its circle, so that it holds the true one.
-      const double by = growth[k] < 0 ? (just(-growth[k]) + just(side.off)).high : growth[k];
-      if (growth[k] < 0) {
-        rims_.push_back({k, by});
-      } else if (by > 0 && !((just(apart) - just(by)).low > wanted)) {
-        grown_.push_back({k, by});
-      }
+      const double by = rim ? (just(-growth[k]) + just(side.off)).high : growth[k];
+      if (rim) rims_.push_back({k, by});
       if ((just(apart) - just(by)).low >= wanted) continue;
       if (!(by > side.off)) add(side, Kind::side);
-      if (by > 0) add_parallels(side, by, growth[k] < 0 ? Kind::rim : Kind::growth);
+      if (!(by > 0)) continue;
+      if (!rim) grown_.push_back({k, by});
+      add_parallels(side, by, rim ? Kind::rim : Kind::growth);
     }
   }
 
@@ -80,14 +81,14 @@ class GrownBall {
     const double shortest = kShortest * (wanted_ + length(c_).high);
     for (std::size_t looked = 0; !open_.empty(); ++looked) {
       ask();
-      std::pop_heap(open_.begin(), open_.end(), farther);
+      std::ranges::pop_heap(open_, std::greater(), &Piece::apart);
       const Piece piece = std::move(open_.back());
       open_.pop_back();
-      const bool turns_far = piece.side.arc && piece.side.sweep != Sweep::less;
+      const bool turns_far = piece.side.sweep != Sweep::less;
       const Covered covered = turns_far ? Covered::partly : what_covers(piece);
       if (covered == Covered::wholly) continue;
       // No other piece is nearer.
-      if (covered == Covered::no || looked >= kMostPieces ||
+      if (covered == Covered::no || looked == kMostPieces ||
           (!turns_far && !(length(piece.side.to - piece.side.from).high > shortest)))
         return piece.apart;
       for (const Side& half : halves(piece.side)) add(half, piece.kind, piece.apart);
@@ -100,7 +101,7 @@ class GrownBall {
   struct Piece {
     Side side;
     Kind kind = Kind::side;
-    double apart = 0;  ///< from c, at least
+    double apart = {};  ///< from c, at least
   };
   /// A side and the width of what it grows to, or of its rim.
   struct Strip {
@@ -109,17 +110,15 @@ class GrownBall {
   };
   enum class Covered { no, partly, wholly };
 
-  static bool farther(const Piece& a, const Piece& b) { return a.apart > b.apart; }
-
   /// \param least  a distance that the piece is known not to fall below
   void add(const Side& side, Kind kind, double least = 0) {
     double apart = std::max(least, distance(c_, side).low);
     // Rounding hides the direction of a short line, and with it the distance from it.
-    if (!side.arc || side.sweep == Sweep::less)
+    if (side.sweep == Sweep::less)
       apart = std::max(apart, (length(side.from - c_) - length(side.to - side.from) - just(side.off)).low);
     if (apart >= wanted_) return;
     open_.push_back({side, kind, apart});
-    std::push_heap(open_.begin(), open_.end(), farther);
+    std::ranges::push_heap(open_, std::greater(), &Piece::apart);
   }
 
   /// Adds what holds all points whose distance from the side is `by`. A point of them whose nearest point is
@@ -165,8 +164,7 @@ class GrownBall {
       return (just(distance(c_, side).high) + just(side.off)).high <= strip.by;
     };
     if (std::any_of(grown_.begin(), grown_.end(), reaches_middle)) return true;
-    const std::optional<bool> in = holds(part_, c_);
-    return in && *in && off_rims(c_);
+    return holds(part_, c_) == true && off_rims(c_);
   }
 
   /// Says whether the piece surely has no point on the grown part's outline. Where it may have, one of its
@@ -210,7 +208,7 @@ struct Carrier {
   double x = 0, y = 0, dx = 0, dy = 0, radius = 0;
 };
 struct Place {
-  double x = 0, y = 0;
+  double x = {}, y = {};
 };
 
 Place middle_of(const Vec& p) { return {middle_of(p.x), middle_of(p.y)}; }

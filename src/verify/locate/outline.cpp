@@ -3,23 +3,19 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
+#include <tuple>
 
 namespace lekalo::verify {
 namespace {
-
-bool before(const Point& a, const Point& b) {
-  const int order = cmp(a.x, b.x);
-  return order != 0 ? order < 0 : a.y < b.y;
-}
 
 /// Returns indices ordered by x, then y. Of equal points only the first in the file stays.
 std::vector<std::size_t> sorted_distinct(const Ring& points) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&points](std::size_t i, std::size_t j) {
-    if (before(points[i], points[j])) return true;
-    return !before(points[j], points[i]) && i < j;
+  std::stable_sort(order.begin(), order.end(), [&points](std::size_t i, std::size_t j) {
+    return std::tie(points[i].x, points[i].y) < std::tie(points[j].x, points[j].y);
   });
   order.erase(std::unique(order.begin(), order.end(),
                           [&points](std::size_t i, std::size_t j) { return points[i] == points[j]; }),
@@ -48,13 +44,6 @@ std::vector<std::size_t> convex_hull(const Ring& points) {
   return hull;
 }
 
-/// Counts how often `next` is below its predecessor, around the ring.
-std::size_t descents(const std::vector<std::size_t>& ring) {
-  std::size_t count = 0;
-  for (std::size_t j = 0; j < ring.size(); ++j) count += ring[(j + 1) % ring.size()] < ring[j] ? 1 : 0;
-  return count;
-}
-
 void measure_dents(Outline& outline) {
   const std::size_t n = outline.points.size();
   for (std::size_t j = 0; j < outline.hull.size(); ++j) {
@@ -81,9 +70,10 @@ Result<Outline> make_outline(Ring points, std::string_view name) {
   outline.hull = convex_hull(outline.points);
   if (outline.hull.size() < 3)
     return failure(ErrorCode::bad_input, fmt::format("{}: the contour has no area", name));
-  const std::size_t falls = descents(outline.hull);
-  outline.counter_clockwise = falls == 1;
-  if (falls != 1 && falls + 1 != outline.hull.size()) {
+  std::vector<std::size_t> around = outline.hull;
+  std::rotate(around.begin(), std::min_element(around.begin(), around.end()), around.end());
+  outline.counter_clockwise = std::is_sorted(around.begin(), around.end());
+  if (!outline.counter_clockwise && !std::is_sorted(around.rbegin(), std::prev(around.rend()))) {
     return failure(ErrorCode::bad_input,
                    fmt::format("{}: the contour does not run once around its convex hull", name));
   }
@@ -106,27 +96,22 @@ std::size_t lowest_corner(const Outline& outline, const Point& direction, std::s
 namespace {
 
 /// Step 7 of docs/design/verify.md: says whether the open segment from a to b meets the interior of the hull.
-/// It does where the stretch on the left of every side is not empty. The stretch is kept as fractions
-/// low.first / low.second and so on, with positive denominators.
+/// It does where the stretch on the left of every side is not empty.
 bool enters(const Point& a, const Point& b, const Outline& hull) {
-  Integer low = 0, low_over = 1, high = 1, high_over = 1;
+  Fraction low = 0, high = 1;
   for (std::size_t j = 0; j < hull.hull.size(); ++j) {
     const Point side = hull.side(j);
     const Integer at_a = cross(side, a - hull.corner(j)), at_b = cross(side, b - hull.corner(j));
     // The wanted t have at_a + t slope > 0.
     const Integer slope = at_b - at_a;
-    if (slope == 0) {
-      if (at_a <= 0) return false;
-    } else if (slope > 0) {
-      if (-at_a * low_over > low * slope) {
-        low = -at_a;
-        low_over = slope;
-      }
-    } else if (at_a * high_over < high * -slope) {
-      high = at_a;
-      high_over = -slope;
+    if (slope > 0) {
+      low = std::max<Fraction>(low, Fraction(-at_a) / Fraction(slope));
+    } else if (slope < 0) {
+      high = std::min<Fraction>(high, Fraction(-at_a) / Fraction(slope));
+    } else if (at_a <= 0) {
+      return false;
     }
-    if (low * high_over >= high * low_over) return false;
+    if (low >= high) return false;
   }
   return true;
 }
@@ -140,11 +125,9 @@ long winding_number(const Outline& outline, const Point& p, long scale) {
     const Point a{outline.points[i].x * scale, outline.points[i].y * scale};
     const Point& next = outline.points[(i + 1) % n];
     const Point b{next.x * scale, next.y * scale};
-    const bool up = a.y <= p.y && b.y > p.y, down = a.y > p.y && b.y <= p.y;
-    if (!up && !down) continue;
-    const Integer turn = cross(b - a, p - a);
-    if (up && turn > 0) ++winding;
-    if (down && turn < 0) --winding;
+    // An edge that comes up to p's height counts where p is on its left, one that goes down on its right.
+    const int way = (a.y <= p.y) - (b.y <= p.y);
+    if (way == sgn(cross(b - a, p - a))) winding += way;
   }
   return winding;
 }
@@ -153,27 +136,20 @@ long winding_number(const Outline& outline, const Point& p, long scale) {
 
 bool lies_inside(const Outline& inner, const Outline& outer, std::size_t& culprit) {
   const std::size_t n = outer.points.size();
-  // The side of `inner` that kept the last edge out most likely keeps out the next one too, so it is asked
-  // first.
-  std::size_t hint = 0;
+  // The side of `inner` that kept the last edge out most likely keeps out the next one too, or else a side
+  // further on in the way that `outer` runs.
+  const std::size_t m = inner.hull.size(), step = outer.counter_clockwise ? 1 : m - 1;
+  std::size_t side = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Point &a = outer.points[i], &b = outer.points[(i + 1) % n];
     const auto keeps_out = [&](std::size_t j) {
       return cross(inner.side(j), a - inner.corner(j)) <= 0 && cross(inner.side(j), b - inner.corner(j)) <= 0;
     };
-    const std::size_t before_hint = hint + inner.hull.size() - 1;
-    if (keeps_out(hint)) continue;
-    if (keeps_out(hint + 1)) {
-      hint = (hint + 1) % inner.hull.size();
-      continue;
-    }
-    if (keeps_out(before_hint)) {
-      hint = before_hint % inner.hull.size();
-      continue;
-    }
+    std::size_t left = m;
+    for (; left > 0 && !keeps_out(side); --left) side += step;
+    if (left > 0) continue;
     culprit = i;
     if (enters(a, b, inner)) return false;
-    for (hint = 0; hint + 1 < inner.hull.size() && !keeps_out(hint);) ++hint;
   }
   const Point middle{inner.corner(0).x + inner.corner(1).x + inner.corner(2).x,
                      inner.corner(0).y + inner.corner(1).y + inner.corner(2).y};

@@ -9,7 +9,7 @@ namespace lekalo::verify {
 bool truth_of(Fields& fields, std::string_view key) {
   const Json value = fields.get(key);
   if (!value.is_bool()) fields.complain(fmt::format("field {} is neither true nor false", fields.name(key)));
-  return value.is_bool() && value.is_true();
+  return value.is_true();
 }
 
 RegionDocument read_region_document(Json root, std::string& complaint) {
@@ -17,8 +17,7 @@ RegionDocument read_region_document(Json root, std::string& complaint) {
   Fields fields(root, "", complaint);
   std::string ignored;
   Fields format(fields.get("format"), "format", ignored);
-  if (!format.get("name").is_string() || json_text(format.get("name")) != "lekalo-locate" ||
-      format.get("version").text != "1")
+  if (format.text("name") != "lekalo-locate" || format.get("version").text != "1")
     fields.complain("field format does not say lekalo-locate, version 1");
   if (fields.text("units") != "mm") fields.complain("field units is not \"mm\"");
   r.status = fields.text("status");

@@ -35,13 +35,14 @@ std::optional<std::vector<int>> allowed_words(std::string_view text) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     std::string word;
     for (const char c : text.substr(0, std::min(end, text.find_first_of("#;("))))
-      if (c != ' ' && c != '\t' && c != '\r') word += c;
+      if (std::string_view(" \t\r").find(c) == std::string_view::npos) word += c;
     text.remove_prefix(std::min(end + 1, text.size()));
     if (word.empty()) continue;
-    int number = 0;
+    int number{};
     const char* const last = word.data() + word.size();
     const auto [stop, error] = std::from_chars(word.data() + 1, last, number);
-    if ((word[0] != 'M' && word[0] != 'm') || error != std::errc() || stop != last || number < 0)
+    if (std::string_view("Mm").find(word[0]) == std::string_view::npos || error != std::errc() ||
+        stop != last || number < 0)
       return std::nullopt;
     allowed.push_back(number);
   }

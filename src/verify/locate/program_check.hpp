@@ -13,7 +13,7 @@ namespace lekalo::verify {
 struct WrittenNc {
   Decimal clearance, rounding_mm;
   std::string mode;
-  std::size_t work_offset = 1;
+  std::size_t work_offset = {};
   /// Results of 0.1 name no control: LinuxCNC's words were all that it knew.
   words::Control control = words::Control::linuxcnc;
 };
