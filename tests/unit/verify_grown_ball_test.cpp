@@ -61,6 +61,14 @@ TEST(GrownBall, APlaceThatIsNotInTheGrownPartHasNone) {
   EXPECT_EQ(ball(50, 10, 21, 0, 0), -kInfinity);
   EXPECT_EQ(ball(500, 10, 21, 15, 9), -kInfinity);
   EXPECT_EQ(ball(50, -11.001, 1e-15, 15, 9), -kInfinity);
+  EXPECT_EQ(ball(20, 20, 0, 0, 0), -kInfinity);
+  EXPECT_EQ(ball(20, 20, -1, 0, 0), -kInfinity);
+}
+
+TEST(GrownBall, WhatIsLeftOfABoreAndWhatGrowsAboutTheEndOfAnArcBoundIt) {
+  expect_ball(50, 11, 0.5, 5.5, 0);
+  const double end = grown_ball(plate(), {0, 0, 0, 0, 0, 0, 2, 0, 0}, {just(59.5), just(28)}, 5);
+  EXPECT_NEAR(end, 2 - std::hypot(0.5, 1), 1e-10);
 }
 
 /// A ball that touches the outline in more places than one was once made smaller in each by all the work.
