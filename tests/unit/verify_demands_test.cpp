@@ -118,6 +118,11 @@ TEST(VerifyDemands, NumbersThatCannotBeAreRefused) {
     one["features"].push_back(feature("[0]", more));
     return complaint_of(one);
   };
+  tree["smallest_largest"] = Tree::parse(R"({"margin": 8, "found": 30, "bound": 29, "gap": 1, "kept": 30,
+    "proof": {"grown_for": 0, "most": 29.5, "shift": 0.2, "bound": 0.1}})");
+  EXPECT_EQ(complaint_of(tree), "");
+  tree["smallest_largest"]["proof"]["grown_for"] = -0.5;
+  EXPECT_EQ(complaint_of(tree), "demands.smallest_largest.proof.grown_for is negative");
   const std::string out = "demands.features[0] has a number out of range";
   EXPECT_EQ(with(""), "");
   EXPECT_EQ(with(R"({"minimum": -1})"), out);
@@ -394,6 +399,7 @@ TEST(VerifyDemands, WhatIsOutsideIsNotDeep) {
   EXPECT_FALSE(has(placement(one, square(140, 160)), "allowance above"));
   // A part that reaches from outside deep into the blank.
   EXPECT_TRUE(has(placement(one, rectangle(-50, 40, 50, 60)), "the part has an allowance above 4.99"));
+  EXPECT_TRUE(has(placement(one, rectangle(-50, 40, 150, 60)), "the part has an allowance above 4.99"));
   one = demands();
   one["largest"] = 60;
   EXPECT_FALSE(has(placement(one, rectangle(-50, 40, 50, 60)), "allowance above"));
@@ -418,13 +424,14 @@ TEST(VerifyDemands, WhatIsDemandedIsLookedAtInSquares) {
     const std::string hole = fmt::format(
         R"({{"outer": [{{"line": {{"from": [0, 0], "to": [200, 0]}}}}, {{"line": {{"from": [200, 0], "to": [200, 300]}}}},
         {{"line": {{"from": [200, 300], "to": [0, 300]}}}}, {{"line": {{"from": [0, 300], "to": [0, 0]}}}}],
-        "holes": [[{{"arc": {{"from": [{}, 205], "to": [{}, 205], "centre": [120, 205], "ccw": false}}}}]]}})",
-        120 + radius, 120 + radius);
+        "holes": [[{{"arc": {{"from": [{}, 205], "to": [{}, 205], "centre": [115, 205], "ccw": false}}}}]]}})",
+        115 + radius, 115 + radius);
     Tree one = lacking(0, margin);
     one["features"].push_back(feature("[1]", R"({"minimum": 30})"));
     return missing(one, rectangle(98, 50, 100, 210), 0, hole);
   };
   EXPECT_EQ(beside(6, -12), "shown");
+  EXPECT_EQ(beside(9, -4), "open");
 }
 
 // ---- the criteria -----------------------------------------------------------------------------------------

@@ -61,6 +61,7 @@ TEST(VerifyFeatures, AnEmptyFileDemandsNothing) {
 TEST(VerifyFeatures, InchesAreTakenWhereTheFileOrTheCallerSaysSo) {
   const std::string features = R"("features": [{"name": "a", "edges": [0], "minimum": 0.1, "scale": 2}]})";
   const Reading said = read(R"({"units": "inch", "minimum": 1, )" + features);
+  EXPECT_EQ(said.complaint, "");
   EXPECT_EQ(said.stated.minimum, 25.4);
   EXPECT_EQ(said.stated.features.at(0).numbers.minimum, 25.4 * 0.1);
   EXPECT_EQ(said.stated.features.at(0).numbers.scale, 2);
@@ -132,6 +133,17 @@ TEST(VerifyFeatures, DemandsAreHeldAgainstTheirFile) {
             "feature \"a\" has other edges than f.json says: 0, not 0, 1, 2, 3\n");
   EXPECT_EQ(Held().by(R"({"features": [{"name": "a", "contour": 1, "minimum": 1}]})"),
             "feature \"a\" has contour 1 in f.json, which the part has not\n");
+
+  EXPECT_EQ(Held().by(R"({"units": "mm", "features": []})"),
+            "feature \"a\" of the demands is not in f.json\n");
+  EXPECT_EQ(Held().by(R"({"units": "mm", "features": [{"name": "a", "edges": [0], "minimum": 1}, {"name": "b",
+            "edges": [1]}]})"),
+            "feature \"b\" of f.json is missing from the demands\n");
+  EXPECT_EQ(Held().by("{\"units\": \"mm\", \"minimum\": 2, " + kOne + "}"),
+            "demands.minimum is 0 mm, but min_allowance and f.json demand 2 mm\n");
+  Held none;
+  none.demands = "[]";
+  EXPECT_EQ(none.by(""), "");
 
   Held bare;
   bare.without_demands = true;

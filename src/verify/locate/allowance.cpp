@@ -96,7 +96,7 @@ class SeenFromBlank {
   Point origin_;
   std::vector<IntervalPoint> placed_;
   std::vector<FlatPoint> flat_part_, flat_blank_;
-  long scale_ = 1;
+  long scale_ = {};
 };
 
 struct FlatBox {
@@ -308,7 +308,7 @@ Interval line_distance(const Point& v, const Point& a, const Point& direction, c
 }
 
 Precision working_precision(const Outline& blank, const Outline& part) {
-  long widest = 1;
+  long widest = {};
   for (const Outline* outline : {&blank, &part}) {
     for (const Point& p : outline->points) widest = std::max({widest, bits_of(p.x), bits_of(p.y)});
   }

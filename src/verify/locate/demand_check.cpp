@@ -230,6 +230,11 @@ bool DemandCheck::beside_finished(const Side& whole, const std::vector<Rim>& rim
       };
       if (std::any_of(rims.begin(), rims.end(), in_rim)) continue;
     }
+    // Where it begins it lies in the part and beside all rims, and so does one half of every half.
+    const auto beside = [&](const Rim& rim) {
+      return surely_above(distance(piece.from, placed_.sides[rim.side]), just(rim.by));
+    };
+    if (std::all_of(rims.begin(), rims.end(), beside) && holds(placed_, piece.from) == true) return false;
     for (const Side& half : halves(piece)) open.push_back(half);
   }
   return true;
