@@ -608,6 +608,8 @@ TEST(VerifyDemands, BehindARimTheGrownPartBeginsAgain) {
   EXPECT_NEAR(off(58, 50, tall), 2, 1e-10);
   // The rim takes all of a thin part but what its other edges grow by.
   EXPECT_NEAR(off(61, 50, rectangle(57, 0, 60, 100)), 2, 1e-10);
+  // Another edge's points count in the rim, too, where it grows by nothing.
+  EXPECT_NEAR(Checked(one, tall).check->off_grown_part({just(58), just(0)}, just(0)), 0, 1e-12);
   // On the finished edge itself no side of it was looked at.
   EXPECT_NEAR(off(60, 50, tall), 4, 1e-10);
 }

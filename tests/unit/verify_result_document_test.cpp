@@ -52,6 +52,15 @@ TEST(ResultDocument, OfConvexOutlinesIsReadOrGetsASentence) {
   EXPECT_EQ(read_convex({{"\"part\"", "\"blank\""}}), "r: inputs name 0 part and 2 blank, not one each");
   EXPECT_EQ(read_convex({{"\"part\"", "\"other\""}}), "r: inputs name 0 part and 1 blank, not one each");
   EXPECT_EQ(read_convex({{"\"blank\"", "\"other\""}}), "r: inputs name 1 part and 0 blank, not one each");
+  EXPECT_EQ(read_convex({{R"("part", "units": "mm")", R"("part", "units": "cm")"}}),
+            "r: units of an input are neither \"mm\" nor \"inch\"");
+  EXPECT_EQ(read_convex({{R"("part", "units": "mm")", R"("part", "units": "inch")"}}), "");
+  EXPECT_EQ(read_convex(
+                {{"\"trim\": null", R"("trim": {"tolerance": 1, "loss": 1, "contour": [[1, 2], [3, 4]]})"}}),
+            "");
+  EXPECT_EQ(
+      read_convex({{"\"trim\": null", R"("trim": {"tolerance": 1, "loss": 1, "contour": [[1, 2], [3]]})"}}),
+      "r: trim.contour[1] is not a list of two numbers");
   const std::string window = "r: field window_deg is not two angles in ascending order";
   EXPECT_EQ(read_convex({{"[0, 360]", "[5, 5]"}}), "");
   for (const char* ends : {"[]", "[5]", "[5, 4]", "[1, 2, 3]"})
@@ -139,6 +148,10 @@ TEST(ResultDocument, OfRegionsIsReadOrGetsASentence) {
   EXPECT_EQ(read({{"[0, 360]", "[5, 5]"}}), "");
   for (const char* ends : {"[]", "[5]", "[5, 4]", "[1, 2, 3]"})
     EXPECT_EQ(read({{"[0, 360]", ends}}), "field window_deg is not two angles in ascending order") << ends;
+  for (const char* known : {"yes", "either"})
+    EXPECT_EQ(read({{R"("mirror": "no")", fmt::format(R"("mirror": "{}")", known)}}), "");
+  EXPECT_EQ(read({{R"("mirror": "no")", R"("mirror": "maybe")"}}),
+            "field mirror is none of \"no\", \"yes\", \"either\"");
   EXPECT_EQ(read({{"\"part\": 0", "\"part\": -1"}}), "a tolerance is negative");
   EXPECT_EQ(read({{"\"blank\": 0", "\"blank\": -1"}}), "a tolerance is negative");
   EXPECT_EQ(read({{"\"mirrored\": false", "\"mirrored\": 1"}}), "field mirrored is neither true nor false");

@@ -230,7 +230,8 @@ bool DemandCheck::beside_finished(const Side& whole, const std::vector<Rim>& rim
       };
       if (std::any_of(rims.begin(), rims.end(), in_rim)) continue;
     }
-    // Where it begins it lies in the part and beside all rims, and so does one half of every half.
+    // A piece that begins in the part and beside all rims has a half that does, too, however often it is
+    // halved.
     const auto beside = [&](const Rim& rim) {
       return surely_above(distance(piece.from, placed_.sides[rim.side]), just(rim.by));
     };

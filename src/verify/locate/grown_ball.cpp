@@ -53,7 +53,7 @@ Vec nearest_point(const Side& piece, const Vec& c) {
   }
   const Vec along = piece.to - piece.from;
   const double share = middle_of(dot(c - piece.from, along)) / middle_of(dot(along, along));
-  // Of a share that is no number nothing is left.
+  // A share that is no number becomes 0.
   return piece.from + along * just(std::min(std::max(0.0, share), 1.0));
 }
 

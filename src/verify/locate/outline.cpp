@@ -97,6 +97,7 @@ namespace {
 
 /// Step 7 of docs/design/verify.md: says whether the open segment from a to b meets the interior of the hull.
 /// It does where the stretch on the left of every side is not empty.
+/// \pre no side of the hull has a and b both on its right or on its line
 bool enters(const Point& a, const Point& b, const Outline& hull) {
   Fraction low = 0, high = 1;
   for (std::size_t j = 0; j < hull.hull.size(); ++j) {
@@ -108,8 +109,6 @@ bool enters(const Point& a, const Point& b, const Outline& hull) {
       low = std::max<Fraction>(low, Fraction(-at_a) / Fraction(slope));
     } else if (slope < 0) {
       high = std::min<Fraction>(high, Fraction(-at_a) / Fraction(slope));
-    } else if (at_a <= 0) {
-      return false;
     }
     if (low >= high) return false;
   }
