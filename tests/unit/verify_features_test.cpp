@@ -74,7 +74,7 @@ TEST(VerifyFeatures, NumbersAreDoublesAndTheFirstUnknownWordIsTold) {
   const auto with = [](const std::string& words) {
     return read(R"({"features": [{"name": "a", "edges": [0], )" + words + "}]}").complaint;
   };
-  for (const std::string& key : {"minimum", "target", "maximum", "scale", "finished"}) {
+  for (const std::string key : {"minimum", "target", "maximum", "scale", "finished"}) {
     EXPECT_EQ(with('"' + key + "\": " + most), "") << key;
     EXPECT_NE(with('"' + key + "\": 1e390"), "") << key;
   }
