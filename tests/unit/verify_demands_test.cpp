@@ -164,6 +164,25 @@ TEST(VerifyDemands, AnEdgeHasOneFeatureAndTheFeatureAnEdgeOfThePart) {
   EXPECT_EQ(with({"[0, 1]", "[1]"}), "edge 1 belongs to two features\n");
 }
 
+TEST(VerifyDemands, WhatJoinsAnArcToItsEndsIsOfTheArcsEdgeWhereverItStands) {
+  // The ends of the corner above right miss the circle by half a micrometre, and it is the first edge.
+  const std::string part =
+      R"({"outer": [{"arc": {"from": [60, 55], "to": [55, 60], "centre": [55, 55.000001], "ccw": true}}, )"
+      R"({"line": {"from": [55, 60], "to": [10, 60]}}, {"line": {"from": [10, 60], "to": [10, 40]}}, )"
+      R"({"line": {"from": [10, 40], "to": [60, 40]}}, {"line": {"from": [60, 40], "to": [60, 55]}}]})";
+  const auto with = [&](const char* edges, double minimum) {
+    Tree one = demands();
+    one["features"].push_back(feature(edges));
+    one["features"][0]["minimum"] = minimum;
+    return placement(one, part);
+  };
+  EXPECT_EQ(with("[0]", 39.875), "");
+  EXPECT_EQ(with("[0]", 40.125).substr(0, 13), "edge 0 needs ");
+  EXPECT_EQ(with("[1]", 39.875).substr(0, 13), "edge 1 needs ");
+  EXPECT_EQ(with("[4]", 39.875), "");
+  EXPECT_EQ(with("[5]", 0), "feature \"f\" has edge 5, which the part has not\n");
+}
+
 // ---- at the placement -------------------------------------------------------------------------------------
 
 TEST(VerifyDemands, EveryEdgeHasItsMinimumAndItsShareOfTheMargin) {

@@ -7,6 +7,7 @@
 #include "lekalo/verify/verify.hpp"
 #include "verify/number/interval.hpp"
 #include "verify/number/span.hpp"
+#include "verify/shape/edge_of_side.hpp"
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
 #include "verify/shape/stretch.hpp"
@@ -114,13 +115,9 @@ WrittenDemands read_demands(Json value, std::string& complaint) {
 DemandCheck::DemandCheck(const WrittenDemands& demands, const Shape& part, const Shape& placed_part,
                          const Shape& blank, Span off, std::vector<std::string>& findings)
     : d_(demands), part_(part), placed_(placed_part), blank_(blank), off_(off), findings_(findings) {
-  // An arc that misses its ends has a line to either of them, which belongs to its edge.
-  bool between_lines = false;
-  for (std::size_t k = 0; k < part.sides.size(); ++k) {
-    if (!between_lines) sides_of_edge_.emplace_back();
-    if (!part.sides[k].written) between_lines = !between_lines;
-    sides_of_edge_.back().push_back(k);
-  }
+  const std::vector<std::size_t> edges = edge_of_side(part);
+  sides_of_edge_.resize(edges.empty() ? 0 : edges.back() + 1);
+  for (std::size_t k = 0; k < edges.size(); ++k) sides_of_edge_[edges[k]].push_back(k);
   feature_of_edge_.assign(sides_of_edge_.size(), nullptr);
   for (const WrittenFeature& f : d_.features)
     for (const std::size_t edge : f.edges) {

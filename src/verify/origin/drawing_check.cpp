@@ -91,10 +91,12 @@ class DrawingCheck {
 
   void check_outline(CurvePieces& shown, const std::vector<std::string>& layers) {
     for (const Side& side : used_.sides) {
-      if (side.written || verdict_.layers.empty()) verdict_.layers.emplace_back();
       const auto far = shown.first_not_within({{side, 0, 0}}, reach_, work_, kMostDrawingWork);
-      shown.each_near(points_of(side).back(), reach_,
-                      [&](std::size_t k) { verdict_.layers.back().insert(layers[k]); });
+      // A line that joins an arc to its end has no layer of its own.
+      if (side.written) {
+        std::set<std::string>& of_edge = verdict_.layers.emplace_back();
+        shown.each_near(points_of(side).back(), reach_, [&](std::size_t k) { of_edge.insert(layers[k]); });
+      }
       if (!far) continue;
       for (const Vec& p : points_of(side))
         if (shown.surely_away(p, reach_)) {

@@ -20,9 +20,9 @@ std::vector<Box> boxes_of(const std::vector<CurvePiece>& pieces) {
   return boxes;
 }
 
-/// Arcs are cut into parts of less than half a turn, whose corners are known.
+/// Arcs are cut into parts of less than half a turn, whose corners are known; a line is said to turn by less.
 void add_short(const CurvePiece& piece, std::vector<CurvePiece>& to) {
-  if (!piece.side.arc || piece.side.sweep == Sweep::less) return to.push_back(piece);
+  if (piece.side.sweep == Sweep::less) return to.push_back(piece);
   for (const Side& half : halves(piece.side)) add_short({half, piece.off, piece.more}, to);
 }
 

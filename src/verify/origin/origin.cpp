@@ -9,6 +9,7 @@
 #include "tree_check.hpp"
 #include "verify/read/contour.hpp"
 #include "verify/read/known_fields.hpp"
+#include "verify/shape/edge_of_side.hpp"
 #include "verify/shape/shape_inside.hpp"
 
 namespace lekalo::verify {
@@ -35,18 +36,27 @@ Origin open(std::string sentence) {
   return origin;
 }
 
-/// A file that does not say its unit may have been given one on the command line, so both are tried.
-template <class Check>
-Origin in_either_unit(bool says_unit, Check check) {
-  Origin in_mm = check(LengthUnit::millimetre);
-  if (says_unit || (!in_mm.fault && !in_mm.open)) return in_mm;
-  Origin in_inches = check(LengthUnit::inch);
-  return in_inches.fault || in_inches.open ? in_mm : in_inches;
+/// A file that does not say its unit may have been given one on the command line, so each is tried; the
+/// answer is that for the first where none fits. `check` may find out whether the file says it.
+template <class Units, class Check>
+Origin in_one_of(const Units& units, const bool& says_unit, Check check) {
+  std::optional<Origin> first;
+  for (const auto& unit : units) {
+    Origin origin = check(unit);
+    if (!origin.fault && !origin.open) return origin;
+    if (!first) first = std::move(origin);
+    if (says_unit) break;
+  }
+  return *first;
 }
+constexpr std::array kLengthUnits{LengthUnit::millimetre, LengthUnit::inch};
 
+/// \pre root is an object
 bool says(Json root, std::string_view key) {
-  std::array<Json, 1> found;
-  return root.is_object() && find_members(root, std::array{key}, found) && !found[0].text.empty();
+  Json found;
+  // That it is there twice is the complaint of who reads it.
+  (void)find_members(root, {&key, 1}, {&found, 1});
+  return !found.text.empty();
 }
 
 /// Adds what is taken off to a tree, as operands of one difference.
@@ -68,17 +78,6 @@ Origin of_tree(const RegionClaim& claim, const Tree& tree, TreeVerdict& verdict)
   if (!verdict.fault.empty()) return fault(verdict.fault);
   if (!verdict.open.empty()) return open(verdict.open);
   return {};
-}
-
-/// The number of the written edge that each side is of, or joins to its circle.
-std::vector<std::size_t> edge_of_side(const Shape& shape) {
-  std::vector<std::size_t> edges;
-  std::size_t count = 0;
-  for (const Side& side : shape.sides) {
-    if (side.written) ++count;
-    edges.push_back(count == 0 ? 0 : count - 1);
-  }
-  return edges;
 }
 
 /// Holds the region used against a shape that is read off the file, less what is taken off.
@@ -109,7 +108,7 @@ Origin check_regions(const RegionClaim& claim, Json root) {
   std::string unknown;
   refuse_unknown_words(root, unknown);
   if (!unknown.empty()) return fault(unknown);
-  return in_either_unit(says(root, "units"), [&](LengthUnit unit) {
+  return in_one_of(kLengthUnits, says(root, "units"), [&](LengthUnit unit) {
     std::string complaint;
     Shape written = read_shape(root, claim.file.name, complaint, unit == LengthUnit::inch);
     if (!complaint.empty()) return fault(complaint);
@@ -120,7 +119,7 @@ Origin check_regions(const RegionClaim& claim, Json root) {
 Origin check_points(const RegionClaim& claim) {
   Result<Contour> read = read_contour(claim.file);
   if (!read) return fault(read.error().message);
-  return in_either_unit(read->unit.has_value(), [&](LengthUnit unit) {
+  return in_one_of(kLengthUnits, read->unit.has_value(), [&](LengthUnit unit) {
     Contour contour = *read;
     to_millimetres(contour, contour.unit.value_or(unit));
     return of_shape(claim, outline_through(contour.x, contour.y), unit,
@@ -151,7 +150,7 @@ Origin check_tree_file(const RegionClaim& claim, Json root) {
     return origin;
   };
   if (said == "inch") return check(LengthUnit::inch);
-  return in_either_unit(!said.empty(), check);
+  return in_one_of(kLengthUnits, !said.empty(), check);
 }
 
 Origin check_scan_file(const RegionClaim& claim) {
@@ -182,7 +181,7 @@ Result<ReadDrawing> read_drawing(const RegionClaim& claim, const Fraction& mm, d
   return read_dxf_drawing(claim.file, mm == 1 ? LengthUnit::millimetre : LengthUnit::inch, off);
 }
 
-/// The answer for one unit. `says_unit` tells whether the file says its own.
+/// The answer for one unit. `says_unit` becomes whether the file says its own.
 Origin of_drawing(const RegionClaim& claim, const WrittenDrawing& written, const Fraction& mm,
                   bool& says_unit) {
   const double reach = reach_of(claim);
@@ -217,32 +216,25 @@ Origin check_drawing_file(const RegionClaim& claim) {
   if (!claim.ignored.empty()) return open("a drawing less what is ignored is not rebuilt");
   std::vector<Fraction> units{Fraction(1), Fraction(127) / Fraction(5)};
   if (ending_of(claim.file.name) == ".svg") units.push_back(Fraction(127) / Fraction(480));
-  std::optional<Origin> first;
-  for (const Fraction& mm : units) {
-    bool says_unit = false;
-    Origin origin = of_drawing(claim, written, mm, says_unit);
-    if (!origin.fault && !origin.open) return origin;
-    if (!first) first = std::move(origin);
-    if (says_unit) break;
-  }
-  return *first;
+  bool says_unit = false;
+  return in_one_of(units, says_unit,
+                   [&](const Fraction& mm) { return of_drawing(claim, written, mm, says_unit); });
 }
 
 }  // namespace
 
 Origin check_origin(const RegionClaim& claim) {
   const std::string ending = ending_of(claim.file.name);
-  const bool is_drawing = claim.scan.is_null() && (ending == ".dxf" || ending == ".svg");
   const bool says_drawing = !claim.drawing.text.empty() && !claim.drawing.is_null();
   const auto no_drawing = [] {
     return fault("it is no drawing, but the field drawings says how one was read");
   };
   if (!claim.scan.is_null()) return says_drawing ? no_drawing() : check_scan_file(claim);
   if (ending == ".ply") return fault("it holds measured points, but the field scan is null");
-  if (is_drawing) return check_drawing_file(claim);
+  if (ending == ".dxf" || ending == ".svg") return check_drawing_file(claim);
   // A document without an ending is told by its beginning.
-  const std::size_t begin = claim.file.bytes.find_first_not_of(" \t\r\n");
-  const bool is_object = begin != std::string_view::npos && claim.file.bytes[begin] == '{';
+  const std::string_view bytes = claim.file.bytes;
+  const bool is_object = bytes.substr(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()), 1) == "{";
   constexpr std::array<std::string_view, 4> kPoints{".csv", ".txt", ".xyz", ""};
   if (ending != ".json" && std::find(kPoints.begin(), kPoints.end(), ending) == kPoints.end())
     return open("files that end so are not read here");
@@ -250,6 +242,8 @@ Origin check_origin(const RegionClaim& claim) {
   if (ending != ".json" && !(ending.empty() && is_object)) return check_points(claim);
   const Result<Json> root = parse_json(claim.file.bytes, claim.file.name);
   if (!root) return fault(root.error().message);
+  // A list is one of points.
+  if (!root->is_object()) return check_points(claim);
   if (says(*root, "shape")) return check_tree_file(claim, *root);
   if (says(*root, "outer") || says(*root, "pieces")) return check_regions(claim, *root);
   return check_points(claim);

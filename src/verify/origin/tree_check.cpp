@@ -144,7 +144,7 @@ struct Ground {
 /// The result of a walk along one side.
 struct Finding {
   std::string fault, open;
-  /// Says that an edge runs along no side. One that is but a short piece of a written edge may.
+  /// Says that an edge runs along no side. What joins an arc to its end may.
   std::string alone;
   /// The sides of primitives along which an edge of the region runs.
   std::set<SideOfTree> along;
@@ -519,11 +519,13 @@ class TreeCheck {
         edges.size(),
         [&](Walk& walk, std::size_t e, std::size_t most) { return walk.along_edge(edges[e], most); },
         [&](std::size_t e, const Finding& found) {
-          if (edges[e].written || verdict_.along.empty()) verdict_.along.emplace_back();
-          verdict_.along.back().insert(found.along.begin(), found.along.end());
-          if (verdict_.along.back().empty() && verdict_.open.empty())
-            verdict_.open = found.open.empty() ? found.alone : found.open;
-          for (const SideOfTree& one : verdict_.along.back()) {
+          // A line that joins an arc to its end may be too short to run along anything.
+          if (edges[e].written) {
+            if (found.along.empty() && verdict_.open.empty())
+              verdict_.open = found.open.empty() ? found.alone : found.open;
+            verdict_.along.push_back(found.along);
+          }
+          for (const SideOfTree& one : found.along) {
             std::vector<Vec>& ends = ends_along_[one];
             ends.push_back(edges[e].from), ends.push_back(edges[e].to);
           }
