@@ -208,6 +208,9 @@ TEST(VerifyOrigin, WhatIsIgnoredHasItsOwnUnitOrThatOfTheFile) {
 TEST(VerifyOrigin, TheNameOfAFileAndItsBeginningSayWhatItIs) {
   EXPECT_EQ(judged({"part", "\n\t {" + kTree.substr(1) + "}"}), "");
   EXPECT_EQ(judged({"part", square(10)}), "");
+  EXPECT_EQ(judged({"r.json", square(10), square(10), 0, "null", ""}), "");
+  EXPECT_EQ(judged({"r.json", square(10), square(10), 0, "null", kWords}),
+            "fault: it is no drawing, but the field drawings says how one was read");
   const std::string unknown = "fault: part: the name does not end in .csv, .txt, .xyz, .json or .dxf";
   for (const char* bytes : {"0,0\n10,0\n10,10\n0,10\n", "[[0, 0], [10, 0], [10, 10], [0, 10]]", " \n", ""})
     EXPECT_EQ(judged({"part", bytes}), unknown) << bytes;

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <vector>
 
 #include "support/drawn_text.hpp"
 #include "verify/origin/scan_check.hpp"
 #include "verify/read/json.hpp"
+#include "verify/shape/shape_distance.hpp"
 
 /// When the checker agrees that measured points prove a blank to be material.
 namespace lekalo::verify::verify_scan_check_test {
@@ -223,6 +226,213 @@ TEST(VerifyScanCheck, ManyPointsBesideAnEdgeAreBoundedByTheirHull) {
   scan.max_dip = just(0);
   EXPECT_EQ(judged(scan, points, region(0.7, 9.3)), "");
   EXPECT_EQ(judged(scan, points, region(0.62, 9.38)), "open");
+}
+
+/// The verdict whose open question has its whole sentence.
+ScanVerdict verdict_of(const WrittenScan& scan, const MeasuredPoints& points, const std::string& blank) {
+  const Shape shaped = shape(blank);
+  return check_scan(scan, points, shaped);
+}
+/// A region of one contour of lines through these points, with holes.
+std::string polygon(const std::vector<std::array<double, 2>>& p,
+                    const std::vector<std::vector<std::array<double, 2>>>& holes = {}) {
+  const auto contour = [](const std::vector<std::array<double, 2>>& at) {
+    std::string edges;
+    for (std::size_t k = 0; k < at.size(); ++k)
+      edges += fmt::format(R"({}{{"line": {{"from": [{}, {}], "to": [{}, {}]}}}})", k == 0 ? "" : ", ",
+                           at[k][0], at[k][1], at[(k + 1) % at.size()][0], at[(k + 1) % at.size()][1]);
+    return "[" + edges + "]";
+  };
+  std::string text = R"({"outer": )" + contour(p) + R"(, "holes": [)";
+  for (std::size_t h = 0; h < holes.size(); ++h) text += (h == 0 ? "" : ", ") + contour(holes[h]);
+  return text + "]}";
+}
+/// The number next to `about` for which `is` is true.
+template <class Is>
+double near_to(double about, Is is) {
+  double low = about, high = about;
+  for (int k = 0; k < 64; ++k, low = step_down(low), high = step_up(high)) {
+    if (is(low)) return low;
+    if (is(high)) return high;
+  }
+  ADD_FAILURE() << "none is near to " << about;
+  return about;
+}
+
+TEST(VerifyScanCheck, PointsAreOneWhereTheirEnclosuresAre) {
+  const double more = 10 + 1e-9;
+  for (const Vec& third : {Vec{{10, more}, {0, 1e-9}}, Vec{{9, 10 + 1e-8}, {0, 1e-9}},
+                           Vec{{9, more}, {-1, 1e-9}}, Vec{{9, more}, {0, 1e-8}}}) {
+    MeasuredPoints points;
+    points.contour_starts = {0};
+    points.at = {{just(0), just(0)}, {{9, more}, {0, 1e-9}}, third};
+    EXPECT_NE(judged(ordered(points), points, region(1.05, 8.95)),
+              "a contour of the scan has fewer than three points");
+    points.at[2] = points.at[1];
+    EXPECT_EQ(judged(ordered(points), points, region(1.05, 8.95)),
+              "a contour of the scan has fewer than three points");
+  }
+  MeasuredPoints points = square(10, 1);
+  WrittenScan scan = ordered(points);
+  for (std::size_t k = 0; k < points.at.size(); ++k) scan.left_out.push_back(k);
+  EXPECT_EQ(judged(scan, points, region(1.05, 8.95)), "a contour of the scan has fewer than three points");
+}
+
+TEST(VerifyScanCheck, ATriangleIsAnOutline) {
+  MeasuredPoints points;
+  points.contour_starts = {0};
+  points.at = {{just(0), just(0)}, {just(10), just(0)}, {just(0), just(10)}};
+  WrittenScan scan = ordered(points);
+  scan.step = just(15), scan.loss = just(9);
+  EXPECT_EQ(judged(scan, points, region(1, 3)), "");
+  // The slanting edge passes the blank on its left.
+  points.at = {{just(0), just(0)}, {just(10), just(0)}, {just(10), just(10)}};
+  EXPECT_EQ(judged(scan, points, polygon({{7, 1}, {9, 1}, {9, 3}, {7, 3}})), "");
+}
+
+TEST(VerifyScanCheck, APointAsFarFromSeveralCornersIsBesideAnEdgeOfTheFirst) {
+  MeasuredPoints points = square(10, 1);
+  const std::size_t count = points.at.size();
+  points.at.push_back({just(5), just(5)});
+  WrittenScan scan = unordered(points);
+  scan.guard = just(1), scan.loss = just(6);
+  // The middles of the four sides are 5 from the point, and so are both edges at each.
+  for (const std::size_t first : {5U, 15U, 25U, 35U}) {
+    scan.outlines = {{}};
+    for (std::size_t k = 0; k < count; ++k) scan.outlines[0].push_back((first + k) % count);
+    const Vec& corner = points.at[first];
+    EXPECT_EQ(verdict_of(scan, points, region(4, 6)).open,
+              fmt::format("the blank comes near to points measured beside the edge at ({}, {})", corner.x.low,
+                          corner.y.low));
+  }
+}
+
+TEST(VerifyScanCheck, ANearerCornerCountsBeforeAnEarlierOne) {
+  // Beside an edge of the corner at (0, 0), which is the first, the point would be across the blank.
+  MeasuredPoints points = square(10, 1);
+  const std::size_t count = points.at.size();
+  points.at.push_back({just(9.5), just(6)});
+  WrittenScan scan = unordered(points);
+  scan.guard = just(1.9), scan.loss = just(6), scan.outlines = {{}};
+  for (std::size_t k = 0; k < count; ++k) scan.outlines[0].push_back(k);
+  EXPECT_EQ(judged(scan, points, region(4, 7)), "");
+}
+
+TEST(VerifyScanCheck, ALengthAtTheVeryBoundIsWithinIt) {
+  const MeasuredPoints points = scattered({});
+  WrittenScan scan = unordered(points);
+  const Span width = length(points.at[1] - points.at[0]);
+  // A gap as wide as the step.
+  scan.step = just(near_to(10 / (1 + 1e-12), [&](double step) { return step * (1 + 1e-12) == width.high; }));
+  EXPECT_EQ(judged(scan, points, region(1.05, 8.95)), "");
+  scan.step = just(step_down(step_down(scan.step.high)));
+  EXPECT_EQ(judged(scan, points, region(1.05, 8.95)), "unknown");
+  // A half that the radius less the guard does not exceed is bridged by nothing, whatever the step.
+  scan = unordered(points), scan.guard = just(0.5);
+  const double half = (width * just(0.5)).high;
+  scan.min_radius = just(near_to(half + 0.5, [&](double r) { return (just(r) - scan.guard).low == half; }));
+  EXPECT_EQ(judged(scan, points, region(1.05, 8.95)), "unknown");
+  scan.min_radius = just(3);
+  EXPECT_EQ(judged(scan, points, region(1.05, 8.95)), "unknown");
+  // The blank is as far as the loss from the corner at (0, 0).
+  scan = unordered(points);
+  const double apart = distance(points.at[0], shape(region(1, 9))).low;
+  scan.loss = just(near_to(apart - 1e-12, [&](double loss) { return loss + 1e-12 == apart; }));
+  EXPECT_EQ(judged(scan, points, region(1, 9)), "");
+  scan.loss = just(step_down(step_down(scan.loss.high)));
+  EXPECT_NE(judged(scan, points, region(1, 9)), "");
+}
+
+TEST(VerifyScanCheck, ABlankAsFarAsTheGuardKeepsIt) {
+  MeasuredPoints points;
+  points.contour_starts = {0};
+  points.at = {{just(10), just(0)}, {just(0), just(10)}, {just(-10), just(0)}, {just(0), just(-10)}};
+  const std::string diamond = polygon({{8, 0}, {0, 8}, {-8, 0}, {0, -8}});
+  WrittenScan scan = ordered(points);
+  scan.step = just(20), scan.loss = just(3);
+  const Shape blank = shape(diamond);
+  double apart = kInfinity;
+  for (std::size_t k = 0; k < 4; ++k)
+    apart = std::min(apart, distance(side_between(points.at[k], points.at[(k + 1) % 4]), blank).low);
+  scan.guard = just(apart);
+  EXPECT_EQ(judged(scan, points, diamond), "");
+  scan.guard = just(step_up(apart));
+  EXPECT_EQ(judged(scan, points, diamond).substr(0, 27), "the blank comes nearer than");
+}
+
+TEST(VerifyScanCheck, ADipNoDeeperThanWhatTheRadiusLeavesCountsForTheEdgeAlone) {
+  const MeasuredPoints points = scattered({{1, 0.5}, {9, 0.5}});
+  WrittenScan scan = unordered(points);
+  scan.min_radius = just(13), scan.loss = just(2);
+  const Span g = scan.guard, inner = *scan.min_radius - g,
+             half = length(points.at[1] - points.at[0]) * just(0.5);
+  const double reach = (*scan.min_radius - square_root((inner - half) * (inner + half))).high;
+  scan.max_dip = just(near_to(reach - g.high, [&](double dip) { return (g + just(dip)).high == reach; }));
+  EXPECT_EQ(judged(scan, points, region(1.2, 8.8)), "");
+  scan.max_dip = just(step_down(step_down(scan.max_dip->high)));
+  EXPECT_EQ(judged(scan, points, region(1.2, 8.8)), "open");
+}
+
+TEST(VerifyScanCheck, ABlankThatTouchesIsNotApartWithoutAGuard) {
+  const MeasuredPoints points = square(10, 1);
+  WrittenScan scan = ordered(points);
+  scan.guard = just(0);
+  EXPECT_EQ(judged(scan, points, region(0, 10)).substr(0, 29), "the blank comes nearer than 0");
+  EXPECT_EQ(judged(scan, points, region(0.01, 9.99)), "");
+}
+
+TEST(VerifyScanCheck, OneSideOfTheBlankWithinTheLossIsEnough) {
+  // The slanting sides of the holes are farther than the loss, and their boxes are not.
+  const MeasuredPoints points = square(10, 1);
+  WrittenScan scan = ordered(points);
+  scan.loss = just(1.6);
+  EXPECT_EQ(judged(scan, points,
+                   polygon({{1.05, 1.05}, {8.95, 1.05}, {8.95, 8.95}, {1.05, 8.95}},
+                           {{{1.1, 3}, {3, 3}, {3, 1.1}},
+                            {{8.9, 3}, {7, 1.1}, {7, 3}},
+                            {{8.9, 7}, {7, 7}, {7, 8.9}},
+                            {{1.1, 7}, {3, 8.9}, {3, 7}}})),
+            "");
+}
+
+TEST(VerifyScanCheck, TheFirstSegmentThatTheBlankComesNearToIsTold) {
+  // Its tip is near to what joins the two points, and to nothing else.
+  const MeasuredPoints points = scattered({{1, 0.6}, {9, 0.6}, {9.4, 9}, {9.4, 1}});
+  const std::string tip = polygon({{1.5, 1.5}, {5, 0.65}, {9.35, 5}, {8.5, 8.5}, {1.5, 8.5}});
+  WrittenScan scan = unordered(points);
+  scan.loss = just(5);
+  EXPECT_EQ(verdict_of(scan, points, tip).open,
+            "the blank comes near to points measured beside the edge at (0, 0)");
+  EXPECT_EQ(
+      verdict_of(scan, points, polygon({{1.5, 1.5}, {5, 0.75}, {9.35, 5}, {8.5, 8.5}, {1.5, 8.5}})).open,
+      "the blank comes near to points measured beside the edge at (10, 0)");
+  EXPECT_EQ(verdict_of(scan, points, polygon({{1.5, 1.5}, {5, 0.75}, {9, 5}, {8.5, 8.5}, {1.5, 8.5}})).open,
+            "");
+}
+
+TEST(VerifyScanCheck, PointsBesideAnEdgeInABowAreAllOnTheirHull) {
+  // The middle of a flat bow of fifteen points is near to the tip of the blank; a point below it is none of
+  // the hull.
+  for (const double top : {0.55, 0.45}) {
+    MeasuredPoints points = scattered({});
+    for (int k = -7; k <= 7; ++k)
+      points.at.push_back({just(1 + 0.05 * k), just(k == 0 ? top : 0.45 - 0.002 * k * k)});
+    points.at.push_back({just(1), just(0.3)});
+    WrittenScan scan = unordered(points);
+    scan.guard = just(0.25), scan.loss = just(3);
+    EXPECT_EQ(judged(scan, points, polygon({{1, 0.78}, {8, 2}, {8, 8}, {2, 8}})), top > 0.5 ? "open" : "");
+  }
+}
+
+TEST(VerifyScanCheck, ABlankLevelWithCornersIsSeenToBeInside) {
+  MeasuredPoints points = square(10, 1);
+  WrittenScan scan = ordered(points);
+  scan.loss = just(3);
+  EXPECT_EQ(judged(scan, points, region(2, 8)), "");
+  EXPECT_EQ(judged(scan, points, region(3, 7)).substr(0, 23), "the blank is farther th");
+  scan.loss = just(20);
+  EXPECT_EQ(judged(scan, points, region(12, 16)),
+            "piece 0 of the blank is not inside the outlines through the points");
 }
 
 // ---- the words of a result

@@ -70,6 +70,7 @@ TEST(VerifyScanPoints, APlyIsReadByItsHeader) {
                 "1 2\n3 4\n3 0 1 1\n"),
             "| 1,2 3,4 ");
   EXPECT_EQ(ply(kAscii + "element vertex 0\n" + kXy, ""), "");
+  EXPECT_EQ(ply("element vertex 1\n" + kXy + kAscii, "1 2\n"), "| 1,2 ");
   EXPECT_EQ(ply(kAscii + "element vertex 1e0\n" + kXy, "\t 1\t2 \r\n"), "| 1,2 ");
 }
 
@@ -126,6 +127,11 @@ TEST(VerifyScanPoints, RowsBeforeTheVerticesAreSteppedOver) {
             "s.ply: it ends within its rows");
   EXPECT_EQ(ply(head + "element a 1\nproperty list uchar short s\n" + tail, std::string("\4") + point),
             "s.ply: it ends within its rows");
+  EXPECT_EQ(
+      ply(head + "element a 1\nproperty list uchar short s\nelement vertex 0\n" + kXy, std::string("\2abcd")),
+      "");
+  EXPECT_EQ(ply(head + "element a 1000000000000\nproperty float s\n" + tail, point),
+            "s.ply: it ends within its rows");
   EXPECT_EQ(ply(head + "element a 1\nproperty list uint short s\n" + tail, "ab"),
             "s.ply: it ends within its rows");
   EXPECT_EQ(ply(head + "element a 3\nproperty double s\n" + tail, point), "s.ply: it ends within its rows");
@@ -157,7 +163,7 @@ TEST(VerifyScanPoints, AHeaderSaysWhatIsWrongAndWhere) {
   for (const char* type : {"real x", "list real int x", "list int real x"})
     EXPECT_EQ(ply(element + "property " + type + "\n", ""), at + "4: a property of no known type") << type;
   for (const char* words : {"property x", "property float x y", "property array int int x",
-                            "property list int int int x", "strange"})
+                            "property list int int int x", "strange", "strange float x"})
     EXPECT_EQ(ply(element + words + "\n", ""), at + "4: the header has a line that is not known: " + words);
   EXPECT_EQ(ply(element + kXy + "property list uchar int n\n", "1 2 0\n"), "s.ply: its vertices have lists");
   EXPECT_EQ(ply(element + "property float x\n", "1\n"), "s.ply: its vertices lack x, y or a z for the slice");

@@ -46,6 +46,8 @@ TEST(VerifyTree, PrimitivesAreTheirSides) {
             "[ L 3,5 7,5 L 7,5 7,7 L 7,7 3,7 L 3,7 3,5 ]");
   EXPECT_EQ(read(R"({"rectangle": {"size": [4, 2], "corner": [5, 6]}})"),
             "[ L 5,6 9,6 L 9,6 9,8 L 9,8 5,8 L 5,8 5,6 ]");
+  EXPECT_EQ(read(R"({"rectangle": {"size": [0.5, 0.5], "corner": [0, 0]}})"),
+            "[ L 0,0 0.5,0 L 0.5,0 0.5,0.5 L 0.5,0.5 0,0.5 L 0,0.5 0,0 ]");
   EXPECT_EQ(read(R"({"polygon": [[0, 0], [4, 0], [0, 3]]})"), "[ L 0,0 4,0 L 4,0 0,3 L 0,3 0,0 ]");
   EXPECT_EQ(read(R"({"half_plane": {"from": [0, 0], "to": [1, 2]}})"), "half[ L 0,0 1,2 ]");
   EXPECT_EQ(read(R"({"slot": {"from": [0, 0], "to": [10, 0], "width": 4}})"),
@@ -144,6 +146,7 @@ TEST(VerifyTree, WhatItDoesNotKnowIsRefusedWithItsPlace) {
   EXPECT_EQ(refused(R"("circle": 5)"), "shape.circle is not an object");
   EXPECT_EQ(refused(R"("union": [])"), "shape.union is not a list of shapes");
   EXPECT_EQ(refused(R"("union": {})"), "shape.union is not a list of shapes");
+  EXPECT_EQ(refused(R"("union": {"a": {"circle": {"radius": 1}}})"), "shape.union is not a list of shapes");
   EXPECT_EQ(refused(R"("union": [{"circle": {"radius": 0}}])"),
             "shape.union[0].circle.radius is not above 0");
   EXPECT_EQ(refused(R"("circle": {"radius": 0})"), "shape.circle.radius is not above 0");
@@ -164,6 +167,7 @@ TEST(VerifyTree, WhatItDoesNotKnowIsRefusedWithItsPlace) {
             "shape.slot is a slot of no length");
   EXPECT_EQ(refused(R"("regular_polygon": {"sides": 2, "radius": 1})"),
             "shape.regular_polygon.sides is out of range");
+  EXPECT_EQ(refused(R"("regular_polygon": {"sides": 10000, "radius": 1})").substr(0, 2), "[ ");
   EXPECT_EQ(refused(R"("regular_polygon": {"sides": 10001, "radius": 1})"),
             "shape.regular_polygon.sides is out of range");
   EXPECT_EQ(refused(R"("scale": {"by": 0, "shape": {"circle": {"radius": 1}}})"),

@@ -52,7 +52,7 @@ class ScanCheck {
     std::vector<std::size_t> loop;
     for (const std::size_t k : corners)
       if (loop.empty() || !equal(points_[loop.back()], points_[k])) loop.push_back(k);
-    while (loop.size() > 1 && equal(points_[loop.front()], points_[loop.back()])) loop.pop_back();
+    while (!loop.empty() && equal(points_[loop.front()], points_[loop.back()])) loop.pop_back();
     if (loop.size() < 3) return complain("a contour of the scan has fewer than three points");
     ScanOutline outline;
     for (std::size_t i = 0; i < loop.size(); ++i)
@@ -107,7 +107,7 @@ class ScanCheck {
             middle(length(points_[k] - points_[outlines_[place[j].first][place[j].second].from]));
         if (apart < least || (apart == least && j < nearest)) least = apart, nearest = j;
       });
-      if (!(least <= spread)) return complain(fmt::format("point {} is at no outline through the points", k));
+      if (least == kInfinity) return complain(fmt::format("point {} is at no outline through the points", k));
       ScanOutline& outline = outlines_[place[nearest].first];
       const std::size_t at = place[nearest].second, before = (at + outline.size() - 1) % outline.size();
       const bool back = from_edge(k, outline[before]) < from_edge(k, outline[at]);
@@ -186,9 +186,9 @@ class ScanCheck {
         bool apart = true;
         // The hull of the edge and the points beside it is bounded by segments between some two of them.
         const std::vector<std::size_t> hull = hull_of(edge);
-        for (std::size_t i = 0; apart && i < hull.size(); ++i)
-          for (std::size_t j = i + 1; apart && j < hull.size(); ++j)
-            apart = keeps_away(side_between(points_[hull[i]], points_[hull[j]]), reach.beside);
+        for (auto i = hull.begin(); i != hull.end(); ++i)
+          for (auto j = hull.begin(); apart && j != i; ++j)
+            apart = keeps_away(side_between(points_[*i], points_[*j]), reach.beside);
         if (!apart && verdict_.open.empty())
           verdict_.open = fmt::format("the blank comes near to points measured beside the edge at ({}, {})",
                                       middle(points_[edge.from].x), middle(points_[edge.from].y));
@@ -199,27 +199,22 @@ class ScanCheck {
               reach.edge.high, middle(points_[edge.from].x), middle(points_[edge.from].y)));
       }
       // No outline meets that of the blank, so one point tells for all of it.
-      const auto in = holds(blank_, points_[outline.front().from]);
-      if (!in || *in)
+      if (holds(blank_, points_[outline.front().from]).value_or(true))
         return complain(fmt::format("the outline through the point at ({}, {}) runs within the blank",
                                     middle(points_[outline.front().from].x),
                                     middle(points_[outline.front().from].y)));
     }
   }
 
-  /// Returns points of an edge and beside it between which the segments bound all of them. Points that are
-  /// surely within a triangle of others are left out where there are many.
+  /// Returns points of an edge and beside it between which the segments bound all of them, without those that
+  /// are surely within a triangle of others.
   [[nodiscard]] std::vector<std::size_t> hull_of(const ScanEdge& edge) const {
     if (edge.beside.empty()) return {};
     std::vector<std::size_t> all = edge.beside;
     all.push_back(edge.from), all.push_back(edge.to);
-    constexpr std::size_t kFew = 12;
-    if (all.size() <= kFew) return all;
-    std::sort(all.begin(), all.end(), [&](std::size_t a, std::size_t b) {
-      return std::pair(points_[a].x.low, points_[a].y.low) < std::pair(points_[b].x.low, points_[b].y.low);
-    });
+    std::ranges::sort(all, {}, [&](std::size_t k) { return std::pair(points_[k].x.low, points_[k].y.low); });
     std::vector<std::size_t> hull;
-    for (int round = 0; round < 2; ++round) {
+    const auto go_round_half = [&] {
       const std::size_t begin = hull.size();
       for (const std::size_t k : all) {
         while (hull.size() >= begin + 2 &&
@@ -230,8 +225,10 @@ class ScanCheck {
         hull.push_back(k);
       }
       hull.pop_back();
-      std::reverse(all.begin(), all.end());
-    }
+    };
+    go_round_half();
+    std::reverse(all.begin(), all.end());
+    go_round_half();
     return hull;
   }
 
@@ -239,17 +236,17 @@ class ScanCheck {
     for (std::size_t piece = 0; piece + 1 < blank_.piece_starts.size(); ++piece) {
       const std::size_t contour = blank_.piece_starts[piece];
       std::optional<bool> odd;
-      for (std::size_t k = blank_.contour_starts[contour]; !odd && k < blank_.contour_starts[contour + 1];
-           ++k)
+      for (std::size_t k = blank_.contour_starts[contour]; k < blank_.contour_starts[contour + 1]; ++k)
         for (const Vec& p : points_of(blank_.sides[k]))
           if (!odd) odd = is_odd(p);
-      if (!odd || !*odd)
+      if (!odd.value_or(false))
         return complain(
             fmt::format("piece {} of the blank is not inside the outlines through the points", piece));
     }
   }
 
-  /// Says whether an odd number of outlines runs around p; nothing where a corner is level with it.
+  /// Says whether an odd number of outlines runs around p; nothing where a corner may be level with it or
+  /// above.
   [[nodiscard]] std::optional<bool> is_odd(const Vec& p) const {
     bool odd = false;
     for (const ScanOutline& outline : outlines_)
@@ -261,12 +258,15 @@ class ScanCheck {
           return std::nullopt;
         };
         const auto from = above(a), to = above(b);
-        if (a.x.high < p.x.low && b.x.high < p.x.low) continue;
+        if (std::max(a.x.high, b.x.high) < p.x.low) continue;
         if (!from || !to) return std::nullopt;
         if (*from == *to) continue;
-        const Span turn = cross(b - a, p - a);
-        if (!(turn.low > 0 || turn.high < 0)) return std::nullopt;
-        if ((turn.low > 0) == *to) odd = !odd;
+        // An edge that runs upwards with p on its left is met by the ray from p to the right.
+        const Span turn = *to ? cross(b - a, p - a) : cross(a - b, p - b);
+        if (turn.low > 0)
+          odd = !odd;
+        else if (!(turn.high < 0))
+          return std::nullopt;
       }
     return odd;
   }

@@ -22,7 +22,7 @@ class Measured {
   /// The point without z is one without a third number.
   void add(std::array<Decimal, 3> numbers, bool begins_contour) {
     for (Decimal& number : numbers)
-      if (unit_ == LengthUnit::inch && sgn(number.digits) != 0) number.digits *= 254, --number.exponent;
+      if (unit_ == LengthUnit::inch) number.digits *= 254, --number.exponent;
     if (slice_) {
       Decimal off = numbers[2] - slice_->height;
       off.digits = 2 * abs(off.digits);
@@ -217,7 +217,7 @@ class PlyReader {
       if (property.count) return bad(document_, "its vertices have lists");
       at.push_back(stride);
       stride += property.type.size;
-      for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const std::size_t axis : {0U, 1U, 2U})
         if (property.name == std::string(1, "xyz"[axis])) column[axis] = k;
     }
     if (!column[0] || !column[1] || (wants_z_ && !column[2]))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "verify/number/interval.hpp"
@@ -15,7 +16,7 @@ constexpr std::size_t kMostPrimitives = 10'000;
 /// A map that keeps circles: x is mirrored if said, then turned, scaled and shifted.
 struct Map {
   Motion motion;
-  Span factor = just(1);
+  std::optional<Span> factor;
 };
 
 Span directly(const Interval& value) { return {value.low_double(), value.high_double()}; }
@@ -73,7 +74,7 @@ class TreeReader {
   }
 
   [[nodiscard]] Decimal scaled(Decimal value) const {
-    if (unit_ == LengthUnit::inch && sgn(value.digits) != 0) value.digits *= 254, --value.exponent;
+    if (unit_ == LengthUnit::inch) value.digits *= 254, --value.exponent;
     return value;
   }
   Span length(Fields& fields, std::string_view key) {
@@ -198,21 +199,20 @@ class TreeReader {
   static Span length_of(const Vec& v) { return verify::length(v); }
 
   /// Chooses the shift so that the point stays where it is.
-  static void keep(Map& map, const Vec& p) { map.motion.shift = p - placed(p, map.motion) * map.factor; }
+  static void keep(Map& map, const Vec& p) {
+    map.motion.shift = p - placed(p, map.motion) * map.factor.value_or(just(1));
+  }
 
   static void apply(const Map& map, Primitive& primitive) {
     Motion linear = map.motion;
     linear.shift = {just(0), just(0)};
     Shape shape = placed(primitive.shape, linear);
-    const bool grows = map.factor.low != 1 || map.factor.high != 1;
     for (Side& side : shape.sides) {
       for (Vec* p : {&side.from, &side.to, &side.centre}) {
-        if (grows) *p = *p * map.factor;
-        // Adding nothing would widen an enclosure.
-        if (map.motion.shift.x.low != 0 || map.motion.shift.x.high != 0) p->x = p->x + map.motion.shift.x;
-        if (map.motion.shift.y.low != 0 || map.motion.shift.y.high != 0) p->y = p->y + map.motion.shift.y;
+        if (map.factor) *p = *p * *map.factor;
+        *p = *p + map.motion.shift;
       }
-      if (grows) side.radius = side.radius * map.factor, side.off = (just(side.off) * map.factor).high;
+      if (map.factor) side.radius = side.radius * *map.factor, side.off = (just(side.off) * *map.factor).high;
       // The left of a mirrored line was its right.
       if (primitive.half_plane && map.motion.mirrored) std::swap(side.from, side.to);
     }

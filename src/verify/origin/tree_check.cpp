@@ -473,16 +473,17 @@ class Walk {
       at_ = piece.from;
       for (const Part& half : cut(part_)) {
         // A part that cannot be halved is as long as the whole.
-        if (piece.arc && half.piece.first.x.low == piece.first.x.low &&
-            half.piece.last.x.low == piece.last.x.low && half.piece.first.y.low == piece.first.y.low &&
-            half.piece.last.y.low == piece.last.y.low)
-          return false;
+        if (piece.arc && ends_of(half.piece) == ends_of(piece)) return false;
         open.push_back(half);
       }
     }
     return true;
   }
 
+  /// Returns the directions of an arc's ends, by which two of one circle are told apart.
+  static std::array<double, 4> ends_of(const Side& arc) {
+    return {arc.first.x.low, arc.first.y.low, arc.last.x.low, arc.last.y.low};
+  }
   static std::string text_of(const Vec& p) { return fmt::format("({}, {})", p.x.low, p.y.low); }
 
   const Ground& ground_;

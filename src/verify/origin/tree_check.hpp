@@ -11,7 +11,7 @@ namespace lekalo::verify {
 
 /// A side of a primitive.
 struct SideOfTree {
-  std::size_t primitive = 0, side = 0;
+  std::size_t primitive, side;
   friend auto operator<=>(const SideOfTree&, const SideOfTree&) = default;
 };
 
