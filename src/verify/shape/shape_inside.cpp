@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "edge_of_side.hpp"
 #include "lekalo/base/limits.hpp"
 #include "lekalo/base/stop.hpp"
 #include "shape_distance.hpp"
@@ -269,16 +270,10 @@ std::optional<std::string> misplaced(const Shape& shape, std::size_t contour) {
 /// Returns the number of each side among the written ones of its contour. A line that joins an arc has the
 /// arc's number.
 std::vector<std::size_t> numbers_of(const Shape& shape) {
-  std::vector<std::size_t> numbers;
+  std::vector<std::size_t> numbers = edge_of_side(shape);
   for (std::size_t c = 0; c + 1 < shape.contour_starts.size(); ++c) {
-    std::size_t number = 0;
-    // Lines that join an arc stand before it and after it.
-    bool joining = false;
-    for (std::size_t k = shape.contour_starts[c]; k < shape.contour_starts[c + 1]; ++k) {
-      numbers.push_back(number);
-      if (!shape.sides[k].written) joining = !joining;
-      if (!joining) ++number;
-    }
+    const std::size_t begin = shape.contour_starts[c], first = numbers[begin];
+    for (std::size_t k = begin; k < shape.contour_starts[c + 1]; ++k) numbers[k] -= first;
   }
   return numbers;
 }
