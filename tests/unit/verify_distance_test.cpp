@@ -317,8 +317,12 @@ TEST(VerifyDistance, LinesOfNextToNoLengthAreNotDecidedByUnderflow) {
     undecided += product.high == 0 ? 1 : 0;
     EXPECT_EQ(distance(across, up).high == 0, product.high < 0) << k;
     const Span beside = cross(across.to - across.from, over.from - across.from);
-    if (!((beside * beside).low > 0)) EXPECT_EQ(distance(across, over).low, 0) << k;
-    if ((beside * beside).low > 0) EXPECT_GT(distance(across, over).low, 0) << k;
+    if (!((beside * beside).low > 0)) {
+      EXPECT_EQ(distance(across, over).low, 0) << k;
+    }
+    if ((beside * beside).low > 0) {
+      EXPECT_GT(distance(across, over).low, 0) << k;
+    }
   }
   EXPECT_GT(undecided, 0);
 }
@@ -510,8 +514,12 @@ TEST(VerifyDistance, PartsStickOutOfBlanksByWhatSamplesSay) {
     EXPECT_GE(found.high, out - 1e-9) << k;
     EXPECT_LE(found.high - found.low, 2.1e-6) << k;
     // Enough is enough, and no less.
-    if (out == 0) EXPECT_LE(sticking_out(part, blank, 1e-6, 0).high, 2.1e-6) << k;
-    if (out > 0) EXPECT_GT(sticking_out(part, blank, 1e-6, out / 2).low, out / 2) << k;
+    if (out == 0) {
+      EXPECT_LE(sticking_out(part, blank, 1e-6, 0).high, 2.1e-6) << k;
+    }
+    if (out > 0) {
+      EXPECT_GT(sticking_out(part, blank, 1e-6, out / 2).low, out / 2) << k;
+    }
     const Span all = sticking_out(part, blank, 1e-6, out + 1);
     EXPECT_LE(all.high - all.low, 2.1e-6) << k;
   }
