@@ -68,6 +68,8 @@ TEST(VerifyStroke, ThePlaceThatIsNearestIsBetweenTheEndsOrOneOfThem) {
   }
   expect_place(nearest_on(kQuarter, {1, 1}), {3, 1});  // from the centre both ends are as near
   expect_place(nearest_on(kQuarter, {-1, -1}), {3, 1});
+  // An arc whose end is a rounding before its beginning is there, and not opposite.
+  expect_place(nearest_on({true, true, {3, 1}, {3, 1 - 1e-9}, {1, 1}, 2}, {-5, 1}), {3, 1});
   EXPECT_NEAR(distance({5, 1}, kQuarter), 2, 1e-12);
   EXPECT_NEAR(distance({2, 2}, kQuarter), 2 - std::sqrt(2), 1e-12);
 }
@@ -125,6 +127,17 @@ TEST(VerifyStroke, CrossingsLieOnBoth) {
   none(kQuarter, line({3.1, 0}, {3.1, 5}));
   none(kQuarter, line({2, 2}, {2, 2}));
   EXPECT_EQ(crossings(kQuarter, line({1, 3}, {3, 1})).size(), 2U);
+  // A tangent point is found from both sides.
+  EXPECT_EQ(crossings(kQuarter, line({3, 0}, {3, 5})).size(), 2U);
+  EXPECT_EQ(crossings(kQuarter, {true, false, {5, -1}, {3, 1}, {5, 1}, 2}).size(), 2U);
+  // So close, two circles are one, and two lines parallel.
+  const auto beside = [](double by) {
+    return Stroke{true, true, {2 + by, 0}, {by, 2}, {by, 0}, 2};
+  };
+  EXPECT_EQ(crossings(beside(0), beside(1e-12)).size(), 0U);
+  EXPECT_EQ(crossings(beside(0), beside(1.5e-12)).size(), 1U);
+  EXPECT_EQ(crossings(line({0, 0}, {1, 0}), line({0, 0}, {1, 1e-12})).size(), 0U);
+  EXPECT_EQ(crossings(line({0, 0}, {1, 0}), line({0, 0}, {1, 1.5e-12})).size(), 1U);
   one(kQuarter, {true, true, {1, 1}, {3, 3}, {1, 3}, 2}, {1 + std::sqrt(3), 2});
   none(kQuarter, {true, true, {9, 3}, {7, 5}, {7, 3}, 2});
   none(kQuarter, {true, true, {2, 1}, {1, 2}, {1, 1}, 1});
@@ -150,6 +163,10 @@ TEST(VerifyStroke, ARayIsCrossedByWhatBeginsOnItAndNotByWhatEndsOnIt) {
     EXPECT_TRUE(crosses_ray_to_the_right(s, {0, 1}));
     EXPECT_FALSE(crosses_ray_to_the_right(s, {0, 3}));
   }
+  // An end may be a rounding farther out than the radius.
+  const Stroke high{true, true, {2, 0}, {0, 2 + 1e-9}, {0, 0}, 2};
+  EXPECT_TRUE(crosses_ray_to_the_right(high, {-1, 2 + 5e-10}));
+  EXPECT_FALSE(crosses_ray_to_the_right(high, {1, 2 + 5e-10}));
   const Stroke left = arc({0, 1}, {-1, 0});
   EXPECT_TRUE(crosses_ray_to_the_right(left, {1 - std::sqrt(3) - 1e-9, 2}));
   EXPECT_FALSE(crosses_ray_to_the_right(left, {1 - std::sqrt(3) + 1e-9, 2}));
@@ -162,6 +179,12 @@ TEST(VerifyStroke, SharesOfTheWayRunFromEndToEnd) {
     EXPECT_EQ(at_share(s, -1).x, s.from.x);
     EXPECT_EQ(at_share(s, 1).x, s.to.x);
     EXPECT_EQ(at_share(s, 2).x, s.to.x);
+  }
+  for (int degrees = 0; degrees < 360; ++degrees) {
+    const double angle = degrees * kPi / 180;
+    const Stroke s = arc({std::cos(angle), std::sin(angle)}, {std::cos(angle + 1), std::sin(angle + 1)});
+    EXPECT_EQ(at_share(s, 0).x, s.from.x);
+    EXPECT_EQ(at_share(s, 1).x, s.to.x);
   }
   expect_place(at_share(kQuarter, 0.5), {1 + std::sqrt(2), 1 + std::sqrt(2)});
   expect_place(heading(kQuarter, {3, 1}), {0, 1});
@@ -209,6 +232,10 @@ TEST(VerifyStroke, ArcsAreCutIntoQuartersAndTheseIntoHalves) {
       expect_arc(from, from, ccw, 4.7, 8, 360);
       expect_arc(from, from, ccw, 1.2, 16, 360);
     }
+    // Ends of one x or one y are no full turn, nor are two in one direction.
+    expect_arc({0.8, -0.6 * hand}, {0.8, 0.6 * hand}, ccw, 100, 1, 2 * std::atan(0.75) * 180 / kPi);
+    expect_arc({0.6, 0.8 * hand}, {-0.6, 0.8 * hand}, ccw, 100, 1, 2 * std::atan(0.75) * 180 / kPi);
+    expect_arc({1, 0}, {1 + 1e-9, 0}, ccw, 100, 1, 0);
     expect_arc({1, 0}, {0, hand}, ccw, 100, 1, 90);
     expect_arc({1, 0}, {-1, 0}, ccw, 100, 2, 180);
     expect_arc({1, 0}, {0, -hand}, ccw, 100, 3, 270);
@@ -273,6 +300,7 @@ TEST(VerifyCutPath, CutsAreWhatRunsBelowTheTop) {
   EXPECT_EQ(path.cuts[0].from_z, 0);
   EXPECT_EQ(path.cuts[4].to_z, -5);
   EXPECT_NEAR(path.cuts[2].to_z, -3, 1e-12);
+  EXPECT_EQ(cuts({straight({0, 0}, -5, {10, 0}, 5)}, 1).cuts.size(), 5U);
   // Straight down there is a place and no stroke.
   const CutPath plunge = cuts({straight({4, 4}, 5, {4, 4}, -2)});
   ASSERT_EQ(plunge.cuts.size(), 1U);
@@ -318,8 +346,18 @@ TEST(VerifyCutPath, HelicesTurnAsOftenAsTheySay) {
   ASSERT_EQ(path.cuts.size(), 12U);
   EXPECT_EQ(path.cuts.back().to_z, -3);
   EXPECT_NEAR(path.cuts[3].to_z, -1, 1e-12);
+  EXPECT_EQ(path.cuts[4].from_z, path.cuts[3].to_z);
+  for (const Cut& cut : path.cuts) {
+    EXPECT_TRUE(cut.stroke.arc);
+    EXPECT_EQ(cut.feed, 600);
+  }
   helix.to = {0, 4};
   EXPECT_EQ(cuts({helix}).cuts.size(), 9U);
+  // What goes below by less than a rounding does so at a place.
+  helix.from_z = 1, helix.to_z = -1e-18, helix.turns = 1;
+  const CutPath touching = cuts({helix});
+  ASSERT_EQ(touching.cuts.size(), 1U);
+  EXPECT_FALSE(touching.cuts[0].stroke.arc);
 }
 
 TEST(VerifyCutPath, APathThatIsTooLongForItsToolIsRefused) {
@@ -338,7 +376,9 @@ TEST(VerifyCutPath, APathThatIsTooLongForItsToolIsRefused) {
              .line = 7};
   EXPECT_FALSE(cut_path({helix}, 0, 3, 0.16, "p"));
   // Above the stock it may be as long as it is.
-  EXPECT_TRUE(cut_path({straight({0, 0}, 1, {1e6, 0}, 1)}, 0, 3, 1e-3, "p"));
+  for (const double from_z : {0.0, 1.0})
+    for (const double to_z : {0.0, 1.0})
+      EXPECT_TRUE(cut_path({straight({0, 0}, from_z, {1e6, 0}, to_z)}, 0, 3, 1e-3, "p"));
 }
 
 TEST(VerifyCutPath, ACutThatRunsWhereAWiderOneRanAsDeepIsRepeated) {
@@ -367,10 +407,11 @@ TEST(VerifyCutPath, ACutThatRunsWhereAWiderOneRanAsDeepIsRepeated) {
   EXPECT_EQ(again({cut(there, -1, 3), cut(there, -2, 4), cut(there, -1.5, 3.5)}), "--r");
   EXPECT_EQ(again({cut(there, -1, 3), cut(there, -1, 4), cut(there, -1, 4)}), "--r");
   EXPECT_EQ(again({cut(there, -1, 3), cut(there, -2, 2), cut(there, -1, 3), cut(there, -2, 2)}), "--r-");
-  // Arcs have a hand and a centre; two lines have none.
+  // Arcs have a centre; two lines have none.
   EXPECT_EQ(again({cut(kQuarter, -1, 3), cut(kQuarter, -1, 3)}), "-r");
-  EXPECT_EQ(again({cut(kQuarter, -1, 3), cut(kBack, -1, 3)}), "--");
+  EXPECT_EQ(again({cut(kQuarter, -1, 3), cut(kBack, -1, 3)}), "-r");
   EXPECT_EQ(again({cut(kQuarter, -1, 3), cut(line({3, 1}, {1, 3}), -1, 3)}), "--");
+  EXPECT_EQ(again({cut({true, true, {2, 0}, {0, 2}, {0, 0}, 2}, -1, 3), cut(line({2, 0}, {0, 2}), -1, 3)}), "--");
   Stroke moved = there;
   moved.centre = {7, 7}, moved.ccw = false;
   EXPECT_EQ(again({cut(there, -1, 3), cut(moved, -1, 3)}), "-r");
@@ -444,6 +485,9 @@ TEST(VerifyMachineTime, AnArcIsAsFastAsItsRadiusAllows) {
   const double whole = std::hypot(way, 3), level = way / whole, w = v / level;
   EXPECT_NEAR(circle(1, 6000, 3), 2 * w / 500 + (whole - w * w / 500) / w, 1e-6);
   EXPECT_NEAR(circle(1, 6000, -3), circle(1, 6000, 3), 1e-12);
+  // What is left of it beyond its full turns may be no way at all.
+  EXPECT_NEAR(seconds({Move{.arc = true, .from = {1, 0}, .to = {1 + 1e-9, 0}, .turns = 2, .feed = 6000}}),
+              circle(1, 6000), 1e-9);
 }
 
 TEST(VerifyMachineTime, ManyShortLinesAreAsSlowAsTheCurveThatTheyFollow) {

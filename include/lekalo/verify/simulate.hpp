@@ -48,6 +48,7 @@ struct EngagementSample {
   double engagement = 0;
   /// The part of the engagement that is to the left of where the tool goes, degrees.
   double left = 0;
+  double feed = 0;  ///< mm/min; 0 for a rapid
   /// The line of the program, from 1.
   std::size_t line = 0;
   /// True for an entry; see SimulateReport::entry_mm.

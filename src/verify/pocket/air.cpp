@@ -1,9 +1,9 @@
 #include "air.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "stroke_index.hpp"
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
 
@@ -15,10 +15,7 @@ bool Air::Strip::holds(Place p, double width) const {
   }
   const Place off = p - edge.centre;
   const double apart = length(off);
-  const double first = cross(edge.from - edge.centre, off), last = cross(off, edge.to - edge.centre);
-  const bool faces = (edge.ccw ? first >= 0 && last >= 0 : first <= 0 && last <= 0) &&
-                     dot(off, edge.from + edge.to - 2 * edge.centre) >= 0;
-  return faces && apart >= near && apart <= far;
+  return faces(edge, off) && apart >= near && apart <= far;
 }
 
 Air::Air(const std::vector<Stroke>& drawn, const std::vector<char>& open, double width)
@@ -48,7 +45,7 @@ Air::Air(const std::vector<Stroke>& drawn, const std::vector<char>& open, double
     sides_.insert(sides_.end(), sides.begin(), sides.end());
     strip.borders = sides;
     strip.borders.push_back(edge);
-    strip.low = {1e300, 1e300}, strip.high = {-1e300, -1e300};
+    strip.low = {kInfinity, kInfinity}, strip.high = {-kInfinity, -kInfinity};
     for (const Stroke& s : strip.borders) {
       Place low, high;
       box_of(s, low, high);
@@ -80,7 +77,7 @@ bool Air::in_drawing(Place p) const {
 }
 
 double Air::from_borders(Place p) const {
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (const Stroke& s : borders_) least = std::min(least, distance(p, s));
   return least;
 }

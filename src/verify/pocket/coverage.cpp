@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <utility>
 
 #include "cut_path.hpp"
 #include "lekalo/base/stop.hpp"
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -49,7 +49,7 @@ class Coverage {
         index_.near(middle, reach + widest_, cuts);
         pocket_.limit_index().near(middle, reach, limits);
         spot_ = {};
-        look(middle, side, cuts, limits, false, cuts.empty() ? swept_at(middle) : kFar);
+        look(middle, side, cuts, limits, false, cuts.empty() ? swept_at(middle) : kInfinity);
         if (spot_.width_mm > kTold) spots_.push_back(spot_);
       }
     tell_spots();
@@ -58,8 +58,6 @@ class Coverage {
   }
 
  private:
-  static constexpr double kFar = std::numeric_limits<double>::infinity();
-
   /// Returns the distance from what is cut, as if this tool had cut all of it along paths. A path that a
   /// wider tool cut counts as nearer by the difference of the radii. A place is cut where the distance is
   /// below this tool's radius.
@@ -68,7 +66,7 @@ class Coverage {
   /// Returns the distance from `middle` to the nearest, and keeps those that may matter to the square.
   template <class Distance>
   static double nearest(double reach, const Numbers& from, Numbers& kept, Distance&& distance_of) {
-    double least = kFar;
+    double least = kInfinity;
     for (const std::uint32_t i : from) {
       const double d = distance_of(i);
       least = std::min(least, d);
@@ -81,7 +79,7 @@ class Coverage {
   void look(Place middle, double side, const Numbers& cuts, const Numbers& limits, bool all_reachable,
             double farthest) {
     const double half = side * 0.7071067811865476;
-    const bool beside_air = !pocket_.air().empty() && pocket_.air().from_borders(middle) < half;
+    const bool beside_air = pocket_.air().from_borders(middle) < half;
     if ((!beside_air || side <= kLeaf) && pocket_.air().holds(middle)) return;
     Numbers near_cuts, near_limits;
     // The distance from the places where the tool's middle may be.

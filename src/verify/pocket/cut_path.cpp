@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "lekalo/base/angle.hpp"
@@ -67,17 +66,14 @@ Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool
     const std::vector<Stroke> strokes = strokes_of(move, longest);
     double whole = 0;
     for (const Stroke& s : strokes) whole += length(s);
-    double done = 0;
+    double done = 0, z = move.from_z;
     for (const Stroke& s : strokes) {
-      const double begin = whole > 0 ? done / whole : 0;
-      done += length(s);
-      const double end = whole > 0 ? std::min(1.0, done / whole) : 1;
-      const auto z_at = [&](double share) {
-        return share >= 1 ? move.to_z : move.from_z + share * (move.to_z - move.from_z);
-      };
       Cut cut;
-      cut.from_z = z_at(begin), cut.to_z = &s == &strokes.back() ? move.to_z : z_at(end);
-      cut.line = move.line, cut.rapid = move.rapid, cut.radius = tool_radius;
+      cut.from_z = z;
+      done += length(s);
+      z = &s == &strokes.back() ? move.to_z : move.from_z + done / whole * (move.to_z - move.from_z);
+      cut.to_z = z;
+      cut.line = move.line, cut.rapid = move.rapid, cut.feed = move.feed, cut.radius = tool_radius;
       const double drop = cut.to_z - cut.from_z;
       if (!(cut.from_z < top) && !(cut.to_z < top)) {
         down = false;
@@ -92,7 +88,7 @@ Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool
       down = cut.to_z < top;
     }
   }
-  path.retracts = entries > 0 ? entries - 1 : 0;
+  path.retracts = std::max<std::size_t>(entries, 1) - 1;
   return path;
 }
 
@@ -100,19 +96,20 @@ std::vector<bool> repeated(const std::vector<Cut>& cuts) {
   struct Deepest {
     double z, radius;
   };
-  std::map<std::array<double, 8>, Deepest> known;
+  // Of a stroke count its ends, in either order, and its centre: an arc turns by at most a quarter.
+  std::map<std::array<double, 7>, Deepest> known;
   std::vector<bool> found(cuts.size(), false);
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     if (!cuts[i].level()) continue;
     const Stroke& s = cuts[i].stroke;
-    const bool back = !s.arc && std::tie(s.to.x, s.to.y) < std::tie(s.from.x, s.from.y);
-    const Place from = back ? s.to : s.from, to = back ? s.from : s.to, centre = s.arc ? s.centre : Place{};
-    const std::array<double, 8> key{
-        s.arc ? 1.0 : 0.0, s.arc && s.ccw ? 1.0 : 0.0, from.x, from.y, to.x, to.y, centre.x, centre.y};
+    const auto [a, b] = std::minmax({std::pair(s.from.x, s.from.y), std::pair(s.to.x, s.to.y)});
+    const Place centre = s.arc ? s.centre : Place{};
+    const std::array<double, 7> key{
+        static_cast<double>(s.arc), a.first, a.second, b.first, b.second, centre.x, centre.y};
     const auto [at, is_new] = known.try_emplace(key, Deepest{cuts[i].to_z, cuts[i].radius});
     if (is_new) continue;
     found[i] = at->second.z <= cuts[i].to_z && at->second.radius >= cuts[i].radius;
-    if (!found[i] && cuts[i].to_z <= at->second.z && cuts[i].radius >= at->second.radius)
+    if (cuts[i].to_z <= at->second.z && cuts[i].radius >= at->second.radius)
       at->second = {cuts[i].to_z, cuts[i].radius};
   }
   return found;

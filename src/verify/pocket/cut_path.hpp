@@ -12,6 +12,9 @@ namespace lekalo::verify {
 /// Depths that differ by no more are one.
 inline constexpr double kSameLevel = 1e-6;  // mm
 
+/// Below this engagement the tool cuts nothing.
+inline constexpr double kAirDegrees = 3;
+
 /// A short piece of the path with the tool below the stock's upper face.
 struct Cut {
   /// A plunge has a stroke of no length.
@@ -21,6 +24,7 @@ struct Cut {
   /// Counts how often the tool has come down into the stock so far, from 1; 0 for an earlier program's cut.
   std::size_t entry = 0;
   bool rapid = false;
+  double feed = 0;  ///< mm/min; 0 for a rapid
   /// The radius of the tool, mm.
   double radius = 0;
   [[nodiscard]] bool level() const { return from_z == to_z; }

@@ -1,17 +1,16 @@
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include "cut_path.hpp"
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/stop.hpp"
 #include "rim_cover.hpp"
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
 namespace {
 
-constexpr double kAirDegrees = 3, kLasting = 0.2;
-/// No machine tells depths apart that differ by less than this.
+constexpr double kLasting = 0.2;  // mm
 /// A stroke of a ramp that is shorter than this changes no written digit of Z.
 constexpr double kTooShortToSink = 0.01;  // mm
 constexpr double kLayerError = 1e-3;      // mm
@@ -28,7 +27,7 @@ class Engagement {
       : air_(air), cuts_(path.before), radius_(radius), widest_(radius), spacing_(spacing), report_(report) {
     first_ = cuts_.size();
     cuts_.insert(cuts_.end(), path.cuts.begin(), path.cuts.end());
-    Place low{1e300, 1e300}, high{-1e300, -1e300};
+    Place low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
     for (const Cut& cut : cuts_) {
       Place a, b;
       box_of(cut.stroke, a, b);
@@ -37,7 +36,7 @@ class Engagement {
       widest_ = std::max(widest_, cut.radius);
       top_ = std::max(top_, highest(cut));
     }
-    if (!cuts_.empty()) index_ = StrokeIndex(low, high, radius);
+    index_ = StrokeIndex(low, high, radius);
     spacing_ = std::max(spacing, least_spacing());
     repeated_ = repeated(cuts_);
     for (const Cut& cut : cuts_) {
@@ -115,14 +114,12 @@ class Engagement {
       const double upto = length(so_far);
       sample.length = upto - done;
       done = upto;
-      sample.line = cut.line;
-      if (sample.length > 0) {
-        rim_.begin(at, radius_, so_far);
-        engage(cut, sample);
-        if (sample.entry) measure_layer(sample.z, so_far);
-        if (cut.level() && sample.engagement >= kAirDegrees)
-          removed_[std::round(sample.z / kSameLevel) * kSameLevel] += width_ * sample.length;
-      }
+      sample.line = cut.line, sample.feed = cut.feed;
+      rim_.begin(at, radius_, so_far);
+      engage(cut, sample);
+      if (sample.entry) measure_layer(sample.z, so_far);
+      if (cut.level() && sample.engagement >= kAirDegrees)
+        removed_[std::round(sample.z / kSameLevel) * kSameLevel] += width_ * sample.length;
       if (cut.rapid && sample.engagement >= kAirDegrees) report_.rapid_cut_mm += sample.length;
       report_.samples.push_back(sample);
     }
@@ -132,12 +129,11 @@ class Engagement {
   /// place nearby serve again, together with the strokes that came since.
   void gather(std::size_t number, Place middle, double whole) {
     const double slack = radius_;
-    if (gathered_ && length(middle - gathered_at_) + whole / 2 <= slack) {
+    if (length(middle - gathered_at_) + whole / 2 <= slack) {
       for (; gathered_upto_ < number; ++gathered_upto_)
         if (!repeated_[gathered_upto_]) near_.push_back(static_cast<std::uint32_t>(gathered_upto_));
       return;
     }
-    gathered_ = true;
     gathered_at_ = middle, gathered_upto_ = number;
     const double reach = radius_ + slack;
     index_.near(middle, reach + widest_, near_);
@@ -152,19 +148,17 @@ class Engagement {
     const Cut& cut = cuts_[number];
     if (!(cut.to_z < cut.from_z)) return;
     const Place at = cut.stroke.from;
-    index_.near(at, radius_ + widest_, near_);
-    gathered_ = false;
+    std::vector<std::uint32_t> near;
+    index_.near(at, radius_ + widest_, near);
     std::vector<double> depths{cut.to_z, cut.from_z};
-    for (const std::uint32_t i : near_) {
-      const double z = highest(cuts_[i]);
-      if (z > cut.to_z + kSameLevel && z < cut.from_z) depths.push_back(z);
-    }
+    for (const std::uint32_t i : near)
+      depths.push_back(std::clamp(highest(cuts_[i]), cut.to_z, cut.from_z));
     std::sort(depths.begin(), depths.end());
     // The halving works because what is cut down to one depth is cut at every depth above it.
     std::size_t low = 0, high = depths.size() - 1;
     while (low < high) {
       const std::size_t middle = (low + high) / 2;
-      if (is_cut({at, radius_ - kSpeck}, at, 2 * radius_, near_, depths[middle]))
+      if (is_cut({at, radius_ - kSpeck}, at, 2 * radius_, near, depths[middle]))
         high = middle;
       else
         low = middle + 1;
@@ -180,7 +174,7 @@ class Engagement {
               double z) const {
     const double half = side * 0.7071067811865476, off = length(middle - disc.middle) - disc.radius;
     if (off > half || (side <= kSpeck && off > 0)) return true;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     std::vector<std::uint32_t> kept;
     for (const std::uint32_t i : near) {
       ask();
@@ -288,7 +282,7 @@ class Engagement {
   void find_lasting() {
     const auto& samples = report_.samples;
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      double least = 360, mm = 0;
+      double least = kInfinity, mm = 0;
       for (std::size_t k = i; k < samples.size() && mm < kLasting - 1e-9; ++k) {
         if (samples[k].entry) break;
         least = std::min(least, samples[k].engagement);
@@ -313,7 +307,7 @@ class Engagement {
   double radius_, widest_, spacing_;
   SimulateReport& report_;
   /// The top of the stock, from which the tool comes down.
-  double top_ = -1e300;
+  double top_ = -kInfinity;
   StrokeIndex index_;
   RimCover rim_;
   /// The width, across the heading, of the rim that was in material at the last sample.
@@ -324,8 +318,7 @@ class Engagement {
   std::vector<std::uint32_t> near_;
   /// Those of near_ that covered some of the rim at the last sample.
   std::vector<std::uint32_t> useful_, found_;
-  bool gathered_ = false;
-  Place gathered_at_;
+  Place gathered_at_{kInfinity, kInfinity};
   std::size_t gathered_upto_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include "cut_path.hpp"
 #include "lekalo/base/stop.hpp"
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -54,7 +55,7 @@ std::vector<Piece> pieces_of(const std::vector<Move>& moves, const SimulateOptio
       const Place in = flat > 0 ? heading(s, s.from) : Place{}, out = flat > 0 ? heading(s, s.to) : Place{};
       const double level = flat / whole, up = rise / whole;
       // Across the axis of a helix of slope up / level the acceleration is (v level)^2 / radius.
-      const double limit = s.arc ? o.acceleration * s.radius / (level * level) : 1e300;
+      const double limit = s.arc ? o.acceleration * s.radius / (level * level) : kInfinity;
       pieces.push_back(
           {share * whole, feed, {level * in.x, level * in.y, up}, {level * out.x, level * out.y, up}, limit});
     }
@@ -67,19 +68,20 @@ class Turned {
  public:
   explicit Turned(const std::vector<Piece>& pieces) {
     double s = 0, turn = 0;
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      if (i > 0) turn += turn_between(pieces[i - 1].last, pieces[i].first);
+    Direction before = pieces.front().first;
+    for (const Piece& piece : pieces) {
+      turn += turn_between(before, piece.first);
       at_.push_back(s), before_.push_back(turn);
-      s += pieces[i].length, turn += turn_between(pieces[i].first, pieces[i].last);
+      s += piece.length, turn += turn_between(piece.first, piece.last);
       at_.push_back(s), before_.push_back(turn);
+      before = piece.last;
     }
   }
   [[nodiscard]] double operator()(double s) const {
-    if (at_.empty() || s <= at_.front()) return 0;
+    if (s <= at_.front()) return 0;
     if (s >= at_.back()) return before_.back();
     const auto k = static_cast<std::size_t>(std::upper_bound(at_.begin(), at_.end(), s) - at_.begin());
-    const double gap = at_[k] - at_[k - 1];
-    return gap > 0 ? before_[k - 1] + (s - at_[k - 1]) / gap * (before_[k] - before_[k - 1]) : before_[k];
+    return before_[k - 1] + (s - at_[k - 1]) / (at_[k] - at_[k - 1]) * (before_[k] - before_[k - 1]);
   }
 
  private:
@@ -101,8 +103,8 @@ double machine_seconds(const std::vector<Move>& moves, const SimulateOptions& o)
     s += pieces[i - 1].length;
     const double cosine = dot(pieces[i - 1].last, pieces[i].first);
     // The sine of half the angle between the two directions at the corner.
-    const double half = std::sqrt(std::max(0.0, 0.5 * (1 + cosine)));
-    double radius = half < 1 ? kJunctionDeviation * half / (1 - half) : 1e300;
+    const double half = std::sqrt(std::clamp(0.5 * (1 + cosine), 0.0, 1.0));
+    double radius = kJunctionDeviation * half / (1 - half);  // infinite straight on
     const double bend = turned(s + kWindow / 2) - turned(s - kWindow / 2);
     if (bend > 0) radius = std::min(radius, kWindow / bend);
     const double slower = std::min(pieces[i - 1].feed, pieces[i].feed);

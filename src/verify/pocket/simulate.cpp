@@ -70,15 +70,13 @@ double left_before(CutPath path, const PocketReach& reach, double radius) {
 
 /// Returns the fastest feed that cuts. The fastest twentieth of what cuts is left out, so that a link that
 /// grazes a wall does not set the bound.
-double cutting_feed(const std::vector<Move>& moves, const std::vector<EngagementSample>& samples) {
+double cutting_feed(const std::vector<EngagementSample>& samples) {
   // Each feed stands with the length cut at it.
   std::vector<std::pair<double, double>> feeds;
   double whole = 0;
-  std::size_t next = 0;
   for (const EngagementSample& sample : samples) {
-    while (next < moves.size() && moves[next].line < sample.line) ++next;
-    if (sample.engagement < 3 || next == moves.size()) continue;
-    feeds.emplace_back(moves[next].feed, sample.length);
+    if (sample.engagement < kAirDegrees) continue;
+    feeds.emplace_back(sample.feed, sample.length);
     whole += sample.length;
   }
   std::sort(feeds.rbegin(), feeds.rend());
@@ -149,7 +147,7 @@ Result<SimulateReport> simulate(const Document& program, const Document& pocket,
   };
   share_out(2, o.threads, [&](std::size_t k) { k == 0 ? measure_what_is_cut() : measure_what_is_left(); });
   report.seconds = machine_seconds(moves, o);
-  const double feed = cutting_feed(moves, report.samples);
+  const double feed = cutting_feed(report.samples);
   if (feed > 0) {
     // No depth can take off more than what can be reached, though measured sums may exceed it by their
     // rounding.

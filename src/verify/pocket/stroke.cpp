@@ -21,25 +21,16 @@ Place on_circle(const Stroke& arc, Place direction) {
   return arc.centre + (arc.radius / length(direction)) * direction;
 }
 
-/// Says whether the direction lies in the cone of the arc.
-/// \pre the arc turns by less than half a turn
-bool faces(const Stroke& arc, Place direction) {
-  const double a = cross(arc.from - arc.centre, direction), b = cross(direction, arc.to - arc.centre);
-  return arc.ccw ? a >= 0 && b >= 0 : a <= 0 && b <= 0;
-}
-
 void keep_if_on(const Stroke& a, const Stroke& b, Place p, std::vector<Place>& places) {
   const double slack = 1e-9;
   if (distance(p, a) <= slack && distance(p, b) <= slack) places.push_back(p);
 }
 
 void line_with_circle(const Stroke& line, const Stroke& arc, std::vector<Place>& places) {
-  const double whole = length(line.to - line.from);
-  if (!(whole > 0)) return;
-  const Place way = (1 / whole) * (line.to - line.from);
+  const Place way = unit(line.to - line.from);
   const double off = cross(way, arc.centre - line.from);
   const double root = arc.radius * arc.radius - off * off;
-  if (!(root >= 0)) return;
+  if (!(root >= 0)) return;  // nor is it for a line of no length, whose way is no number
   const Place foot = line.from + dot(way, arc.centre - line.from) * way;
   const double half = std::sqrt(root);
   keep_if_on(line, arc, foot + half * way, places);
@@ -93,6 +84,15 @@ Place heading(const Stroke& s, Place at) {
   return s.ccw ? left_of(out) : -1.0 * left_of(out);
 }
 
+/// The third product tells the cone from the one opposite, which is within the first two where the end of an arc is
+/// a rounding before its beginning.
+bool faces(const Stroke& arc, Place direction) {
+  const double hand = arc.ccw ? 1 : -1;
+  return hand * cross(arc.from - arc.centre, direction) >= 0 &&
+         hand * cross(direction, arc.to - arc.centre) >= 0 &&
+         dot(direction, arc.from + arc.to - 2 * arc.centre) >= 0;
+}
+
 Place nearest_on(const Stroke& s, Place p) {
   if (!s.arc) {
     const Place way = s.to - s.from;
@@ -101,8 +101,7 @@ Place nearest_on(const Stroke& s, Place p) {
     return s.from + t * way;
   }
   const Place out = p - s.centre;
-  if (dot(out, out) > 0 && faces(s, out) && dot(out, s.from + s.to - 2 * s.centre) > 0)
-    return on_circle(s, out);
+  if (dot(out, out) > 0 && faces(s, out)) return on_circle(s, out);
   return dot(p - s.from, p - s.from) <= dot(p - s.to, p - s.to) ? s.from : s.to;
 }
 
@@ -185,19 +184,15 @@ void add_arc(Place from, Place to, Place centre, bool ccw, double longest, std::
   const double radius = 0.5 * (length(from - centre) + length(to - centre));
   Place at = from - centre;
   const Place end = to - centre;
-  bool first = true;
-  for (int quarter = 0; quarter < 4; ++quarter) {
+  // A full turn begins with a quarter, though nothing is left to turn by.
+  for (bool full = from.x == to.x && from.y == to.y;; full = false) {
     const double turn = angle_between(at, end) * (ccw ? 1 : -1);
-    const bool full = first && from.x == to.x && from.y == to.y;
-    first = false;
     if (!full && turn >= 0 && turn <= kPi / 2 + 1e-9) break;
     const Place next = ccw ? left_of(at) : -1.0 * left_of(at);
     add_halved({true, ccw, centre + at, centre + next, centre, radius}, longest, strokes);
     at = next;
-    if (full) continue;
   }
-  if (length(centre + at - to) > 0)
-    add_halved({true, ccw, centre + at, to, centre, radius}, longest, strokes);
+  add_halved({true, ccw, centre + at, to, centre, radius}, longest, strokes);
 }
 
 }  // namespace lekalo::verify

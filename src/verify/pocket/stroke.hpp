@@ -35,6 +35,8 @@ struct Stroke {
 /// Returns the unit direction of travel at a place on the stroke.
 /// \pre a stroke of positive length
 [[nodiscard]] Place heading(const Stroke& stroke, Place at);
+/// Says whether the direction lies in the cone of an arc, or is none.
+[[nodiscard]] bool faces(const Stroke& arc, Place direction);
 /// Returns the place on the stroke that is nearest.
 [[nodiscard]] Place nearest_on(const Stroke& stroke, Place p);
 [[nodiscard]] double distance(Place p, const Stroke& stroke);
