@@ -131,9 +131,7 @@ TEST(VerifyStroke, CrossingsLieOnBoth) {
   EXPECT_EQ(crossings(kQuarter, line({3, 0}, {3, 5})).size(), 2U);
   EXPECT_EQ(crossings(kQuarter, {true, false, {5, -1}, {3, 1}, {5, 1}, 2}).size(), 2U);
   // So close, two circles are one, and two lines parallel.
-  const auto beside = [](double by) {
-    return Stroke{true, true, {2 + by, 0}, {by, 2}, {by, 0}, 2};
-  };
+  const auto beside = [](double by) { return Stroke{true, true, {2 + by, 0}, {by, 2}, {by, 0}, 2}; };
   EXPECT_EQ(crossings(beside(0), beside(1e-12)).size(), 0U);
   EXPECT_EQ(crossings(beside(0), beside(1.5e-12)).size(), 1U);
   EXPECT_EQ(crossings(line({0, 0}, {1, 0}), line({0, 0}, {1, 1e-12})).size(), 0U);
@@ -163,6 +161,9 @@ TEST(VerifyStroke, ARayIsCrossedByWhatBeginsOnItAndNotByWhatEndsOnIt) {
     EXPECT_TRUE(crosses_ray_to_the_right(s, {0, 1}));
     EXPECT_FALSE(crosses_ray_to_the_right(s, {0, 3}));
   }
+  const Stroke five{true, true, {5, 0}, {3, 4}, {0, 0}, 5};
+  EXPECT_TRUE(crosses_ray_to_the_right(five, {3.999, 3}));
+  EXPECT_FALSE(crosses_ray_to_the_right(five, {4, 3}));
   // An end may be a rounding farther out than the radius.
   const Stroke high{true, true, {2, 0}, {0, 2 + 1e-9}, {0, 0}, 2};
   EXPECT_TRUE(crosses_ray_to_the_right(high, {-1, 2 + 5e-10}));
@@ -236,6 +237,7 @@ TEST(VerifyStroke, ArcsAreCutIntoQuartersAndTheseIntoHalves) {
     expect_arc({0.8, -0.6 * hand}, {0.8, 0.6 * hand}, ccw, 100, 1, 2 * std::atan(0.75) * 180 / kPi);
     expect_arc({0.6, 0.8 * hand}, {-0.6, 0.8 * hand}, ccw, 100, 1, 2 * std::atan(0.75) * 180 / kPi);
     expect_arc({1, 0}, {1 + 1e-9, 0}, ccw, 100, 1, 0);
+    expect_arc({1, 0}, {-1.5e-9, hand}, ccw, 100, 2, 90 + 1.5e-9 * 180 / kPi);
     expect_arc({1, 0}, {0, hand}, ccw, 100, 1, 90);
     expect_arc({1, 0}, {-1, 0}, ccw, 100, 2, 180);
     expect_arc({1, 0}, {0, -hand}, ccw, 100, 3, 270);
@@ -411,7 +413,8 @@ TEST(VerifyCutPath, ACutThatRunsWhereAWiderOneRanAsDeepIsRepeated) {
   EXPECT_EQ(again({cut(kQuarter, -1, 3), cut(kQuarter, -1, 3)}), "-r");
   EXPECT_EQ(again({cut(kQuarter, -1, 3), cut(kBack, -1, 3)}), "-r");
   EXPECT_EQ(again({cut(kQuarter, -1, 3), cut(line({3, 1}, {1, 3}), -1, 3)}), "--");
-  EXPECT_EQ(again({cut({true, true, {2, 0}, {0, 2}, {0, 0}, 2}, -1, 3), cut(line({2, 0}, {0, 2}), -1, 3)}), "--");
+  EXPECT_EQ(again({cut({true, true, {2, 0}, {0, 2}, {0, 0}, 2}, -1, 3), cut(line({2, 0}, {0, 2}), -1, 3)}),
+            "--");
   Stroke moved = there;
   moved.centre = {7, 7}, moved.ccw = false;
   EXPECT_EQ(again({cut(there, -1, 3), cut(moved, -1, 3)}), "-r");

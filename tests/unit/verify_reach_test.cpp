@@ -71,6 +71,25 @@ TEST(VerifyStrokeIndex, FindsWhatIsNearAsALookAtAllDoes) {
   EXPECT_LT(near.size(), 20U);
 }
 
+TEST(VerifyStrokeIndex, WithinASquareABoxIsNearThatIsNoFartherOff) {
+  StrokeIndex index({0, 0}, {8, 8}, 16);
+  const Stroke all[] = {line({1, 4}, {3, 4}), line({5, 4}, {7, 4}), line({4, 1}, {4, 3}),
+                        line({4, 5}, {4, 7})};
+  for (std::uint32_t i = 0; i < 4; ++i) index.add(i, all[i]);
+  const auto near = [&](Place p) {
+    std::vector<std::uint32_t> numbers;
+    index.near(p, 1, numbers);
+    return numbers;
+  };
+  EXPECT_EQ(near({4, 4}), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+  EXPECT_EQ(near({2, 2.5}), (std::vector<std::uint32_t>{}));
+  EXPECT_EQ(near({6, 5.5}), (std::vector<std::uint32_t>{}));
+  EXPECT_EQ(near({2, 4}), (std::vector<std::uint32_t>{0}));
+  EXPECT_EQ(near({6, 4}), (std::vector<std::uint32_t>{1}));
+  EXPECT_EQ(near({4, 2}), (std::vector<std::uint32_t>{2}));
+  EXPECT_EQ(near({4, 6}), (std::vector<std::uint32_t>{3}));
+}
+
 TEST(VerifyStrokeIndex, AnEmptyOneHasNothingNear) {
   const StrokeIndex none;
   std::vector<std::uint32_t> near{1, 2};
@@ -133,6 +152,30 @@ TEST(VerifyAir, BordersNearAPlaceAreThoseOfItsStripAndOfTheDrawingInIt) {
   EXPECT_EQ(count(12, -3, 2.9), 0U);
   EXPECT_EQ(count(12, 13, 3), 7U);
   EXPECT_EQ(count(12, 13, 2.9), 0U);
+}
+
+TEST(VerifyAir, OfEverySideTheEdgeAndItsNeighboursAreInTheStrip) {
+  const Place beside[] = {{5, -2}, {12, 5}, {5, 12}, {-2, 5}};
+  for (std::size_t side = 0; side < 4; ++side) {
+    std::vector<char> open(4, 0);
+    open[side] = 1;
+    const Air air(kSquare, open, 4);
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_EQ(air.in_strips(beside[k]), k == side);
+      EXPECT_EQ(air.borders_near(beside[k], 1).size(), k == side ? 7U : 0U);
+    }
+  }
+}
+
+TEST(VerifyAir, WhereAStripMeetsTheDrawingTheDrawingCounts) {
+  std::vector<Stroke> drawn = kSquare;
+  for (const Stroke& s : kSquare) drawn.push_back(line(s.from + Place{12, 0}, s.to + Place{12, 0}));
+  std::vector<char> open(8, 0);
+  open[1] = 1;
+  const Air air(drawn, open, 4);
+  EXPECT_TRUE(air.holds({11, 5}));
+  EXPECT_TRUE(air.in_strips({13, 5}));
+  EXPECT_FALSE(air.holds({13, 5}));
 }
 
 TEST(VerifyAir, TheStripOfAnArcLiesBetweenTwoCircles) {
@@ -283,6 +326,9 @@ TEST(VerifyPocketReach, DepthIsTheDistanceFromTheOutline) {
     EXPECT_TRUE(room.allowed({3, 10}));
     EXPECT_FALSE(room.allowed({2.9999, 10}));
     EXPECT_TRUE(room.allowed({2.9999, 10}, 0.001));
+    EXPECT_TRUE(room.allowed({2.75, 10}, 0.25));
+    EXPECT_TRUE(room.allowed({3 - 5e-10, 10}));
+    EXPECT_FALSE(room.allowed({3 - 1.5e-9, 10}));
     EXPECT_EQ(room.from_allowed({20, 10}), 0);
     EXPECT_NEAR(room.from_allowed({1, 10}), 2, 1e-12);
     EXPECT_NEAR(room.from_allowed({1, 1}), std::hypot(2, 2), 1e-12);
@@ -318,6 +364,21 @@ TEST(VerifyPocketReach, ADiscIsAsDeepAsItsRadius) {
   EXPECT_NEAR(disc.depth({4, 5}), 2, 1e-12);
   EXPECT_NEAR(disc.depth({7, 9}), -3, 1e-12);
   EXPECT_NEAR(disc.from_allowed({4, 5}), 1, 1e-12);
+  // Arcs that begin elsewhere are cut where they are lowest, highest and outermost.
+  for (const bool ccw : {true, false}) {
+    const PocketReach turned =
+        reach(fmt::format(R"({{"outer": [{{"arc": {{"from": [3, 4], "to": [-3, -4], )"
+                          R"("centre": [0, 0], "ccw": {0}}}}}, {{"arc": {{"from": [-3, -4], )"
+                          R"("to": [3, 4], "centre": [0, 0], "ccw": {0}}}}}]}})",
+                          ccw),
+              2);
+    for (int degrees = 1; degrees < 360; degrees += 2)
+      for (const double r : {0.5, 2.5, 4.5, 4.999, 5.001, 6.0}) {
+        const Place p{r * std::cos(degrees * kDegree), r * std::sin(degrees * kDegree)};
+        EXPECT_NEAR(turned.depth(p), 5 - r, 1e-9) << degrees;
+        EXPECT_NEAR(turned.from_allowed(p), std::max(0.0, r - 3), 1e-9) << degrees;
+      }
+  }
   // Three quarters of a circle, about an inner corner that the tool goes round.
   const PocketReach three = reach(
       R"({"outer": [{"line": {"from": [0, 0], "to": [10, 0]}}, {"arc": {"from": [10, 0], "to": [0, -10], "centre": [0, 0], "ccw": true}},

@@ -6,10 +6,12 @@
 
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "lekalo/verify/simulate.hpp"
+#include "verify/pocket/cut_path.hpp"
 
 namespace lekalo::verify::verify_small_cuts_test {
 namespace {
@@ -285,6 +287,231 @@ TEST(VerifySmallCuts, AfterOtherTools) {
        .cut = "180 180 180 0 0.1 0 0 1.3 1.5707963 0 0.45987213 0.2471384; 31 121.73333 -10.5 17092.033 "
               "6472.0328 0"},
   });
+}
+
+TEST(VerifySmallCuts, AtTheBounds) {
+  const std::string cut = "G0 X0.3 Y0.3 Z1\nG1 Z-1 F300\nG1 X1.2 F600\nG0 Z1\n";
+  const std::string ramp = "G0 X0.3 Y0.3 Z1\nG1 Z0 F300\nG1 X0.6 Z-0.05 F600\n",
+                    rest = "X0.9 Z-0.1\nX0.3\nG0 Z1\n";
+  judge({
+      {.name = "as deep",
+       .pocket = kBox,
+       .program = cut + "G0 X0.3 Y0.6\nG1 Z-0.999999 F300\nG1 X1.2 Y0.5 F600\nG0 Z1\n",
+       .left = "64.125089 62.988414 0.5819592 0 1.5463446 0.55474976 1.5463446; 16 51.556641 25.244141 "
+               "12.948484; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "180 180 180 0 1.999999 0 0 1.8055385 0.11065722 1 1.311584 0.33231642; 48 166.1875 -187.19436 "
+              "24882.856 16583.435 0"},
+      {.name = "less deep",
+       .pocket = kBox,
+       .program = cut + "G0 X0.3 Y0.6\nG1 Z-0.9999985 F300\nG1 X1.2 Y0.5 F600\nG0 Z1\n",
+       .left = "41.799004 40.736861 0.94742861 0 1.5463446 0.89998797 1.5463446; 20 54.234375 41.511719 "
+               "31.425578; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "180 180 180 0 1.9999985 0 0 1.8055385 0.11065722 1 1.3115839 0.33231642; 48 166.1875 "
+              "-187.19431 24882.856 16583.435 0"},
+      {.name = "beside what is as deep",
+       .pocket = kBox,
+       .program = cut,
+       .earlier = {{"G0 X0.3 Y0.5 Z1\nG1 Z-0.999999 F300\nG1 X1.2 Y0.45 F600\nG0 Z1\n", 0.5}},
+       .left = "57.54084 56.42544 0.66922965 0 1.5463446 0.65656494 0.89929111; 18 58.736328 31.470703 "
+               "16.721843; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "72.274316 107.4576 93.976765 0 1 0 0 0.9 0 0 0.62390593 0.080974343; 24 77.25 -89.1 6522.9872 "
+              "60.32634 0"},
+      {.name = "beside what is less deep",
+       .pocket = kBox,
+       .program = cut,
+       .earlier = {{"G0 X0.3 Y0.5 Z1\nG1 Z-0.9999985 F300\nG1 X1.2 Y0.45 F600\nG0 Z1\n", 0.5}},
+       .left = "41.799004 40.736861 0.94742861 0 1.5463446 0.89998797 1.5463446; 20 54.234375 41.511719 "
+               "31.425578; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "180 180 180 0 1 0 0 0.9 0 0 0.62390593 0.225; 24 77.25 -89.1 16200 8100 0"},
+      {.name = "leaf beside air",
+       .pocket = kOpenBox,
+       .program = kDown + "G1 X1.7 F600\nG0 Z1\n",
+       .left = "48.893282 47.274821 0.93147955 0 1.5718638 0.803328 1.5718638; 24 88.95 55.71 44.758648; 2 "
+               "0.032 1.9946667 0.27664261 0.043690667",
+       .cut =
+           "180 180 180 9.0909091 0.1 0 0 1.4 0 0 0.4613553 0.2689083; 33 141.8 -11.3 18122.331 9061.1656 0",
+       .tool = 0.512},
+      {.name = "wide",
+       .pocket = kBox,
+       .program = kDown + "G1 X1.2 F600\nG0 Z1\n",
+       .earlier = {{"G0 X0.4 Y-1.3 Z1\nG1 Z-0.1 F300\nG1 X1.2 F600\nG0 Z1\n", 3}},
+       .left = "48.316441 47.685026 0.94742861 0 1.5466175 0.79934697 1.2661154; 16 45.162109 40.435547 "
+               "29.177253; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "113.721 117.75068 116.5136 0 0.1 0 0 0.9 0 0 0.4113553 0.15829878; 24 77.25 -8.1 10253.839 "
+              "8100 0"},
+      {.name = "through the wall",
+       .pocket = kBox,
+       .program = kDown + "G1 X1.2 F600\nX1.7 Y0.5\nG0 Z1\n",
+       .left = "49.361811 48.33915 0.90469438 0.35006018 1.5463521 0.7830447 1.5463521; 17 46.007812 "
+               "35.957031 25.825923; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "180 180 180 0 0.1 0 0 1.4385165 0.38050638 0 0.46520694 0.35962295; 39 170.41667 -13.561484 "
+              "26987.982 13487.982 0"},
+      {.name = "twice down",
+       .pocket = kBox,
+       .program = kDown + "G1 X0.302 F600\nG0 Z1\nG0 X0.3\nG0 Z-0.1\nG0 Z1\n",
+       .left = "12.762907 12.160144 1.8867962 0 1.5463446 1.3489861 1.5463446; 15 44.558594 31.128906 "
+               "43.347492; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "0 180 180 0 0.1 0 0 0.002 0 1 0.48870994 0.0005; 1 0.602 -0.098 180 90 0"},
+      {.name = "short lines",
+       .pocket = kBox,
+       .program = ramp + "X0.602\nX0.608\n" + rest,
+       .left = "32.099001 31.197803 1.2723536 0 1.5463446 1.0499834 1.5463446; 19 53.582031 41.351562 "
+               "39.540599; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "0 180 180 0 1.192 0.1 0 1.2 3.1415927 0 0.43862227 0.152; 30 79.011333 -7.7944444 20700 10350 "
+              "112"},
+      {.name = "longer lines",
+       .pocket = kBox,
+       .program = ramp + "X0.612\nX0.624\n" + rest,
+       .left = "32.099001 31.197803 1.2723536 0 1.5463446 1.0499834 1.5463446; 19 53.582031 41.351562 "
+               "39.540599; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "180 180 180 0 0.816 0.1 0 1.2 3.1415927 0 0.43856896 0.156; 30 79.226667 -7.7944444 20700 "
+              "10350 81"},
+      {.name = "short lines of another entry",
+       .pocket = kBox,
+       .program = ramp + "X0.602\nG0 Z1\nG1 Z-0.05 F300\nX0.608 F600\n" + rest,
+       .left = "32.099001 31.197803 1.2723536 0 1.5463446 1.0499834 1.5463446; 19 53.582031 41.351562 "
+               "39.540599; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "180 180 180 0 0.872 0.1 0 1.2 3.1415927 1 0.74783278 0.152; 30 79.011333 -7.7944444 20700 "
+              "10350 82"},
+      {.name = "at the end",
+       .pocket = kBox,
+       .program = ramp + "X0.602\nX0.608",
+       .left = "12.956768 12.364404 1.7344048 0 1.5463446 1.3459883 1.5463446; 23 64.074219 47.414062 "
+               "70.317938; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "0 180 180 0 0.3 0.05 0 0.308 0 0 0.24999412 0.002; 9 18.834667 -0.82811111 5580 2790 28"},
+      {.name = "there and back",
+       .pocket = kBox,
+       .program = kDown + "G1 X0.75 F600\nX0.3\nG0 X0.5\nG0 Z1\n",
+       .left = "27.248465 26.423833 1.499435 0 1.5463446 1.1249894 1.5463446; 21 64.166016 43.572266 "
+               "48.975688; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "180 180 180 59.090909 0.1 0 0 1.1 6.2831853 0 0.47133761 0.1125; 10 21.2 -2.3 1800 900 0",
+       .spacing = 10},
+      {.name = "lasting",
+       .pocket = kBox,
+       .program = kDown + "G1 X0.5 F600\nX0.3\nG0 Z1\n",
+       .left = "19.164885 18.46656 1.8867962 0 1.5463446 1.2499894 1.5463446; 24 77.408203 47.587891 "
+               "66.867121; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "180 180 180 50 0.1 0 0 0.4 3.1415927 0 0.3813553 0.05; 10 17 -3 2700 1350 0"},
+      {.name = "not lasting",
+       .pocket = kBox,
+       .program = kDown + "G1 X0.4 F600\nG0 Z1\n",
+       .left = "15.931841 15.283255 1.8867962 0 1.5463446 1.2999834 1.5463446; 15 45.302734 31.966797 "
+               "41.896918; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "0 180 180 0 0.1 0 0 0.1 0 0 0.33045516 0.025; 3 3.1666667 -0.5 1080 540 0"},
+      {.name = "twentieth",
+       .pocket = pocket({"0, 0", "L 3 0", "L 3 0.75", "L 0 0.75", "L 0 0"}),
+       .program = "G0 X0.25 Y0.25 Z1\nG1 Z-0.125 F300\nG1 X2.75 F600\nG0 Z1\n",
+       .earlier = {{"G0 X0 Y0.375 Z1\nG1 Z-0.125 F300\nG1 X2.5 F600\nG0 Z1\n", 0.5}},
+       .left = "81.503697 80.297658 0.483882 0 2.1963848 0.40625 0.85087978; 11 55.296875 27.28125 "
+               "9.1259596; 4 17.979167 5.2083333 0.88822 0.13888889",
+       .cut = "155.70481 180 155.70481 0 0.125 0 0 2.5 0 0 0.57740961 0.21484375; 20 131.875 -7.125 "
+              "6013.5485 926.4341 0",
+       .spacing = 0.125},
+  });
+}
+
+TEST(VerifySmallCuts, UnderAPlungingToolMaterialIsFoundOnEverySide) {
+  const auto hole = [](double x, double y, const char* down) {
+    return fmt::format("G0 X{} Y{} Z1\n{} Z-0.1\nG1 X{}\nG0 Z1\n", 0.8 + x, 0.5 + y, down, 0.802 + x);
+  };
+  for (const int left_out : {0, 1, 2, 3, 4}) {
+    // Three holes about the place leave a speck on the fourth side.
+    std::string program = "G21 G90 G17 F300\n";
+    for (const int side : {0, 1, 2, 3})
+      if (side != left_out)
+        program += hole((side & 1) != 0 ? 0.11 : -0.11, (side & 2) != 0 ? 0.11 : -0.11, "G1");
+    program += hole(0, 0, "G0");
+    SimulateOptions options;
+    options.tool_diameter = 0.5;
+    const auto report = simulate({"p", program}, {"pocket.json", kBox}, options);
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_NEAR(report->rapid_cut_mm, left_out == 4 ? 0 : 0.1, 1e-12) << left_out;
+  }
+}
+
+TEST(VerifySmallCuts, AThousandSpotsAreTold) {
+  SimulateOptions options;
+  options.tool_diameter = 0.06;
+  const std::string slot = "G21 G90 G17\nG0 X0.7 Y0.5 Z1\nG1 Z-0.1 F300\nX0.9\n";
+  const auto report = simulate({"p", slot}, {"pocket.json", kBox}, options);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_EQ(report->uncut.size(), 1000U);
+}
+
+TEST(VerifySmallCuts, SomeLinesAloneGiveTheSameSamples) {
+  SimulateOptions options;
+  options.tool_diameter = 0.5, options.threads = 1;
+  const std::string text = "G21 G90 G17\n" + kDown + "G1 X0.6 F600\nY0.6\nX1.1\nY0.3\nX0.6\nG0 Z1\n",
+                    before = "G0 X0.4 Y0.4 Z1\nG1 Z-0.1 F300\nX0.45\nX0.5\nX0.9\nX1.2\nG0 Z1\n";
+  const Document program{"p", text}, box{"pocket.json", kBox};
+  const std::vector<EarlierProgram> earlier{{{"earlier", before}, 0.2}};
+  std::vector<Progress> told;
+  const auto whole = simulate(program, box, options, earlier, [&](const Progress& p) { told.push_back(p); });
+  ASSERT_TRUE(whole) << whole.error().message;
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].fraction, 0);
+  for (const std::vector<LineRange>& lines :
+       {std::vector<LineRange>{{4, 4}}, {{5, 6}, {8, 30}}, {{1, 3}}, {}}) {
+    const auto some = engagement_on(program, box, options, earlier, lines);
+    ASSERT_TRUE(some) << some.error().message;
+    std::size_t k = 0;
+    for (const EngagementSample& sample : whole->samples)
+      for (const LineRange& range : lines)
+        if (sample.line >= range.first && sample.line <= range.last) {
+          ASSERT_LT(k, some->size());
+          EXPECT_EQ((*some)[k].x, sample.x);
+          EXPECT_EQ((*some)[k].line, sample.line);
+          EXPECT_EQ((*some)[k].feed, 600);
+          EXPECT_NEAR((*some)[k++].engagement, sample.engagement, 1e-9);
+        }
+    EXPECT_EQ(k, some->size());
+  }
+  const auto stretches = cut_stretches({"p", "G21 G90 G17\nG0 X0 Y0 Z1\nG1 Z-1 F9\nX5 Z-3\nX900 Z-2\n"}, 0);
+  ASSERT_TRUE(stretches) << stretches.error().message;
+  ASSERT_EQ(stretches->size(), 3U);
+  EXPECT_EQ((*stretches)[0].high_z, 0);
+  EXPECT_EQ((*stretches)[1].high_z, -1);
+  EXPECT_EQ((*stretches)[2].high_z, -2);
+}
+
+/// Half a million samples, and 64 more for each line that cuts.
+TEST(VerifySmallCuts, AFarWayHasAsManySamplesAsItMayHave) {
+  CutPath path;
+  for (const auto& [from, to, number] :
+       {std::tuple{0.0, 1e7, 1}, {1e7, 1e7 + 1e5, 2}, {1e7 + 1e5, 1e7 + 2e5, 2}}) {
+    Cut one;
+    one.stroke.from = {from, 0}, one.stroke.to = {to, 0};
+    one.from_z = one.to_z = -1, one.radius = 1, one.line = static_cast<std::size_t>(number);
+    path.cuts.push_back(one);
+  }
+  SimulateOptions options;
+  options.tool_diameter = 2;
+  SimulateReport report;
+  measure_engagement_on(path, Air(), options, {{2, 2}}, report);
+  const double spacing = (1e7 + 2e5) / (5e5 + 64 * 2);
+  EXPECT_EQ(report.samples.size(), 2 * static_cast<std::size_t>(std::ceil(1e5 / spacing)));
+}
+
+TEST(VerifySmallCuts, CornersAreLookedForInAtMostTwoThousandRows) {
+  // Where a tool of 1 mm cannot get to in the corners is less than the millimetre between two rows.
+  const auto found = [](int length) {
+    const std::string room = fmt::format("L {} 0", length), up = fmt::format("L {} 3", length);
+    const auto made = PocketReach::make({"pocket.json", pocket({"0, 0", room, up, "L 0 3", "L 0 0"})}, 1, 4);
+    SimulateReport report;
+    if (made) find_unreachable(*made, 1, report);
+    return report.unreachable.size();
+  };
+  EXPECT_EQ(found(20), 4U);
+  EXPECT_EQ(found(2000), 0U);
+}
+
+TEST(VerifySmallCuts, APathTooLongForItsToolIsRefused) {
+  SimulateOptions options;
+  options.tool_diameter = 0.001;
+  const auto report =
+      simulate({"p", "G21 G90 G17\n" + kDown + "G1 X9000 F9\n"}, {"pocket.json", kBox}, options);
+  ASSERT_FALSE(report);
+  EXPECT_TRUE(report.error().message.starts_with("p:4: the path in the stock is longer than"));
 }
 
 /// A line that ran twice with two feeds had that of its first run, and the bound was ten times too high.

@@ -234,10 +234,7 @@ void measure_gouge(const CutPath& path, const PocketReach& pocket, SimulateRepor
   std::vector<Sounded> strokes;
   for (const Stroke& stroke : path.strokes) {
     ask();
-    if (length(stroke.to - stroke.from) > 0)
-      strokes.push_back(sounded(stroke, pocket));
-    else
-      least = std::min(least, pocket.depth(stroke.from));
+    strokes.push_back(sounded(stroke, pocket));
   }
   // Those that may lie farthest outside come first. Of a path far away hardly any other is cut into parts.
   std::sort(strokes.begin(), strokes.end(),

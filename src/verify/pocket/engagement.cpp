@@ -56,11 +56,10 @@ class Engagement {
 
   /// Fills the samples on these lines.
   void measure_on(const std::vector<LineRange>& lines) {
-    auto range = lines.begin();
     for (std::size_t i = 0; i < cuts_.size(); ++i) {
-      while (range != lines.end() && range->last < cuts_[i].line) ++range;
-      if (range == lines.end()) return;
-      if (i >= first_ && cuts_[i].line >= range->first) measure(i);
+      // A subprogram's lines come again, and earlier programs have lines of the same numbers.
+      const auto range = std::ranges::lower_bound(lines, cuts_[i].line, {}, &LineRange::last);
+      if (i >= first_ && range != lines.end() && cuts_[i].line >= range->first) measure(i);
       if (!repeated_[i]) index_.add(static_cast<std::uint32_t>(i), cuts_[i].stroke);
     }
   }

@@ -28,9 +28,8 @@ void add_side(const Side& side, std::vector<Stroke>& strokes) {
   }
   const Place centre = middle(side.centre);
   const double r = middle(side.radius);
-  constexpr double kWhole = 1e30;
   std::vector<Stroke> quarters;
-  add_arc(from, to, centre, side.ccw, kWhole, quarters);
+  add_arc(from, to, centre, side.ccw, kInfinity, quarters);
   for (const Stroke& q : quarters) {
     // At most one of the four extreme places lies inside a quarter turn; the ends of the stroke do not count.
     Stroke rest = q;
@@ -161,7 +160,6 @@ void PocketReach::find_outline() {
   std::vector<Place> cuts;
   for (const Stroke& s : all) {
     ask(1 + all.size() / 4);
-    if (!(length(s) > 0)) continue;
     cuts.clear();
     for (const Stroke& other : all) {
       if (&other == &s) continue;
@@ -197,7 +195,6 @@ void PocketReach::sort_rows() {
 /// Counts the crossings of a ray to the right; an odd number means inside. Every stroke is monotone in y and
 /// half open.
 bool PocketReach::in_drawing(Place p) const {
-  if (!(p.x >= low_.x && p.x <= high_.x && p.y >= low_.y && p.y <= high_.y)) return false;
   const auto row =
       static_cast<std::size_t>(std::clamp((p.y - low_.y) / row_height_, 0.0, static_cast<double>(kRows - 1)));
   bool in = false;
@@ -233,32 +230,19 @@ void PocketReach::find_limit() {
       const bool thorn = std::abs(cross(a, b)) <= 1e-9 && dot(a, b) < 0;
       // The pocket bends round no other corner.
       if (!(cross(a, b) < -1e-12 || thorn)) continue;
-      add_arc(v + clearance_ * a, v + clearance_ * b, v, false, 1e30, carriers);
+      add_arc(v + clearance_ * a, v + clearance_ * b, v, false, kInfinity, carriers);
     }
-  }
-  struct Boxed {
-    Place low, high;
-  };
-  std::vector<Boxed> boxes(carriers.size());
-  for (std::size_t i = 0; i < carriers.size(); ++i) {
-    box_of(carriers[i], boxes[i].low, boxes[i].high);
-    boxes[i].low = boxes[i].low - Place{1e-9, 1e-9}, boxes[i].high = boxes[i].high + Place{1e-9, 1e-9};
   }
   StrokeIndex index(low_, high_, std::max(clearance_, 1e-3 * length(high_ - low_)));
   for (std::size_t i = 0; i < carriers.size(); ++i) index.add(static_cast<std::uint32_t>(i), carriers[i]);
   std::vector<std::uint32_t> close;
   std::vector<Place> cuts;
-  for (std::size_t i = 0; i < carriers.size(); ++i) {
-    const Stroke& s = carriers[i];
-    if (!(length(s) > 0)) continue;
+  for (const Stroke& s : carriers) {
+    Place low, high;
+    box_of(s, low, high);
     cuts.clear();
-    index.near(0.5 * (boxes[i].low + boxes[i].high), 0.5 * length(boxes[i].high - boxes[i].low), close);
-    for (const std::uint32_t k : close) {
-      if (k == i || !(boxes[i].low.x <= boxes[k].high.x && boxes[k].low.x <= boxes[i].high.x &&
-                      boxes[i].low.y <= boxes[k].high.y && boxes[k].low.y <= boxes[i].high.y))
-        continue;
-      add_crossings(s, carriers[k], cuts);
-    }
+    index.near(0.5 * (low + high), 0.5 * length(high - low) + 1e-9, close);
+    for (const std::uint32_t k : close) add_crossings(s, carriers[k], cuts);
     for (const Stroke& piece : cut_at(s, cuts))
       if (allowed(at_share(piece, 0.5))) limit_.push_back(piece);
   }

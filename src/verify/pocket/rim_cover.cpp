@@ -44,18 +44,17 @@ void RimCover::begin(Place at, double radius, const Stroke& s) {
 
 void RimCover::add_circle_cuts(Place centre, double circle_radius) {
   const Place way = at_ - centre;
-  const double square = dot(way, way);
-  if (!(square > 0)) return;
-  const double apart = std::sqrt(square);
+  const double square = dot(way, way), apart = std::sqrt(square);
   const double cosine = (circle_radius * circle_radius - square - radius_ * radius_) / (2 * apart * radius_);
-  if (!(std::abs(cosine) < 1)) return;
+  if (!(std::abs(cosine) < 1)) return;  // nor is it about the rim's own middle, where it is no number
   const double sine = std::sqrt(1 - cosine * cosine);
   const Place along = (1 / apart) * way;
   add_cut(cosine * along + sine * left_of(along));
   add_cut(cosine * along - sine * left_of(along));
 }
 
-/// Adds the cuts at which the rim meets a line parallel to `direction` (a unit vector), `offset` to its left.
+/// Adds the cuts at which the rim meets a line parallel to `direction` (a unit vector), `offset` to its left. A stroke
+/// of no length has none.
 void RimCover::add_line_cuts(Place through, Place direction, double offset) {
   const double sine = (offset - cross(direction, at_ - through)) / radius_;
   if (!(std::abs(sine) < 1)) return;
@@ -72,7 +71,6 @@ bool RimCover::cover(Gone&& is_gone) {
   bool changed = false;
   std::size_t next = 0;
   for (const Stretch& open : open_) {
-    while (next < cuts_.size() && cuts_[next] <= open.begin) ++next;
     for (double from = open.begin; from < open.end;) {
       double to = open.end;
       if (next < cuts_.size() && cuts_[next] < to) to = cuts_[next++];
@@ -112,7 +110,7 @@ bool RimCover::add(const Stroke& s, double swept_radius) {
     add_circle_cuts(s.centre, std::abs(s.radius - swept_radius));
     add_line_cuts(s.centre, unit(s.from - s.centre), 0);
     add_line_cuts(s.centre, unit(s.to - s.centre), 0);
-  } else if (length(s.to - s.from) > 0) {
+  } else {
     const Place way = unit(s.to - s.from);
     add_line_cuts(s.from, way, swept_radius);
     add_line_cuts(s.from, way, -swept_radius);
@@ -128,7 +126,7 @@ void RimCover::add_air(const Air& air) {
   for (const Stroke& s : air.borders_near(at_, radius_)) {
     if (s.arc)
       add_circle_cuts(s.centre, s.radius);
-    else if (length(s.to - s.from) > 0)
+    else
       add_line_cuts(s.from, unit(s.to - s.from), 0);
   }
   if (cover([&](Place rim) { return air.holds(rim); })) bound();
@@ -142,13 +140,13 @@ double RimCover::open_width() const {
   return width;
 }
 
-double RimCover::open_between(double low, double high) const {
+double RimCover::open_beyond(double low) const {
   double open = 0;
   // A stretch is summed in parts of at most a quarter turn, so that the angle between two directions is the
   // one that is meant.
   for (const Stretch& stretch : open_)
-    for (double from = std::max(low, stretch.begin), end = std::min(high, stretch.end); from < end;) {
-      const double to = std::min(end, std::floor(from) + 1);
+    for (double from = std::max(low, stretch.begin); from < stretch.end;) {
+      const double to = std::min(stretch.end, std::floor(from) + 1);
       open += std::abs(angle_between(direction_of(from), direction_of(to)));
       from = to;
     }

@@ -27,15 +27,15 @@ class RimCover {
   void add_air(const Air& air);
   [[nodiscard]] bool nothing_left() const { return open_.empty(); }
   /// Returns the angle of the rim that still meets material, radians. Rounding: 1e-7 for tools of some mm.
-  [[nodiscard]] double open_angle() const { return open_between(0, 2); }
+  [[nodiscard]] double open_angle() const { return open_beyond(0); }
   /// Returns the part of open_angle() to the left of the heading.
-  [[nodiscard]] double open_left() const { return open_between(1, 2); }
+  [[nodiscard]] double open_left() const { return open_beyond(1); }
   /// Returns how wide the open rim is across the heading, mm: a mm of path removes so many square mm.
   [[nodiscard]] double open_width() const;
 
  private:
-  /// Returns the open angle between two diamond angles.
-  [[nodiscard]] double open_between(double low, double high) const;
+  /// Returns the open angle beyond a diamond angle.
+  [[nodiscard]] double open_beyond(double low) const;
   void add_circle_cuts(Place centre, double circle_radius);
   void add_line_cuts(Place through, Place direction, double offset);
   void add_cut(Place direction);

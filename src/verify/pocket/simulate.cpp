@@ -7,6 +7,7 @@
 #include "cut_path.hpp"
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/parallel.hpp"
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -171,7 +172,7 @@ Result<std::vector<EngagementSample>> engagement_on(const Document& program, con
 
 Result<std::vector<CutStretch>> cut_stretches(const Document& program, double top, words::Control control) {
   LEKALO_TRY(const std::vector<Move> moves, read_moves(program, top, control));
-  LEKALO_TRY(const CutPath path, cut_path(moves, top, 0, 1e30, program.name));
+  LEKALO_TRY(const CutPath path, cut_path(moves, top, 0, kInfinity, program.name));
   std::vector<CutStretch> stretches;
   for (const Cut& cut : path.cuts) {
     const Stroke& s = cut.stroke;

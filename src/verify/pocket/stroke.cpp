@@ -110,20 +110,10 @@ double distance(Place p, const Stroke& stroke) { return length(p - nearest_on(st
 double distance_apart(const Stroke& a, const Stroke& b) {
   double least = std::min(std::min(distance(a.from, b), distance(a.to, b)),
                           std::min(distance(b.from, a), distance(b.to, a)));
+  // Nearest places that are no ends lie on a line through the centres, on either side of the other's.
   const auto carrier_points = [&](const Stroke& arc, const Stroke& other) {
-    if (!other.arc) {
-      const Place way = other.to - other.from;
-      const double square = dot(way, way);
-      if (!(square > 0)) return;
-      const double t = dot(arc.centre - other.from, way) / square;
-      if (t >= 0 && t <= 1) least = std::min(least, distance(other.from + t * way, arc));
-      return;
-    }
-    const Place way = other.centre - arc.centre;
-    if (!(dot(way, way) > 0)) return;
-    for (const Place direction : {way, -1.0 * way}) {
-      if (faces(other, direction)) least = std::min(least, distance(on_circle(other, direction), arc));
-    }
+    for (const Place p : {arc.centre, other.centre + (other.centre - arc.centre)})
+      least = std::min(least, distance(nearest_on(other, p), arc));
   };
   if (a.arc) carrier_points(a, b);
   if (b.arc) carrier_points(b, a);
