@@ -352,6 +352,27 @@ TEST(VerifySmallCuts, AtTheBounds) {
        .left = "12.762907 12.160144 1.8867962 0 1.5463446 1.3489861 1.5463446; 15 44.558594 31.128906 "
                "43.347492; 4 9.6041667 6.9583333 0.90597385 0.14149306",
        .cut = "0 180 180 0 0.1 0 0 0.002 0 1 0.48870994 0.0005; 1 0.602 -0.098 180 90 0"},
+      {.name = "a hole a little narrower",
+       .pocket = kBox,
+       .program = "G0 X0.3001 Y0.3 Z1\nG0 Z-0.1\nG0 Z1\n",
+       .earlier = {{"G0 X0.3 Y0.3 Z1\nG1 Z-0.1 F300\nG1 X0.3002\nG0 Z1\n", 0.465}},
+       .left = "10.988481 10.427384 1.8867962 0 1.5463446 1.3764248 1.3764248; 15 45.013672 31.736328 "
+               "44.697795; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "0 0 0 0 0 0 0 0 0 0 0.18761663 0; 0 0 0 0 0 0"},
+      {.name = "another's ramp",
+       .pocket = kBox,
+       .program = "G0 X1 Y0.3 Z1\nG1 Z-0.1 F300\nX0.3 F600\nG0 Z1\n",
+       .earlier = {{"G0 X0.3 Y0.3 Z1\nG1 Z0 F300\nX1 Z-0.1 F600\nG0 Z1\n", 0.5}},
+       .left = "35.332044 34.381107 1.1389299 0 1.5463446 0.99998945 1.5463446; 20 65.40625 38.519531 "
+               "36.204613; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "180 180 180 0 0.016666667 0 0 0.7 0 0 0.3913553 0.175; 18 46.277778 -5.9 11880 5940 0"},
+      {.name = "back higher",
+       .pocket = kBox,
+       .program = "G0 X0.3 Y0.3 Z1\nG1 Z0 F300\nX1.1 Z-0.1 F600\nZ-0.0437\nX0.3\nX0.5 Y0.5\nG0 Z1\n",
+       .left = "0 0 1.8867962 0 1.5463446 1.5463446 1.5463446; 17 52.628906 31.480469 116.98137; 4 9.6041667 "
+               "6.9583333 0.90597385 0.14149306",
+       .cut = "87.833428 123.46304 123.46304 18.209548 1.2571429 0.1 0 1.8828427 5.4977871 0 0.52149201 "
+              "0.15624853; 48 142.03333 -7.5056573 26952.133 14200.593 137"},
       {.name = "short lines",
        .pocket = kBox,
        .program = ramp + "X0.602\nX0.608\n" + rest,
@@ -429,6 +450,20 @@ TEST(VerifySmallCuts, UnderAPlungingToolMaterialIsFoundOnEverySide) {
   }
 }
 
+TEST(VerifySmallCuts, UnderAPlungingToolAPostIsFoundInEveryQuarter) {
+  for (const int side : {0, 1, 2, 3}) {
+    const double x = 0.8 + ((side & 1) != 0 ? 0.06 : -0.06), y = 0.5 + ((side & 2) != 0 ? 0.06 : -0.06);
+    const std::string program = fmt::format(
+        "G21 G90 G17\nG0 X{} Y{} Z1\nG1 Z-0.1 F300\nG3 I-0.28 J0\nG0 Z1\nG0 X0.8 Y0.5\nG0 Z-0.1\n", x + 0.28,
+        y);
+    SimulateOptions options;
+    options.tool_diameter = 0.5;
+    const auto report = simulate({"p", program}, {"pocket.json", kBox}, options);
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_NEAR(report->rapid_cut_mm, 0.1, 1e-12) << side;
+  }
+}
+
 TEST(VerifySmallCuts, AThousandSpotsAreTold) {
   SimulateOptions options;
   options.tool_diameter = 0.06;
@@ -476,9 +511,10 @@ TEST(VerifySmallCuts, SomeLinesAloneGiveTheSameSamples) {
 
 /// Half a million samples, and 64 more for each line that cuts.
 TEST(VerifySmallCuts, AFarWayHasAsManySamplesAsItMayHave) {
+  constexpr double kWay = 100014;  // a few lines more or less would make one sample more or less
   CutPath path;
   for (const auto& [from, to, number] :
-       {std::tuple{0.0, 1e7, 1}, {1e7, 1e7 + 1e5, 2}, {1e7 + 1e5, 1e7 + 2e5, 2}}) {
+       {std::tuple{0.0, 1e7, 1}, {1e7, 1e7 + kWay, 2}, {1e7 + kWay, 1e7 + 2 * kWay, 2}}) {
     Cut one;
     one.stroke.from = {from, 0}, one.stroke.to = {to, 0};
     one.from_z = one.to_z = -1, one.radius = 1, one.line = static_cast<std::size_t>(number);
@@ -488,8 +524,8 @@ TEST(VerifySmallCuts, AFarWayHasAsManySamplesAsItMayHave) {
   options.tool_diameter = 2;
   SimulateReport report;
   measure_engagement_on(path, Air(), options, {{2, 2}}, report);
-  const double spacing = (1e7 + 2e5) / (5e5 + 64 * 2);
-  EXPECT_EQ(report.samples.size(), 2 * static_cast<std::size_t>(std::ceil(1e5 / spacing)));
+  const double spacing = (1e7 + 2 * kWay) / (5e5 + 64 * 2);
+  EXPECT_EQ(report.samples.size(), 2 * static_cast<std::size_t>(std::ceil(kWay / spacing)));
 }
 
 TEST(VerifySmallCuts, CornersAreLookedForInAtMostTwoThousandRows) {

@@ -150,8 +150,7 @@ class Engagement {
     std::vector<std::uint32_t> near;
     index_.near(at, radius_ + widest_, near);
     std::vector<double> depths{cut.to_z, cut.from_z};
-    for (const std::uint32_t i : near)
-      depths.push_back(std::clamp(highest(cuts_[i]), cut.to_z, cut.from_z));
+    for (const std::uint32_t i : near) depths.push_back(std::clamp(highest(cuts_[i]), cut.to_z, cut.from_z));
     std::sort(depths.begin(), depths.end());
     // The halving works because what is cut down to one depth is cut at every depth above it.
     std::size_t low = 0, high = depths.size() - 1;
@@ -216,7 +215,7 @@ class Engagement {
     }
     for (const std::uint32_t i : near_) {
       const Cut& earlier = cuts_[i];
-      if (!earlier.level() && earlier.entry == cut.entry && bottoms_[i] <= z + kSameLevel &&
+      if (earlier.entry == cut.entry && bottoms_[i] <= z + kSameLevel &&
           std::min(earlier.from_z, earlier.to_z) >= z - kSameLevel)
         rim_.add(earlier.stroke, earlier.radius);
     }

@@ -53,8 +53,8 @@ void RimCover::add_circle_cuts(Place centre, double circle_radius) {
   add_cut(cosine * along - sine * left_of(along));
 }
 
-/// Adds the cuts at which the rim meets a line parallel to `direction` (a unit vector), `offset` to its left. A stroke
-/// of no length has none.
+/// Adds the cuts at which the rim meets a line parallel to `direction` (a unit vector), `offset` to its left.
+/// A stroke of no length has none.
 void RimCover::add_line_cuts(Place through, Place direction, double offset) {
   const double sine = (offset - cross(direction, at_ - through)) / radius_;
   if (!(std::abs(sine) < 1)) return;

@@ -84,8 +84,8 @@ Place heading(const Stroke& s, Place at) {
   return s.ccw ? left_of(out) : -1.0 * left_of(out);
 }
 
-/// The third product tells the cone from the one opposite, which is within the first two where the end of an arc is
-/// a rounding before its beginning.
+/// The third product tells the cone from the one opposite, which is within the first two where the end of an
+/// arc is a rounding before its beginning.
 bool faces(const Stroke& arc, Place direction) {
   const double hand = arc.ccw ? 1 : -1;
   return hand * cross(arc.from - arc.centre, direction) >= 0 &&
