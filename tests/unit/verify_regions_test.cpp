@@ -6,7 +6,11 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "lekalo/verify/verify.hpp"
 #include "verify/shape/shape_distance.hpp"
@@ -390,7 +394,7 @@ struct OwnOutline {
               tolerances = R"({"part": 0, "blank": 0})";
   std::string corner = "30", part_file = "[]", blank_file = "[]";
 
-  [[nodiscard]] Verdict verdict() const {
+  [[nodiscard]] std::string text() const {
     const auto line = [](const std::string& a, const std::string& b) {
       return fmt::format(R"({{"line": {{"from": [{}], "to": [{}]}}}})", a, b);
     };
@@ -399,7 +403,7 @@ struct OwnOutline {
     const std::string far = corner + ", 0";
     const std::string blank =
         fmt::format("[{}, {}, {}]", line("0, 20", far), line(far, "0, 0"), line("0, 0", "0, 20"));
-    const std::string result = fmt::format(
+    return fmt::format(
         R"({{"format": {{"name": "lekalo-locate", "version": 1}}, "status": "optimal", "units": "mm",
  "x": {}, "y": 0, "theta": 0, "theta_deg": 0, "mirrored": false, "mirror": "no", "clearance": {},
  "upper_bound": {}, "gap": {}, "min_allowance": 0, "shortfall": 0, "window_deg": [0, 360], "tolerances": {},
@@ -408,8 +412,13 @@ struct OwnOutline {
  "certificate_file": null, "locked": null, "demands": null, "scan": null, "part_cut": false, "largest_certificate": null,
  "trim": null, "nc": null, "comparison": null, "deviations": null}})",
         x, clearance, upper, gap, tolerances, part, blank, certificate);
-    const auto report = verify_locate(
+  }
+  [[nodiscard]] Result<LocateReport> report_of(const std::string& result) const {
+    return verify_locate(
         {{"result.json", result}, {"part.dxf", part_file}, {"blank.dxf", blank_file}, std::nullopt});
+  }
+  [[nodiscard]] Verdict verdict() const {
+    const auto report = report_of(text());
     EXPECT_TRUE(report.has_value()) << (report ? "" : report.error().message);
     return report ? report->verdict : Verdict::unproved;
   }
@@ -445,6 +454,276 @@ TEST(VerifyRegions, TolerancesCountButForOneFile) {
   drawn.certificate = "same outline", drawn.clearance = "-0.0201", drawn.upper = "0.0201",
   drawn.gap = "0.0402";
   EXPECT_NE(drawn.verdict(), Verdict::stated_regions);  // its shortfall is missing
+}
+
+/// The result of the plate with some of its text exchanged.
+struct Changed {
+  OwnOutline own = {};
+  std::vector<std::pair<std::string, std::string>> changes = {};
+
+  [[nodiscard]] Result<LocateReport> report() const {
+    std::string text = own.text();
+    for (const auto& [from, to] : changes) {
+      const std::size_t at = text.find(from);
+      EXPECT_NE(at, std::string::npos) << from;
+      if (at != std::string::npos) text.replace(at, from.size(), to);
+    }
+    return own.report_of(text);
+  }
+  [[nodiscard]] std::string found() const {
+    const auto checked = report();
+    if (!checked) return checked.error().message;
+    std::string all;
+    for (const std::string& finding : checked->findings) all += finding + "\n";
+    return all;
+  }
+  [[nodiscard]] bool has(const std::string& words) const { return found().find(words) != std::string::npos; }
+};
+
+TEST(VerifyRegions, OneFileIsOneOnlyIfItWasReadAlike) {
+  const std::string different = "part and blank are different files or were cut";
+  const auto of = [](const std::string& part, const std::string& blank) {
+    Changed c;
+    c.own.certificate = "same file";
+    c.own.tolerances = fmt::format(R"({{"part": {}, "blank": {}}})", part, blank);
+    return c;
+  };
+  EXPECT_EQ(of("0.5", "0.5").found(), "");
+  EXPECT_EQ(of("0", "0").found(), "");
+  for (const char* other : {"0.25", "0.50000000000000000000000001", "0.49999999999999999999999999"}) {
+    EXPECT_TRUE(of("0.5", other).has(different)) << other;
+    EXPECT_TRUE(of(other, "0.5").has(different)) << other;
+  }
+  Changed file = of("0.5", "0.5");
+  file.own.blank_file = "[ ]";
+  EXPECT_TRUE(file.has(different));
+  Changed cut = of("0.5", "0.5");
+  cut.changes = {{R"("part_cut": false)", R"("part_cut": true)"}};
+  EXPECT_TRUE(cut.has(different));
+  // The same outline of two files proves nothing of the file.
+  Changed outline = of("0", "0");
+  outline.own.certificate = "same outline", outline.own.blank_file = "[ ]";
+  EXPECT_EQ(outline.found(), "");
+  // Moved by anything the part does not lie in its file, and tolerances count; it sticks out by 0.5 and 1
+  // more.
+  for (const auto& [from, to] :
+       std::vector<std::pair<std::string, std::string>>{{"\"x\": 0", "\"x\": 0.5"},
+                                                        {"\"y\": 0", "\"y\": 0.5"},
+                                                        {"\"theta\": 0", "\"theta\": 0.02"},
+                                                        {"\"mirrored\": false", "\"mirrored\": true"}}) {
+    for (const char* word : {"same file", "same outline"}) {
+      Changed moved = of("100", "100");
+      moved.own.certificate = word;
+      moved.changes = {{from, to}};
+      const std::string all = moved.found();
+      const std::size_t at = all.find("the exact one is between -2");
+      EXPECT_NE(at, std::string::npos) << from << all;
+    }
+  }
+  // Drawings of which other layers were asked for are not surely the same.
+  const std::string drawings =
+      R"("drawings": {"part": %, "blank": {"layers": [], "join": 0.01, "set_aside": []}}, "locked")";
+  for (const bool same : {true, false}) {
+    Changed drawn = of("0.5", "0.5");
+    std::string text = drawings;
+    text.replace(text.find('%'), 1,
+                 same ? R"({"layers": [], "join": 0.01, "set_aside": []})"
+                      : R"({"layers": ["a"], "join": 0.01, "set_aside": []})");
+    drawn.changes = {{"\"locked\"", text}};
+    const auto report = drawn.report();
+    ASSERT_TRUE(report) << report.error().message;
+    std::string notes;
+    for (const std::string& note : report->notes) notes += note;
+    EXPECT_EQ(notes.find("read from the file in the same way") == std::string::npos, same) << notes;
+  }
+}
+
+TEST(VerifyRegions, TheBoundOfAnOwnOutlineIsWhatTolerancesMayBe) {
+  const auto of = [](const std::string& part, const std::string& blank, const std::string& upper) {
+    Changed c;
+    c.own.tolerances = fmt::format(R"({{"part": {}, "blank": {}}})", part, blank);
+    c.own.clearance = "-1", c.own.upper = upper, c.own.gap = fmt::format("{}", std::stod(upper) + 1);
+    c.changes = {{"\"shortfall\": 0", "\"shortfall\": 1"}};
+    return c;
+  };
+  const std::string below = "which a part in its own outline may have";
+  EXPECT_FALSE(of("0.5", "0.25", "0.75000001").has(below));
+  EXPECT_TRUE(of("0.5", "0.25", "0.74999999").has(below));
+  EXPECT_TRUE(of("0", "0.25", "0.2").has(below));
+  EXPECT_TRUE(of("0.25", "0", "0.2").has(below));
+  EXPECT_FALSE(of("0", "0", "0").has(below));
+  EXPECT_TRUE(of("0", "0", "-0.5").has(below));
+}
+
+TEST(VerifyRegions, TheAngleMayBeOffTheWindowByARounding) {
+  const auto outside = [](const std::string& window, const std::string& theta) {
+    Changed c;
+    c.changes = {{"\"window_deg\": [0, 360]", "\"window_deg\": " + window},
+                 {"\"theta\": 0", "\"theta\": " + theta}};
+    return c.has("outside the window");
+  };
+  EXPECT_FALSE(outside("[0, 0]", "6.981317007977318843199475836590e-17"));
+  EXPECT_FALSE(outside("[0, 0]", "-6.981317007977318857162109852544e-17"));
+  EXPECT_TRUE(outside("[0, 0]", "1e-16"));
+  EXPECT_TRUE(outside("[0, 0]", "-1e-16"));
+  EXPECT_FALSE(outside("[0, 90]", "1"));
+  EXPECT_TRUE(outside("[0, 90]", "1.6"));
+  EXPECT_TRUE(outside("[10, 90]", "0.1"));
+  EXPECT_FALSE(outside("[0, 360]", "7"));
+  EXPECT_TRUE(outside("[0, 359]", "7"));
+}
+
+TEST(VerifyRegions, DerivedNumbersMayBeOffByARounding) {
+  const auto with = [](const std::string& upper, const std::string& gap,
+                       const std::string& more = "\"nc\": null") {
+    Changed c;
+    c.own.upper = upper, c.own.gap = gap;
+    c.changes = {{"\"nc\": null", more}};
+    return c;
+  };
+  const std::string words = "gap is not upper_bound less clearance";
+  EXPECT_EQ(with("1", "1.0000000000000028").found(), "");
+  EXPECT_EQ(with("1", "0.9999999999999972").found(), "");
+  EXPECT_TRUE(with("1", "1.0000000000000038").has(words));
+  EXPECT_TRUE(with("1", "0.9999999999999962").has(words));
+  EXPECT_EQ(with("0", "5e-324").found(), "");
+  EXPECT_EQ(with("0", "-5e-324").found(), "");
+  EXPECT_TRUE(with("0", "1e-322").has(words));
+  const auto shortfall = [](const std::string& allowance, const std::string& missing) {
+    Changed c;
+    c.changes = {{"\"min_allowance\": 0", "\"min_allowance\": " + allowance},
+                 {"\"shortfall\": 0", "\"shortfall\": " + missing}};
+    return c;
+  };
+  const std::string missing = "shortfall is not min_allowance less clearance";
+  EXPECT_FALSE(shortfall("1", "1").has(missing));
+  EXPECT_TRUE(shortfall("1", "0.9").has(missing));
+  EXPECT_FALSE(shortfall("-1", "0").has(missing));
+  EXPECT_TRUE(shortfall("-1", "1e-400").has(missing));
+  EXPECT_TRUE(shortfall("-1", "-1e-400").has(missing));
+  const auto program = [&](const std::string& kept, const std::string& rounding) {
+    return with(
+               "0", "0",
+               fmt::format(
+                   R"("nc": {{"clearance": {}, "rounding_mm": {}, "mode": "coordinates", "work_offset": 1}})",
+                   kept, rounding))
+        .has("is above clearance less its rounding");
+  };
+  EXPECT_FALSE(program("0", "0"));
+  EXPECT_FALSE(program("-0.25", "0.25"));
+  EXPECT_TRUE(program("-0.24999999", "0.25"));
+  EXPECT_TRUE(program("-0.5", "-0.25"));
+  EXPECT_FALSE(program("5e-324", "0"));
+  EXPECT_TRUE(program("1e-322", "0"));
+}
+
+TEST(VerifyRegions, ContactsLieOnTheirEdgesAsFarApartAsWritten) {
+  const auto with = [](const std::string& part_at, const std::string& blank_at, const std::string& distance,
+                       int part_edge = 0) {
+    Changed c;
+    c.changes = {
+        {"\"contacts\": []", fmt::format(R"("contacts": [{{"part_edge": {}, "blank_edge": 1, "part_at": [{}],
+      "blank_at": [{}], "distance": {}, "multiplier": 1}}])",
+                                         part_edge, part_at, blank_at, distance)}};
+    return c.found();
+  };
+  // A millionth of the blank's width of 30 mm.
+  EXPECT_EQ(with("9, 0", "5, 0", "4"), "");
+  EXPECT_EQ(with("9, -0.000029", "5, 0", "4.000029"), "");
+  EXPECT_EQ(with("9, 0", "5, -0.000029", "3.999971"), "");
+  EXPECT_NE(with("9, -0.000031", "5, 0", "4").find("part_at is not on edge 0 of the part"),
+            std::string::npos);
+  EXPECT_NE(with("9, 0", "5, -0.000031", "4").find("blank_at is not on edge 1 of the blank"),
+            std::string::npos);
+  EXPECT_NE(with("9, 0", "5, 0", "4.000031").find("mm apart, not 4.000031"), std::string::npos);
+  EXPECT_NE(with("9, 0", "5, 0", "3.999969").find("mm apart, not 3.999969"), std::string::npos);
+  // The edges before and behind it are others.
+  EXPECT_NE(with("0, 9", "5, 0", "10").find("part_at is not on edge 0 of the part"), std::string::npos);
+  EXPECT_EQ(with("0, 9", "0, 0", "9", 2), "");
+  EXPECT_NE(with("15, 10", "15, 0", "10", 2).find("part_at is not on edge 2 of the part"), std::string::npos);
+}
+
+TEST(VerifyRegions, ALockedShiftTurnsAboutThePartsOrigin) {
+  const auto words = [](const std::string& pivot, const std::string& locked) {
+    Rings rings;
+    rings.pivot = pivot;
+    std::string text = rings.text();
+    const std::string null = "\"locked\": null";
+    text.replace(text.find(null), null.size(), "\"locked\": " + locked);
+    const auto report = rings.report_of(text);
+    std::string all = report ? "" : report.error().message;
+    if (report)
+      for (const std::string& finding : report->findings) all += finding + "\n";
+    return all;
+  };
+  const std::string origin = "the pivot of the certificate is not the part's origin",
+                    elsewhere = "the placement is not where it is locked";
+  for (const char* locked : {R"({"x": 100, "y": null})", R"({"x": null, "y": 50})"}) {
+    for (const char* pivot : {"[0, 5]", "[5, 0]", "[1e-400, 0]", "[0, -1e-400]"})
+      EXPECT_NE(words(pivot, locked).find(origin), std::string::npos) << pivot << locked;
+    EXPECT_EQ(words("[0, 0]", locked).find(origin), std::string::npos) << locked;
+    EXPECT_EQ(words("[0, 0]", locked).find(elsewhere), std::string::npos) << locked;
+  }
+  EXPECT_EQ(words("[0, 5]", "null").find(origin), std::string::npos);
+  EXPECT_EQ(words("[0, 5]", R"({"x": null, "y": null})").find(origin), std::string::npos);
+  EXPECT_NE(words("[0, 0]", R"({"x": 100.5, "y": null})").find(elsewhere), std::string::npos);
+  EXPECT_NE(words("[0, 0]", R"({"x": null, "y": 49.5})").find(elsewhere), std::string::npos);
+}
+
+TEST(VerifyRegions, EveryWayThatThePartMayLieHasItsTree) {
+  const auto words = [](const std::string& mirror, const std::string& tree) {
+    Rings rings;
+    rings.mirror = mirror;
+    std::string text = rings.text();
+    const std::string plain = "\"trees\": [{\"mirrored\": false";
+    text.replace(text.find(plain), plain.size(), "\"trees\": [{\"mirrored\": " + tree);
+    const auto report = rings.report_of(text);
+    std::string all = report ? "" : report.error().message;
+    if (report)
+      for (const std::string& finding : report->findings) all += finding + "\n";
+    return all;
+  };
+  const std::string plain = "the certificate has no tree for the part as it is",
+                    mirrored = "the certificate has no tree for the mirrored part";
+  for (const auto& [mirror, tree, plain_missing, mirrored_missing] : {std::tuple{"no", "false", false, false},
+                                                                      {"no", "true", true, false},
+                                                                      {"yes", "true", false, false},
+                                                                      {"yes", "false", false, true},
+                                                                      {"either", "true", true, false},
+                                                                      {"either", "false", false, true}}) {
+    EXPECT_EQ(words(mirror, tree).find(plain) != std::string::npos, plain_missing) << mirror << tree;
+    EXPECT_EQ(words(mirror, tree).find(mirrored) != std::string::npos, mirrored_missing) << mirror << tree;
+  }
+}
+
+TEST(VerifyRegions, ACertificateMayStandInItsOwnFile) {
+  const std::string whole = pinned("-0.099", "0");
+  const std::size_t begin = whole.find("\"certificate\": ") + 15,
+                    end = whole.find(", \"certificate_file\": null");
+  const std::string certificate = whole.substr(begin, end - begin);
+  const auto report_of = [&](const std::string& here, const std::string& file,
+                             const std::optional<std::string>& there) {
+    std::string text = whole;
+    text.replace(begin, end + 26 - begin, here + ", \"certificate_file\": " + file);
+    const std::string part = file_of(text, "part"), blank = file_of(text, "blank");
+    LocateInputs inputs{{"r", text}, {"part.json", part}, {"blank.json", blank}, {}};
+    if (there) inputs.certificate = {"c.json", *there};
+    return verify_locate(inputs);
+  };
+  const std::string named = R"({"path": "c.json", "sha256": ""})",
+                    document = "{\"certificate\": " + certificate + "}";
+  EXPECT_EQ(report_of("null", named, document)->verdict, Verdict::confirmed);
+  EXPECT_EQ(report_of(certificate, "null", std::nullopt)->verdict, Verdict::confirmed);
+  EXPECT_EQ(report_of(certificate, named, "{}")->verdict, Verdict::confirmed);
+  for (const auto& report :
+       {report_of("null", named, std::nullopt), report_of("null", "null", document),
+        report_of("null", named, "{}"), report_of("null", named, "{\"certificate\": null}")}) {
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_EQ(report->verdict, Verdict::unproved);
+  }
+  const auto broken = report_of("null", named, "{");
+  ASSERT_FALSE(broken);
+  EXPECT_EQ(broken.error().message.find("c.json: "), 0U) << broken.error().message;
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <functional>
+#include <tuple>
 
 #include "support/verify_cases.hpp"
 
@@ -114,8 +116,11 @@ TEST(VerifyShapes, AnIntervalOfAnyWidthIsBoundedByTheLargestValueInIt) {
     f["clearance"] = "-1e6";
     f["shortfall"] = "1e6";
     f["contacts"] = "[]";
-    f.certificate = {interval(text_of(from), text_of(to), {})};
-    for (const Contact& contact : basis.contacts) f.certificate[0].contacts.push_back(contact_text(contact));
+    std::vector<ContactText> contacts;
+    for (const Contact& contact : basis.contacts) contacts.push_back(contact_text(contact));
+    // Of one that is no wider than its beginning the bound is not above it, and then it must be raised.
+    f.certificate = {interval(text_of(from), text_of(from), contacts),
+                     interval(text_of(from), text_of(to), contacts)};
     for (const double off : {1e-12, -1e-12}) {
       f["upper_bound"] = text_of(static_cast<double>(top) + off);
       f["gap"] = text_of(std::stod(f["upper_bound"]) + 1e6);
@@ -388,6 +393,400 @@ TEST(VerifyShapes, AlternativesAreCheckedLikeTheBest) {
   f["alternatives"] =
       R"([{"x": 11, "y": 1, "theta": 1.5707963267948966, "theta_deg": 91, "clearance": 0.9}])";
   EXPECT_NE(findings(check(f)).find("alternative 0: theta_deg"), std::string::npos);
+}
+
+// ---- what is said beside the proof ------------------------------------------------------------------------
+
+/// The report on files, with whatever else `add` gives the checker.
+Result<verify::LocateReport> check_with(const Files& files,
+                                        const std::function<void(verify::LocateInputs&)>& add) {
+  const std::string result = files.result();
+  verify::LocateInputs inputs{
+      {"result.json", result}, {"part.json", files.part}, {"blank.json", files.blank}, {}};
+  add(inputs);
+  return verify::verify_locate(inputs);
+}
+
+bool has(const Result<verify::LocateReport>& report, const std::string& words) {
+  return findings(report).find(words) != std::string::npos;
+}
+
+/// The upright squares, with a point more on the lower side, which the result drops.
+Files with_dropped(const std::string& dropped, const std::string& point = "[6, 0]") {
+  Files f = upright_squares();
+  f.blank = "[[0, 0], " + point + ", [12, 0], [12, 12], [0, 12]]";
+  f["inputs"] = inputs_json(4, 5, "[]", dropped);
+  f.certificate = {interval("0", "0", {{"0", "0", "0.5"}, {"2", "3", "0.5"}, {"0", "4", "0"}})};
+  return f;
+}
+
+TEST(VerifyShapes, DroppedPointsAscendAndLieOnTheirLine) {
+  EXPECT_EQ(verdict_of(with_dropped("[1]")), Verdict::confirmed) << findings(check(with_dropped("[1]")));
+  for (const char* list : {"[5]", "[1, 1]", "[2, 1]"})
+    EXPECT_TRUE(
+        has(check(with_dropped(list)), "the dropped points of the blank are not ascending indices below 5"))
+        << list << findings(check(with_dropped(list)));
+  EXPECT_FALSE(has(check(with_dropped("[1, 2]")), "the result drops"));
+  EXPECT_TRUE(has(check(with_dropped("[1, 2, 3]")), "the result drops 3 of the 5 points of the blank"));
+  // A trillionth of the largest coordinate is 1.2e-11 mm, and what is off by more is said once.
+  EXPECT_FALSE(has(check(with_dropped("[1]", "[6, 0.000000000011]")), "off the straight line"));
+  for (const auto& [point, told] :
+       std::vector<std::pair<std::string, std::string>>{{"[6, 0.000000000013]", "lies 1.2999"},
+                                                        {"[13, 0]", "lies 1 mm off"},
+                                                        {"[-1, 0]", "lies 1 mm off"}}) {
+    const std::string all = findings(check(with_dropped("[1]", point)));
+    const std::size_t at = all.find("dropped point 1 of the blank " + told);
+    ASSERT_NE(at, std::string::npos) << point << all;
+    EXPECT_EQ(all.find("dropped point", at + 1), std::string::npos) << all;
+  }
+}
+
+std::string contacts_of(const std::vector<ContactText>& contacts) {
+  std::string list;
+  for (const ContactText& c : contacts) list += (list.empty() ? "" : ", ") + c.json();
+  return "[" + list + "]";
+}
+
+TEST(VerifyShapes, ContactsAreClosestAndBalance) {
+  const std::string words = "the multipliers of the contacts do not balance";
+  const auto report_of = [](const std::vector<ContactText>& contacts) {
+    Files f = upright_squares();
+    f["contacts"] = contacts_of(contacts);
+    return check(f);
+  };
+  for (const auto& balanced : std::vector<std::vector<ContactText>>{
+           {{"0", "0", "0.5"}, {"2", "2", "0.5"}},
+           {{"0", "0", "0.25"}, {"2", "2", "0.25"}, {"1", "1", "0.25"}, {"3", "3", "0.25"}},
+           // One of the sums is exactly the tolerance.
+           {{"0", "0", "0.4999995"}, {"2", "2", "0.5"}, {"3", "3", "0.000001"}}})
+    EXPECT_EQ(findings(report_of(balanced)), "");
+  for (const auto& unbalanced : std::vector<std::vector<ContactText>>{
+           {{"0", "0", "1"}},
+           {{"0", "0", "0.25"}, {"2", "2", "0.25"}},
+           {{"0", "0", "0.6"}, {"2", "2", "0.4"}},
+           {{"1", "1", "0.6"}, {"3", "3", "0.4"}},
+           {{"0", "0", "0.4999995"}, {"2", "2", "0.5"}, {"3", "3", "0.00000101"}},
+           {{"1", "1", "-0.25"}, {"3", "3", "-0.25"}, {"0", "0", "0.75"}, {"2", "2", "0.75"}},
+           {{"0", "0", "0.75"}, {"2", "2", "0.75"}, {"1", "1", "-0.25"}, {"3", "3", "-0.25"}}})
+    EXPECT_TRUE(has(report_of(unbalanced), words)) << contacts_of(unbalanced);
+  EXPECT_TRUE(has(report_of({{"4", "0", "0.5"}, {"2", "2", "0.5"}}),
+                  "contact 0: part vertex 4 does not exist, the part has 4 points"));
+  EXPECT_TRUE(has(report_of({{"0", "4", "0.5"}, {"2", "2", "0.5"}}),
+                  "contact 0: blank edge 4 does not exist, the blank has 4 points"));
+  // Only an optimum must balance, and beside another finding it is not asked.
+  Files f = upright_squares();
+  f["contacts"] = contacts_of({{"0", "0", "1"}});
+  f["status"] = "\"stopped\"";
+  EXPECT_EQ(findings(check(f)), "");
+  f = upright_squares();
+  f["contacts"] = contacts_of({{"0", "0", "1"}});
+  f["theta_deg"] = "1";
+  EXPECT_FALSE(has(check(f), words));
+  // A contact may be a millionth of the blank's size farther than the closest one: 2.4e-5 mm.
+  for (const bool far : {false, true}) {
+    f = upright_squares();
+    set_pose(f, 1, far ? 1.00002 : 1.00001, 0);
+    f["clearance"] = "0.9999", f["gap"] = "0.0001";
+    f["contacts"] = contacts_of({{"0", "0", "0.5"}, {"2", "2", "0.5"}});
+    EXPECT_EQ(has(check(f), "contact 0: part vertex 0 is 3.9"), far) << findings(check(f));
+  }
+}
+
+TEST(VerifyShapes, AnAngleMayBeOffTheWindowByARounding) {
+  const auto report_of = [](const std::string& theta, const std::string& degrees) {
+    Files f = upright_squares();
+    f["theta"] = theta, f["theta_deg"] = degrees;
+    f["clearance"] = "0.9999", f["gap"] = "0.0001";
+    return check(f);
+  };
+  // The angles next to 4e-15 degrees, the double, that are rounded up to it; 1 degree more counts for a
+  // window of 0.
+  EXPECT_EQ(
+      findings(report_of("6.981317007977318843199475836590e-17", "4.000000000000000306821599506644e-15")),
+      "");
+  EXPECT_EQ(
+      findings(report_of("-6.981317007977318857162109852544e-17", "-4.000000000000000314821599506644e-15")),
+      "");
+  EXPECT_TRUE(has(report_of("1e-16", "5.7295779513082321e-15"), "outside the window from 0 to 0"));
+  EXPECT_TRUE(has(report_of("-1e-16", "-5.7295779513082321e-15"), "outside the window from 0 to 0"));
+  EXPECT_EQ(findings(report_of("0", "0")), "");
+  EXPECT_TRUE(has(report_of("0", "1e-300"), "theta_deg is 1e-300, but theta means 0 degrees"));
+}
+
+TEST(VerifyShapes, WhatIsDerivedMayBeOffByARounding) {
+  const auto report_of = [](const std::vector<std::pair<std::string, std::string>>& fields) {
+    Files f = upright_squares();
+    for (const auto& [key, value] : fields) f[key] = value;
+    return check(f);
+  };
+  EXPECT_EQ(findings(report_of({{"min_allowance", "1"}})), "");
+  EXPECT_TRUE(has(report_of({{"min_allowance", "1"}, {"shortfall", "1e-16"}}),
+                  "shortfall is 1e-16, but min_allowance is met"));
+  EXPECT_TRUE(
+      has(report_of({{"upper_bound", "0.5"}, {"gap", "-0.5"}}), "upper_bound 0.5 is below clearance 1"));
+  EXPECT_TRUE(
+      has(report_of({{"gap", "1e-300"}, {"clearance", "0"}, {"upper_bound", "0"}}), "gap is written as"));
+  EXPECT_FALSE(has(report_of({{"gap", "0"}, {"clearance", "0"}, {"upper_bound", "0"}}), "gap is written as"));
+  // The larger of the two numbers counts: 4, which is off by 4e-15 at most.
+  EXPECT_EQ(findings(report_of({{"clearance", "0.5"}, {"upper_bound", "4"}, {"gap", "3.500000000000003"}})),
+            "");
+  EXPECT_TRUE(has(report_of({{"clearance", "0.5"}, {"upper_bound", "4"}, {"gap", "3.500000000000006"}}),
+                  "gap is written as 3.500000000000006, but the numbers it comes from give 3.5"));
+  EXPECT_EQ(findings(report_of({{"clearance", "0.5"},
+                                {"upper_bound", "8"},
+                                {"gap", "7.5"},
+                                {"min_allowance", "4"},
+                                {"shortfall", "3.499999999999997"}})),
+            "");
+  // A huge shift keeps all digits of the clearance.
+  EXPECT_EQ(findings(report_of({{"x", "1e100"},
+                                {"clearance", "-" + std::string(99, '9') + "8"},
+                                {"shortfall", std::string(99, '9') + "8"},
+                                {"gap", std::string(99, '9') + "9"}})),
+            "");
+  const auto with_program = [](const std::string& clearance, const std::string& kept,
+                               const std::string& rounding) {
+    Files f = upright_squares();
+    f["clearance"] = clearance, f["gap"] = text_of(1 - std::stod(clearance));
+    f["nc"] = fmt::format(
+        R"({{"clearance": {}, "rounding_mm": {}, "mode": "coordinates", "work_offset": 1}})", kept, rounding);
+    return check_with(f, [](verify::LocateInputs& inputs) { inputs.program = {"in.nc", "M30\n"}; });
+  };
+  const std::string words = "nc.clearance is";
+  EXPECT_EQ(findings(with_program("1", "0.99999", "0.00001")), "");
+  EXPECT_EQ(with_program("1", "0.99999", "0.00001")->verdict, Verdict::incomplete);
+  EXPECT_EQ(findings(with_program("0", "0", "0")), "");
+  EXPECT_TRUE(has(with_program("0", "1e-300", "0"), words));
+  EXPECT_TRUE(has(with_program("1", "1", "0.00001"), words));
+  EXPECT_TRUE(has(with_program("1", "0.5", "-0.00001"), words));
+}
+
+TEST(VerifyShapes, DeviationsAndAnEarlierResultAreHeldAgainstTheFiles) {
+  Files f = upright_squares();
+  f["deviations"] =
+      R"({"path": "d.csv", "sha256": "", "points": 4, "least": 1.4142135623730951, "greatest": 1.4142135623730951})";
+  const std::string table =
+      "index,x,y,deviation\n0,0,0,1.4142135623730951\n1,12,0,1.4142135623730951\n2,12,12,1.4142135623730951\n"
+      "3,0,12,1.4142135623730951\n";
+  const auto whole = check_with(f, [&](verify::LocateInputs& inputs) {
+    inputs.deviations = {"d.csv", table};
+  });
+  EXPECT_EQ(findings(whole), "");
+  EXPECT_EQ(whole->verdict, Verdict::confirmed);
+  EXPECT_EQ(verdict_of(f), Verdict::incomplete);
+
+  f = upright_squares();
+  const std::string last =
+      R"({"x": 1, "y": 1, "theta": 0, "clearance": 1, "inputs": [{"role": "part", "sha256": ""}]})";
+  const auto with_last = [&](verify::LocateInputs& inputs) { inputs.earlier = {"last.json", last}; };
+  EXPECT_EQ(findings(check_with(f, with_last)), "");
+  const auto comparison = [](const std::string& clearance) {
+    return R"({"same_part": true, "dx": 0, "dy": 0, "dtheta": 0, "dtheta_deg": 0, "largest_shift": 0,
+               "last_clearance": 1, "last_pose_clearance": )" +
+           clearance + "}";
+  };
+  f["comparison"] = comparison("1");
+  EXPECT_EQ(findings(check_with(f, with_last)), "");
+  EXPECT_TRUE(has(check(f), "there is a comparison, but the result names no earlier one"));
+  f["comparison"] = comparison("1.0000000000000000000001");
+  EXPECT_TRUE(has(check_with(f, with_last), "comparison.last_pose_clearance 1 mm is above 1 mm"));
+}
+
+TEST(VerifyShapes, ACertificateIsReadWhereTheResultSaysItIs) {
+  Files f = upright_squares();
+  f.inline_certificate = false;
+  EXPECT_EQ(verdict_of(f), Verdict::confirmed);
+  // A file that the result does not name proves nothing.
+  std::string text = f.result();
+  text.replace(text.find("{\"path\""), std::string::npos, "null}");
+  const std::string document = f.certificate_document();
+  const auto report = verify::verify_locate({{"result.json", text},
+                                             {"part.json", f.part},
+                                             {"blank.json", f.blank},
+                                             verify::Document{"c.json", document}});
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_EQ(report->verdict, Verdict::unproved) << findings(report);
+  f.certificate[0].contacts.pop_back();
+  EXPECT_EQ(findings(check(f)).find("certificate.json: certificate interval 0"), 0U) << findings(check(f));
+  f.inline_certificate = true;
+  const auto other = check_with(f, [&](verify::LocateInputs& inputs) {
+    inputs.certificate = {"c.json", document};
+  });
+  EXPECT_EQ(findings(other).find("result.json: certificate interval 0"), 0U) << findings(other);
+}
+
+TEST(VerifyShapes, ATrimMayLoseAllOfItsToleranceButNotTheBlank) {
+  Files f = trimmed("[[0, 0.25], [12, 0.25], [12, 12], [0, 12]]");
+  f["trim"] = R"({"tolerance": 0.25, "loss": 0.25, "contour": [[0, 0.25], [12, 0.25], [12, 12], [0, 12]]})";
+  EXPECT_EQ(verdict_of(f), Verdict::confirmed) << findings(check(f));
+  f.blank = "[[0, 0], [6, 0], [12, 0], [9, 0], [3, 0]]";
+  EXPECT_EQ(findings(check(f)), "blank.json: the contour has no area");
+}
+
+// ---- the order of intervals, and which of them is the worst -----------------------------------------------
+
+/// The upright squares, with intervals from and to these angles, in a window that they cover.
+Files with_intervals(const std::vector<std::pair<std::string, std::string>>& ends) {
+  Files f = upright_squares();
+  f["upper_bound"] = "20", f["gap"] = "19";
+  const std::vector<ContactText> contacts = f.certificate[0].contacts;
+  f.certificate.clear();
+  for (const auto& [from, to] : ends) f.certificate.push_back(interval(from, to, contacts));
+  return f;
+}
+
+TEST(VerifyShapes, TheOrderOfIntervalsIsExact) {
+  using Ends = std::vector<std::pair<std::string, std::string>>;
+  for (const auto& [ends, told] : std::vector<std::pair<Ends, std::string>>{
+           {{{"0", "1"}, {"1", "2"}}, ""},
+           {{{"0", "1"}, {"1.0", "2"}}, ""},
+           {{{"0", "2"}, {"0", "1"}, {"1", "3"}}, ""},
+           {{{"0", "1"}, {"0.99999999999999999999999", "2"}}, ""},
+           {{{"0", "1"}, {"1.00000000000000000000001", "2"}},
+            "interval 1: nothing covers the angles from 1 to 1.00000000000000000000001"},
+           {{{"0", "1"}, {"0.5", "1.0"}, {"2", "3"}}, "interval 2: nothing covers the angles from 1 to 2"},
+           {{{"0", "1e-350"}, {"2e-350", "1"}}, "nothing covers the angles from 1e-350 to 2e-350"},
+           {{{"0", "2e-350"}, {"1e-350", "1"}}, ""},
+           {{{"0", "0.5"}, {"0.5", "1"}, {"0.49999999999999999999999", "2"}},
+            "interval 2: it begins at 0.49999999999999999999999, before the one in front of it at 0.5"},
+           {{{"0", "1"}, {"1", "0.99999999999999999999999"}},
+            "interval 1: it runs backwards, from 1 to 0.99999999999999999999999"},
+           {{{"0.00000000000000000000001", "1"}},
+            "covers the angles from 0.00000000000000000000001 to 1, but the window"}}) {
+    const std::string all = findings(check(with_intervals(ends)));
+    EXPECT_EQ(all.empty(), told.empty()) << ends[0].second << ": " << all;
+    EXPECT_NE(all.find(told), std::string::npos) << told << ": " << all;
+  }
+  // A window has to be covered at either end.
+  for (const auto& [from, to, whole] : {std::tuple{"0", "1.5707963267948967", true},
+                                        {"0", "1.5707963267948966", false},
+                                        {"0.0000000001", "1.5707963267948967", false}}) {
+    Files f = with_intervals({{from, to}});
+    f["window_deg"] = "[0, 90]";
+    EXPECT_EQ(has(check(f), "but the window runs from 0 to 90"), false);
+    EXPECT_EQ(has(check(f), "but the window runs from"), !whole) << from << ' ' << to;
+  }
+}
+
+TEST(VerifyShapes, OfManySentencesAboutIntervalsTwentyAreSaid) {
+  for (const std::size_t count : {20U, 22U}) {
+    Files f = with_intervals(std::vector<std::pair<std::string, std::string>>(count, {"0", "0"}));
+    for (IntervalText& i : f.certificate) i.contacts[1].part_vertex = "4";
+    const auto report = check(f);
+    EXPECT_TRUE(has(report, "certificate interval 19: part vertex 4 does not exist, the part has 4 points"));
+    EXPECT_FALSE(has(report, "certificate interval 20:"));
+    EXPECT_EQ(has(report, "certificate: 2 more such sentences about its intervals"), count == 22);
+    EXPECT_EQ(has(report, "more such"), count == 22);
+  }
+}
+
+TEST(VerifyShapes, AMultiplierMayBeOffByWhatTheBlanksRoundingMakesOfIt) {
+  const auto of_squares = [](const std::string& third) {
+    Files f = upright_squares();
+    f.certificate[0].contacts[2].multiplier = third;
+    return check(f);
+  };
+  EXPECT_EQ(findings(of_squares("0.000001")), "");
+  EXPECT_TRUE(has(of_squares("0.0000015"), "multiplier 2 is written as 1.5e-06, but the edges give 0"));
+  // Three edges whose directions differ in their tenth decimal: their weights are off by 1.3e-4.
+  const auto of_flat = [](const std::vector<ContactText>& contacts) {
+    Files f = upright_squares();
+    f.blank = "[[0, 0], [6, -0.0000000001], [12, 0], [12, 12], [0, 12]]";
+    f["inputs"] = inputs_json(4, 5);
+    f["upper_bound"] = "2", f["gap"] = "1";
+    f.certificate = {interval("0", "0", contacts)};
+    return check(f);
+  };
+  EXPECT_FALSE(has(of_flat({{"0", "0", "0.25"}, {"1", "1", "0.25"}, {"2", "3", "0.5"}}), "multiplier"));
+  EXPECT_FALSE(has(of_flat({{"0", "0", "0.2501"}, {"1", "1", "0.25"}, {"2", "3", "0.4999"}}), "multiplier"));
+  EXPECT_TRUE(has(of_flat({{"0", "0", "0.2502"}, {"1", "1", "0.25"}, {"2", "3", "0.4998"}}),
+                  "multiplier 0 is written as 0.2502, but the edges give 0.2"));
+}
+
+/// However it is decided which intervals are looked at closely, the bound is the largest of them.
+TEST(VerifyShapes, TheBoundIsThatOfTheWorstInterval) {
+  struct Scene {
+    std::string blank, part, dropped;
+    std::vector<std::vector<ContactText>> contacts;
+  };
+  const std::string triangle = "[[100, 200], [113, 200], [104, 211]]";
+  const std::vector<std::vector<ContactText>> of_triangle{
+      {{"0", "0", "0.43"}, {"1", "1", "0"}, {"2", "2", "0"}},
+      {{"2", "0", "0.43"}, {"3", "1", "0"}, {"0", "2", "0"}},
+      {{"1", "0", "0.43"}, {"1", "1", "0"}, {"3", "2", "0"}}};
+  const std::vector<Scene> scenes{{triangle, "[[1, 0], [2, 0], [2, 1], [1, 1]]", "[]", of_triangle},
+                                  {triangle, "[[10, 0], [50, 0], [50, 40], [10, 40]]", "[]", of_triangle},
+                                  // The chord of a corner that is dropped is moved out to it.
+                                  {"[[0, 0], [12, 0], [12, 12], [0, 12]]",
+                                   "[[0, 0], [30, 0], [30, 40], [0, 40]]",
+                                   "[1]",
+                                   {{{"0", "0", "0.4"}, {"1", "2", "0.3"}, {"2", "3", "0.3"}},
+                                    {{"3", "0", "0.4"}, {"2", "2", "0.3"}, {"0", "3", "0.3"}}}},
+                                  {"[[0, 0], [12, 0], [12, 12], [0, 12]]",
+                                   "[[0, 0], [1, 0], [1, 2], [0, 2]]",
+                                   "[1]",
+                                   {{{"0", "0", "0.4"}, {"1", "2", "0.3"}, {"2", "3", "0.3"}},
+                                    {{"3", "0", "0.4"}, {"2", "2", "0.3"}, {"0", "3", "0.3"}}}}};
+  const std::vector<std::pair<std::string, std::string>> ends{
+      {"0", "0"},     {"0", "0.4"},   {"0.4", "1.1"},  {"1.1", "1.9"}, {"1.9", "2.7"},
+      {"2.7", "3.4"}, {"3.4", "4.2"}, {"4.2", "5"},    {"5", "6.2"},   {"1", "4.5"},
+      {"3", "6.9"},   {"0.2", "6"},   {"0", "1e-350"}, {"0", "3.8"},   {"0", "9.5"}};
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    const Scene& scene = scenes[k];
+    Files f = upright_squares();
+    f.blank = scene.blank, f.part = scene.part;
+    f["inputs"] = inputs_json(4, k < 2 ? 3 : 4, "[]", scene.dropped);
+    std::vector<IntervalText> intervals;
+    for (const auto& contacts : scene.contacts)
+      for (const auto& [from, to] : ends) intervals.push_back(interval(from, to, contacts));
+    const auto bound_of = [&f](const std::vector<IntervalText>& certificate) {
+      f.certificate = certificate;
+      const auto report = check(f);
+      EXPECT_TRUE(report) << report.error().message;
+      return report ? report->bound_high : "";
+    };
+    std::vector<std::string> alone;
+    for (const IntervalText& one : intervals) alone.push_back(bound_of({one}));
+    for (std::size_t i = 0; i < intervals.size(); ++i) {
+      // The middle of one is not above it, but above its ends if it is highest within it.
+      const double from = std::strtod(intervals[i].from.c_str(), nullptr),
+                   to = std::strtod(intervals[i].to.c_str(), nullptr);
+      const std::string middle = text_of(from + 0.45 * (to - from));
+      EXPECT_EQ(bound_of({interval(middle, middle, intervals[i].contacts), intervals[i]}), alone[i])
+          << k << ": " << i;
+      for (const std::size_t step : {1U, 5U}) {
+        const std::size_t j = (i + step) % intervals.size();
+        const bool first = std::stold(alone[i]) >= std::stold(alone[j]);
+        for (const auto& [a, b] : {std::pair{i, j}, {j, i}})
+          EXPECT_EQ(bound_of({intervals[a], intervals[b]}), first ? alone[i] : alone[j])
+              << k << ": " << i << ' ' << j;
+      }
+    }
+  }
+}
+
+/// At 3 radians the bound is 6 - 5 (sin 3 + cos 3), which is known to more digits than are looked at first.
+TEST(VerifyShapes, TheBoundIsLookedAtWithAllDigits) {
+  Files f = with_intervals({{"0.5", "0.5"}, {"3", "3"}});
+  f["gap"] = "9.244362442702891175854139959615755";
+  f["upper_bound"] = "10.244362442702891175854139959615755112733729161816613723311017";
+  EXPECT_FALSE(has(check(f), "the bound over certificate interval")) << findings(check(f));
+  f["upper_bound"] = "10.244362442702891175854139959615755112733729161816613723311016";
+  EXPECT_TRUE(has(check(f), "the bound over certificate interval 1")) << findings(check(f));
+  // A full circle may begin anywhere.
+  f = with_intervals({{"1", "7.3"}});
+  f["window_deg"] = "[0, 360]";
+  EXPECT_EQ(findings(check(f)), "");
+}
+
+TEST(VerifyShapes, TheWorstIntervalIsNamed) {
+  Files f = with_intervals({{"0", "0"}, {"0", "0.5"}, {"0.5", "0.5"}});
+  f["upper_bound"] = "0.5", f["gap"] = "-0.5";
+  EXPECT_TRUE(has(check(f), "the bound over certificate interval 0")) << findings(check(f));
+  f.certificate[1].contacts[0].part_vertex = "2";
+  EXPECT_TRUE(has(check(f), "the bound over certificate interval 1")) << findings(check(f));
+  std::swap(f.certificate[1].contacts, f.certificate[2].contacts);
+  EXPECT_TRUE(has(check(f), "the bound over certificate interval 2")) << findings(check(f));
 }
 
 }  // namespace

@@ -32,14 +32,6 @@ constexpr double kMostDigits = 1e8;
 Interval rough(const Integer& value) { return {value, kRough}; }
 Interval rough_length(const Point& p) { return square_root(rough(dot(p, p))); }
 
-Integer largest_coordinate(const Ring& points) {
-  Integer largest = 0;
-  for (const Point& p : points) {
-    for (const Integer& value : {p.x, p.y}) largest = std::max<Integer>(largest, abs(value));
-  }
-  return largest;
-}
-
 /// Returns an interval around value / 10^places.
 Interval share(const Integer& value, unsigned long places) {
   return rough(value) / rough(power_of_ten(places));
@@ -47,10 +39,8 @@ Interval share(const Integer& value, unsigned long places) {
 
 /// Returns half the perimeter of the box around the points.
 Integer size_of(const Ring& points) {
-  const auto by_x = [](const Point& a, const Point& b) { return a.x < b.x; };
-  const auto by_y = [](const Point& a, const Point& b) { return a.y < b.y; };
-  const auto [left, right] = std::minmax_element(points.begin(), points.end(), by_x);
-  const auto [bottom, top] = std::minmax_element(points.begin(), points.end(), by_y);
+  const auto [left, right] = std::ranges::minmax_element(points, {}, &Point::x);
+  const auto [bottom, top] = std::ranges::minmax_element(points, {}, &Point::y);
   return right->x - left->x + top->y - bottom->y;
 }
 
@@ -82,12 +72,11 @@ class Units {
     return ring;
   }
   [[nodiscard]] Interval millimetres(const Interval& units) const {
-    const Interval power(power_of_ten(static_cast<unsigned long>(std::abs(exponent_))),
-                         units.precision() + 64);
-    return exponent_ < 0 ? units / power : units * power;
+    return units / Interval(power_of_ten(static_cast<unsigned long>(-exponent_)), units.precision());
   }
 
  private:
+  /// The exponent is never above 0.
   long exponent_ = 0, magnitude_ = 1;
   std::size_t count_ = 0;
 };
@@ -113,9 +102,9 @@ class AngleCheck {
     check_placements();
     check_derived();
     check_comparison();
-    all_rechecked_ = check_deviations(result_, inputs_.deviations, part_points_, blank_points_,
-                                      report_.findings, report_.notes) &&
-                     all_rechecked_;
+    if (!check_deviations(result_, inputs_.deviations, part_points_, blank_points_, report_.findings,
+                          report_.notes))
+      all_rechecked_ = false;
     if (inputs_.features)
       find("there is a file of features, but a result for convex outlines has no demands");
     EdgeLines edges(scene_.blank(), result_.trim ? std::vector<std::size_t>() : result_.blank.dropped,
@@ -222,7 +211,8 @@ Result<void> AngleCheck::read_files() {
     return {};
   };
   LEKALO_CHECK(outline(part, inputs_.part.name, scene_.part));
-  if (auto ok = outline(blank, inputs_.blank.name, scene_.file_blank); !ok || !result_.trim) return ok;
+  LEKALO_CHECK(outline(blank, inputs_.blank.name, scene_.file_blank));
+  if (!result_.trim) return {};
   return outline(result_.trim->contour, inputs_.result.name + ": field trim.contour",
                  scene_.trimmed.emplace());
 }
@@ -244,13 +234,14 @@ void AngleCheck::check_dropped(const char* role, const Outline& outline,
   const Interval tolerance = share(largest_coordinate(outline.points), kRoundoffPlaces);
   const auto first =
       static_cast<std::size_t>(std::find(is_dropped.begin(), is_dropped.end(), false) - is_dropped.begin());
-  for (std::size_t from = first, step = 0; step < n;) {
+  std::size_t from = first;
+  do {
     std::size_t to = (from + 1) % n;
     while (is_dropped[to]) to = (to + 1) % n;
     const Point edge = outline.points[to] - outline.points[from];
     const bool apart = !(edge == Point{0, 0});
     if (!apart) find("points {} and {} of the {} are equal, but neither is dropped", from, to, role);
-    for (std::size_t i = (from + 1) % n; i != to; i = (i + 1) % n, ++step) {
+    for (std::size_t i = (from + 1) % n; i != to; i = (i + 1) % n) {
       if (!apart) continue;
       const Point w = outline.points[i] - outline.points[from];
       const Integer aside = abs(cross(edge, w)), behind = -dot(edge, w), beyond = dot(edge, w - edge);
@@ -261,8 +252,7 @@ void AngleCheck::check_dropped(const char* role, const Outline& outline,
       }
     }
     from = to;
-    ++step;
-  }
+  } while (from != first);
 }
 
 /// Step 7.
@@ -287,24 +277,20 @@ void AngleCheck::check_trim() {
   }
 }
 
-/// Steps 2 and 3: the written clearance must not be above the exact one. The precision grows while it does
-/// not decide.
+/// Steps 2 and 3: the written clearance must not be above the exact one.
 Interval AngleCheck::check_clearance(const std::string& what, const WrittenPlacement& placement) {
   const Pose pose = pose_of(placement);
   const Integer written = scene_.units.of(placement.clearance);
-  Interval exact = allowance(scene_.blank(), scene_.part, pose, precision_);
-  for (int round = 0; round < 3; ++round) {
-    const Interval clearance(written, exact.precision());
-    if (certainly_not_above(clearance, exact) || certainly_above(clearance, exact)) break;
-    exact = allowance(scene_.blank(), scene_.part, pose, 2 * exact.precision());
-  }
-  const Interval clearance(written, exact.precision());
+  // However far the part is shifted, no digit of its points is lost.
+  const Precision wide = precision_ + static_cast<Precision>(bits_of(pose.shift.x) + bits_of(pose.shift.y));
+  const Interval exact = allowance(scene_.blank(), scene_.part, pose, wide);
+  const Interval clearance(written, wide);
   if (!certainly_not_above(clearance, exact)) {
     find("{} {} mm is {} {} mm, the exact minimum allowance at its pose", what, text(clearance),
          certainly_above(clearance, exact) ? "above" : "not provably at most", text(exact));
   }
   if (scene_.trimmed) {
-    const Interval in_file = allowance(scene_.file_blank, scene_.part, pose, precision_);
+    const Interval in_file = allowance(scene_.file_blank, scene_.part, pose, wide);
     if (certainly_above(clearance, in_file)) {
       find("{} {} mm is above {} mm, the exact minimum allowance in the untrimmed blank", what,
            text(clearance), text(in_file));
@@ -376,7 +362,7 @@ void AngleCheck::check_derived() {
   if (!(approximate(r.nc->clearance - most) <= slack) || sgn(r.nc->rounding_mm.digits) < 0)
     find("nc.clearance is {}, but the clearance less the rounding of the program is {}",
          approximate(r.nc->clearance), approximate(most));
-  all_rechecked_ = check_program(inputs_, *r.nc, r.best.x, r.best.y, r.best.theta, report_) && all_rechecked_;
+  if (!check_program(inputs_, *r.nc, r.best.x, r.best.y, r.best.theta, report_)) all_rechecked_ = false;
 }
 
 /// Holds the earlier pose's clearance in the new blank against the outlines. The rest of the comparison was
@@ -431,21 +417,21 @@ void AngleCheck::check_contacts(EdgeLines& edges) {
 /// Steps 5 and 6.
 Result<bool> AngleCheck::check_certificate(EdgeLines& edges) {
   std::optional<Json> intervals = result_.certificate;
-  const std::string& name =
-      intervals || !inputs_.certificate ? inputs_.result.name : inputs_.certificate->name;
-  if (!intervals && result_.certificate_file_intervals && inputs_.certificate) {
-    LEKALO_TRY(intervals, read_certificate_document(*inputs_.certificate));
+  const Document* source = &inputs_.result;
+  if (result_.certificate_file_intervals && inputs_.certificate) {
+    source = &*inputs_.certificate;
+    LEKALO_TRY(intervals, read_certificate_document(*source));
   }
   if (!intervals) return false;
   CertificateCheck check(scene_.part, edges, precision_, report_.findings);
   JsonItems items(*intervals);
   while (const auto item = items.next()) {
-    LEKALO_TRY(const WrittenInterval interval, read_interval(*item, check.intervals(), name));
+    LEKALO_TRY(const WrittenInterval interval, read_interval(*item, check.intervals(), source->name));
     check.add(interval);
   }
   check.finish(result_.window);
   report_.intervals = check.intervals();
-  if (!result_.certificate && *result_.certificate_file_intervals != check.intervals()) {
+  if (result_.certificate_file_intervals.value_or(check.intervals()) != check.intervals()) {
     find("the certificate file has {} intervals, the result says {}", check.intervals(),
          *result_.certificate_file_intervals);
   }

@@ -17,10 +17,10 @@ constexpr std::size_t kMostComplaints = 20;
 /// Returns the double nearest to the number, or NaN when that is not finite or the number is too small for
 /// one.
 double nearest_double(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? value
-                                                                  : std::numeric_limits<double>::quiet_NaN();
+  // What is out of range stays as it is.
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
 }
 
 /// Returns the sign of a - b for the texts of two numbers. Rounding to the nearest double keeps order, so
@@ -35,9 +35,7 @@ int compare_texts(std::string_view a, std::string_view b) {
 
 /// Returns a few units in the last place that doubles have at the largest coordinate.
 Interval coordinate_roundoff(const Ring& points) {
-  Integer largest = 0;
-  for (const Point& p : points) largest = std::max<Integer>(largest, std::max<Integer>(abs(p.x), abs(p.y)));
-  return Interval(largest, kRough) / Interval(Integer(1) << 50, kRough);
+  return Interval(largest_coordinate(points), kRough) / Interval(Integer(1) << 50, kRough);
 }
 
 }  // namespace
@@ -164,35 +162,29 @@ const CertificateCheck::FlatTurn& CertificateCheck::flat_turn(std::string_view a
 }
 
 double CertificateCheck::flat_bound(const WrittenInterval& interval, const Sinusoid& s) {
-  const long scale = std::max({bits_of(s.constant), bits_of(s.cosine), bits_of(s.sine)});
-  const long weight_scale =
-      std::max({bits_of(s.triple.weights[0]), bits_of(s.triple.weights[1]), bits_of(s.triple.weights[2])});
+  // Weights are products of two lengths, and K, A and B are of four.
+  const long unit = edges_.flat_scale();
   Span divisor;
-  bool true_edges = true;
+  double spread = 1;
   for (std::size_t j = 0; j < 3; ++j) {
-    divisor = divisor + to_span(s.triple.weights[j], weight_scale) * s.triple.edges[j]->flat_length;
-    true_edges = true_edges && s.triple.edges[j]->outside == 0;
+    divisor = divisor + to_span(s.triple.weights[j], 2 * unit) * s.triple.edges[j]->flat_length;
+    spread = std::max(spread, s.triple.edges[j]->spread.high_double());
   }
-  if (!(divisor.low > 0)) return kInfinity;
-
-  const Span k = to_span(s.constant, scale), a = to_span(s.cosine, scale), b = to_span(s.sine, scale);
+  const Span k = to_span(s.constant, 4 * unit), a = to_span(s.cosine, 4 * unit),
+             b = to_span(s.sine, 4 * unit);
   const FlatTurn from = flat_turn(interval.from), to = flat_turn(interval.to);
   const Span slope_from = b * from.cosine - a * from.sine, slope_to = b * to.cosine - a * to.sine;
   const bool narrow = to.nearest - from.nearest < 3;
   const bool no_crest = narrow && (slope_from.high < 0 || slope_to.low > 0);
   const Span at_from = a * from.cosine + b * from.sine, at_to = a * to.cosine + b * to.sine;
-  const Span crest = square_root(a * a + b * b);
-  const Span top =
-      no_crest ? Span{std::max(at_from.low, at_to.low), std::max(at_from.high, at_to.high)} : crest;
-  const Span sum = k + top;
-  // A negative bound must be divided by the spread of the lines, which doubles leave to the next tier.
-  if (sum.high < 0 && !true_edges) return kInfinity;
-  const long places = std::clamp(scale - weight_scale - 2 * edges_.flat_scale(), -4000L, 4000L);
-  return step_up(std::ldexp((sum / divisor).high, static_cast<int>(places)));
+  const double top = no_crest ? std::max(at_from.high, at_to.high) : square_root(a * a + b * b).high;
+  const double bound = (plus(k, top) / divisor).high;
+  // The spread matters to a negative bound alone.
+  return std::max(bound, step_up(bound / spread));
 }
 
 Turn CertificateCheck::turn_at(std::string_view angle, Precision precision) {
-  if (last_turn_ && last_angle_ == angle && last_turn_->sine.precision() >= precision) return *last_turn_;
+  if (last_angle_ == angle && last_turn_->sine.precision() >= precision) return *last_turn_;
   const Decimal exact = *parse_decimal(angle);
   last_turn_ = turn_by(Interval(exact, precision + angle_bits(exact)));
   last_angle_ = angle;

@@ -65,9 +65,10 @@ class CertificateCheck {
     EdgeTriple triple;
     Integer constant, cosine, sine;  ///< K, A, B
   };
+  /// A turn in doubles, at first that by 0.
   struct FlatTurn {
-    std::string angle;
-    Span cosine, sine;
+    std::string angle = "0";
+    Span cosine{1, 1}, sine;
     double nearest = 0;
   };
 
@@ -90,7 +91,7 @@ class CertificateCheck {
   std::size_t count_ = 0, worst_ = 0, complaints_ = 0;
   std::optional<Interval> bound_;
   /// A number at or below bound_, in units of 2^flat_scale().
-  double flat_bound_ = 0;
+  double flat_bound_ = -kInfinity;
   /// A rough roundoff of a coordinate of the blank.
   Interval roundoff_;
   /// The ends of intervals as texts. `reach_` is the largest `to` so far.

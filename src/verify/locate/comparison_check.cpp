@@ -91,7 +91,10 @@ double outside(double x, double y, const RoundedPoints& polygon) {
     const auto& [ax, ay] = polygon[k];
     const auto& [bx, by] = polygon[(k + 1) % polygon.size()];
     const double ux = bx - ax, uy = by - ay, square = ux * ux + uy * uy;
-    const double t = square > 0 ? std::clamp(((x - ax) * ux + (y - ay) * uy) / square, 0.0, 1.0) : 0;
+    // A point that is repeated has an edge of no length, of which its beginning is near.
+    const double along =
+        ((x - ax) * ux + (y - ay) * uy) / std::max(square, std::numeric_limits<double>::min());
+    const double t = std::clamp(along, 0.0, 1.0);
     near = std::min(near, std::hypot(x - ax - t * ux, y - ay - t * uy));
     const double side = ux * (y - ay) - uy * (x - ax);
     if (ay <= y && by > y && side > 0) ++winding;

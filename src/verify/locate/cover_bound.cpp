@@ -22,8 +22,8 @@ double magnitude(Span a) { return absolute(a).high; }
 ///   u . rest <= phi^2 / 2 max(0, -u . p) + |phi|^3 / 6 |p|.
 /// The terms linear in s and phi are summed over the balls before their largest value is taken.
 CellBound bound_over(const PoseCell& cell, const std::vector<BallTerm>& terms) {
-  double middle[3], half[3];
-  for (int k = 0; k < 3; ++k) {
+  std::array<double, 3> middle, half;
+  for (std::size_t k = 0; k < 3; ++k) {
     middle[k] = cell.low[k] + 0.5 * (cell.high[k] - cell.low[k]);
     half[k] = step_up(std::max(cell.high[k] - middle[k], middle[k] - cell.low[k]));
   }
@@ -45,28 +45,24 @@ CellBound bound_over(const PoseCell& cell, const std::vector<BallTerm>& terms) {
     // However the pose moves within the cell, the part's centre moves no further than this.
     const Span slide = length({just(half[1]), just(half[2])});
     const Span anyway = slide + far * h;
-    bool curved_is_less = false;
-    if (apart.low > 0) {
-      const Vec u = unit(w);
-      const Span lever = cross(p, u), along_p = dot(u, p), rest = just(0.5) * h * h * far;
-      const double ux = magnitude(u.x), uy = magnitude(u.y);
-      const Span along =
-          just(ux) * just(half[1]) + just(uy) * just(half[2]) + just(magnitude(lever)) * h + rest;
-      const Span across =
-          just(uy) * just(half[1]) + just(ux) * just(half[2]) + just(magnitude(along_p)) * h + rest;
-      const Span left = apart - along;
-      if (left.low > 0) {
-        const double inwards = std::max(0.0, -along_p.low);
-        const Span curved =
-            across * across / (left + left) + just(0.5) * h * h * just(inwards) + h * h * h * far / just(6);
-        if (curved.high < anyway.high) {
-          curved_is_less = true;
-          level = level + m * (apart - radii + curved);
-          gx = gx + m * u.x, gy = gy + m * u.y, gt = gt + m * lever;
-        }
-      }
+    // Where the centres may meet, u may be any number, and the curved bound is infinite.
+    const Vec u{w.x / apart, w.y / apart};
+    const Span lever = cross(p, u), along_p = dot(u, p), rest = just(0.5) * h * h * far;
+    const double ux = magnitude(u.x), uy = magnitude(u.y);
+    const Span along =
+        just(ux) * just(half[1]) + just(uy) * just(half[2]) + just(magnitude(lever)) * h + rest;
+    const Span across =
+        just(uy) * just(half[1]) + just(ux) * just(half[2]) + just(magnitude(along_p)) * h + rest;
+    const Span left = apart - along;
+    const double inwards = std::max(0.0, -along_p.low);
+    const Span curved =
+        across * across / (left + left) + just(0.5) * h * h * just(inwards) + h * h * h * far / just(6);
+    if (curved.high < anyway.high) {
+      level = level + m * (apart - radii + curved);
+      gx = gx + m * u.x, gy = gy + m * u.y, gt = gt + m * lever;
+    } else {
+      level = level + m * (apart - radii + anyway);
     }
-    if (!curved_is_less) level = level + m * (apart - radii + anyway);
   }
   const Span linear =
       just(magnitude(gx)) * just(half[1]) + just(magnitude(gy)) * just(half[2]) + just(magnitude(gt)) * h;

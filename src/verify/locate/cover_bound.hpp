@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "verify/shape/shape.hpp"
@@ -8,7 +9,7 @@ namespace lekalo::verify {
 
 /// A box of poses (theta, and x, y of the pivot) in doubles.
 struct PoseCell {
-  double low[3], high[3];
+  std::array<double, 3> low, high;
 };
 
 /// A pair of balls (cover_tree.hpp). The part's ball is counted from the pivot, and mirrored if the tree is.
@@ -25,7 +26,7 @@ struct BallTerm {
 /// The bound that the terms prove over a cell, and the one at its middle. No division of the cell proves a
 /// bound below the latter.
 struct CellBound {
-  double everywhere = 0, in_the_middle = 0;
+  double everywhere, in_the_middle;
 };
 [[nodiscard]] CellBound bound_over(const PoseCell& cell, const std::vector<BallTerm>& terms);
 

@@ -21,6 +21,8 @@ constexpr int kMostHalvings = 18;
 constexpr std::size_t kMostFailures = 3;
 /// A certificate that needs more cells than this in all, beyond so many for each leaf, counts as none.
 constexpr std::size_t kMostCells = 1'000'000, kMostCellsALeaf = 64;
+/// The directions that a cell is split along.
+constexpr std::array<std::string_view, 3> kAxes{"theta", "x", "y"};
 /// A leaf has at most this many terms.
 constexpr std::size_t kMostTerms = 8;
 
@@ -52,12 +54,10 @@ CoverTree::CoverTree(const Problem& problem, std::vector<std::string>& findings)
 
 void CoverTree::check(Json tree, const std::string& path, std::string& complaint) {
   Fields fields(tree, path, complaint);
-  mirrored_ = fields.get("mirrored").is_bool() && fields.get("mirrored").is_true();
+  mirrored_ = fields.get("mirrored").is_true();
   const auto range = [&](std::string_view key) {
     std::vector<Decimal> ends;
-    fields.each(key, [&](Json item, const std::string& at) {
-      if (ends.size() < 3) ends.push_back(fields.number_of(item, at));
-    });
+    fields.each(key, [&](Json item, const std::string& at) { ends.push_back(fields.number_of(item, at)); });
     if (ends.size() != 2)
       return fields.complain(fmt::format("{} is not two numbers", fields.name(key))), Span{};
     for (const Decimal& end : ends)
@@ -84,8 +84,9 @@ void CoverTree::check(Json tree, const std::string& path, std::string& complaint
       JsonItems split(*item);
       const auto axis = split.next(), at = split.next();
       const std::string which = axis && axis->is_string() ? json_text(*axis) : "";
-      const int k = which == "theta" ? 0 : (which == "x" ? 1 : (which == "y" ? 2 : -1));
-      if (k < 0 || !at || split.next()) return fields.complain(name + " is neither a split nor a leaf");
+      const auto k = static_cast<std::size_t>(std::find(kAxes.begin(), kAxes.end(), which) - kAxes.begin());
+      if (k == kAxes.size() || !at || split.next())
+        return fields.complain(name + " is neither a split nor a leaf");
       const Span place = enclosed(fields.number_of(*at, name));
       Cell low = cell, high = cell;
       low.high[k] = place.high, high.low[k] = place.low;
@@ -125,7 +126,7 @@ void CoverTree::check_root(const Cell& root, const std::string& path) {
   // pivot_off of the material.
   const double more = step_up(problem_.pivot_off + std::max(0.0, -problem_.bound));
   const Shape& blank = problem_.blank;
-  const auto covers = [&](int k, const std::optional<Decimal>& locked, double low, double high) {
+  const auto covers = [&](std::size_t k, const std::optional<Decimal>& locked, double low, double high) {
     if (locked) return root.low[k] <= enclosed(*locked).low && root.high[k] >= enclosed(*locked).high;
     return root.low[k] <= plus(just(low), -more).low && root.high[k] >= plus(just(high), more).high;
   };
@@ -152,7 +153,7 @@ bool CoverTree::read_leaf(Json contacts, std::vector<Term>& terms, std::string& 
     std::size_t cap = problem_.caps.size();
     for (std::size_t k = 0; k < 7; ++k) {
       const auto next = numbers.next();
-      const auto decimal = next && next->is_number() ? parse_decimal(next->text) : std::nullopt;
+      const auto decimal = next ? parse_decimal(next->text) : std::nullopt;
       if (!decimal) return complain("a contact is not seven numbers");
       value[k] = *next, number[k] = enclosed(*decimal);
       if (!(number[k].low >= -limits::kLargestDerived && number[k].high <= limits::kLargestDerived))
@@ -163,7 +164,7 @@ bool CoverTree::read_leaf(Json contacts, std::vector<Term>& terms, std::string& 
     }
     Term term;
     if (const auto eighth = numbers.next()) {
-      const auto index = eighth->is_number() ? parse_decimal(eighth->text) : std::nullopt;
+      const auto index = parse_decimal(eighth->text);
       if (!index || index->exponent < 0 || sgn(index->digits) < 0 ||
           !(approximate(*index) < static_cast<double>(problem_.caps.size())))
         return complain("a contact names no cap of the demands");
@@ -197,7 +198,7 @@ double CoverTree::part_radius(Json x, Json y, Json radius, const Vec& centre, do
   if (known != part_radii_.end()) return known->second;
   const double inside =
       growth_.empty() ? signed_distance(centre, problem_.part).low : grown_radius(centre, written);
-  const double real = std::min(std::max(0.0, written), inside);
+  const double real = std::min(written, inside);
   return part_radii_.emplace(key, real).first->second;
 }
 
@@ -207,19 +208,17 @@ double CoverTree::part_radius(Json x, Json y, Json radius, const Vec& centre, do
 double CoverTree::grown_radius(const Vec& centre, double written) const {
   const std::vector<Side>& sides = problem_.part.sides;
   double through = kInfinity, grown = -kInfinity;
-  bool any_rim = false;
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const Span d = distance(centre, sides[k]);
     const double by = growth_[k];
     through = std::min(through, (just(d.low) + just(by)).low);
-    any_rim = any_rim || by < 0;
     if (by >= 0) grown = std::max(grown, (just(by) - just(d.high)).low);
   }
   const std::optional<bool> in = holds(problem_.part, centre);
   const bool inside = in && *in;
   double radius = inside && through >= 0 ? std::max(grown, through) : grown;
   if (radius < written) radius = std::max(radius, grown_ball(problem_.part, growth_, centre, written));
-  if (radius < 0 && any_rim) radius = std::max(radius, -off_rims(problem_.part, growth_, centre));
+  if (radius < 0) radius = std::max(radius, -off_rims(problem_.part, growth_, centre));
   return radius;
 }
 
@@ -234,7 +233,7 @@ double CoverTree::material_radius(Json x, Json y, Json radius, const Vec& centre
   const std::string key = fmt::format("{} {} {}", x.text, y.text, radius.text);
   const auto known = material_radii_.find(key);
   if (known != material_radii_.end()) return known->second;
-  const double real = std::min(std::max(0.0, written), signed_distance(centre, problem_.blank).low);
+  const double real = std::min(written, signed_distance(centre, problem_.blank).low);
   return material_radii_.emplace(key, real).first->second;
 }
 
@@ -243,7 +242,7 @@ double CoverTree::blank_radius(Json x, Json y, Json radius, const Vec& centre, d
   const auto known = blank_radii_.find(key);
   if (known != blank_radii_.end()) return known->second;
   const double empty = -signed_distance(centre, problem_.blank).high;
-  double real = std::min(std::max(0.0, written), empty);
+  double real = std::min(written, empty);
   if (joined_ > 0) real = (just(real) - just(joined_)).low;
   return blank_radii_.emplace(key, real).first->second;
 }
@@ -256,11 +255,9 @@ bool CoverTree::proved(const Cell& cell, const std::vector<Term>& terms, int dep
   // A cell is halved along its widest direction, where turning counts at the largest lever.
   double lever = 0;
   for (const Term& term : terms) lever = std::max(lever, length(term.part).high);
-  const double width[3] = {(cell.high[0] - cell.low[0]) * lever, cell.high[1] - cell.low[1],
-                           cell.high[2] - cell.low[2]};
-  int k = 0;
-  for (int i = 1; i < 3; ++i)
-    if (width[i] > width[k]) k = i;
+  const std::array<double, 3> width{(cell.high[0] - cell.low[0]) * lever, cell.high[1] - cell.low[1],
+                                    cell.high[2] - cell.low[2]};
+  const auto k = static_cast<std::size_t>(std::max_element(width.begin(), width.end()) - width.begin());
   const double middle = cell.low[k] + 0.5 * (cell.high[k] - cell.low[k]);
   Cell low = cell, high = cell;
   low.high[k] = high.low[k] = middle;

@@ -39,9 +39,9 @@ class CoverTree {
     const Shape& blank;
     Vec pivot;
     /// The pivot is at most this far from the part's material.
-    double pivot_off = 0;
+    double pivot_off;
     /// The bound that is to be proved, mm.
-    double bound = 0;
+    double bound;
     Decimal window_from_deg, window_to_deg;
     /// The shifts that are locked; the pivot is then the part's origin.
     std::optional<Decimal> locked_x, locked_y;

@@ -7,6 +7,14 @@
 
 namespace lekalo::verify {
 
+Integer largest_coordinate(const Ring& points) {
+  Integer largest = 0;
+  for (const Point& p : points) {
+    for (const Integer& value : {p.x, p.y}) largest = std::max<Integer>(largest, abs(value));
+  }
+  return largest;
+}
+
 EdgeLines::EdgeLines(const Outline& blank, const std::vector<std::size_t>& dropped, Precision precision)
     : blank_(blank),
       precision_(precision),
@@ -20,7 +28,7 @@ EdgeLines::EdgeLines(const Outline& blank, const std::vector<std::size_t>& dropp
     if (k < n) dropped_[k] = true;
   }
   // Goes around twice, so that the first points find the kept point that lies across the end of the file.
-  std::size_t kept = 0;  // twice around, so that the first points find theirs across the end of the file
+  std::size_t kept = n;
   for (std::size_t i = 2 * n; i-- > 0;) {
     next_kept_[i % n] = kept;
     if (!dropped_[i % n]) kept = i % n;
@@ -61,10 +69,11 @@ const EdgeLine& EdgeLines::along_hull(std::size_t j) {
 }
 
 EdgeLine EdgeLines::measure(const Point& from, const Point& to, std::size_t near) const {
-  EdgeLine line{from, to - from, 0, Interval(precision_), Interval(Integer(1), precision_), Interval(64), {}};
+  EdgeLine line{from, to - from, 0, Interval(precision_), Interval(Integer(1), precision_), Interval(kRough),
+                {}};
   const Integer squared = dot(line.direction, line.direction);
   line.length = square_root(Interval(squared, precision_));
-  line.short_length = square_root(Interval(squared, 64));
+  line.short_length = square_root(Interval(squared, kRough));
   line.flat_length = {line.length.low_double(flat_scale_), line.length.high_double(flat_scale_)};
   const std::size_t lowest = lowest_corner(blank_, line.direction, near);
   line.outside = -cross(line.direction, blank_.corner(lowest) - line.start);

@@ -11,6 +11,9 @@
 
 namespace lekalo::verify {
 
+/// Returns the largest |x| or |y| of the points.
+[[nodiscard]] Integer largest_coordinate(const Ring& points);
+
 /// The line of a blank edge, which runs from file point k to the next point that was not dropped.
 ///
 /// `outside` >= 0 is how far the blank reaches across the line, times the edge's length. For the true edge of
@@ -24,7 +27,7 @@ struct EdgeLine {
   Integer outside;
   /// The spread is exactly 1 when `outside` is 0.
   Interval length, spread;
-  /// The length in 64 bits.
+  /// The length in kRough bits.
   Interval short_length;
   /// The length in doubles, in units of 2^EdgeLines::flat_scale().
   Span flat_length;

@@ -26,9 +26,9 @@ constexpr double kAngleTolerance = 4e-15;
 bool lies_on(const Vec& p, std::size_t edge, const Shape& shape, double slack) {
   std::size_t count = 0;
   for (std::size_t k = 0; k < shape.sides.size(); ++k) {
-    const bool joins_next = !shape.sides[k].written && count == edge;
+    const bool reaches_edge = count == edge;
     if (shape.sides[k].written) ++count;
-    if ((count == edge + 1 || joins_next) && distance(p, shape.sides[k]).low <= slack) return true;
+    if ((count == edge + 1 || reaches_edge) && distance(p, shape.sides[k]).low <= slack) return true;
   }
   return false;
 }
@@ -273,8 +273,7 @@ void PoseCheck::check_contacts() {
 
 void PoseCheck::check_derived() {
   const auto differs = [](Span written, Span real) {
-    const double slack =
-        1e-15 * std::max(std::abs(real.low), std::abs(real.high)) + 1e-15 * std::abs(written.low);
+    const double slack = 1e-15 * (std::abs(real.high) + std::abs(written.low));
     return written.low > real.high + slack || written.high < real.low - slack;
   };
   if (r_.demands) {
@@ -288,7 +287,7 @@ void PoseCheck::check_derived() {
                      gap.high + 1e-15 * std::abs(r_.upper_bound.high)};
   if (differs(r_.gap, widened)) find("gap is not upper_bound less clearance");
   const Span missing = r_.min_allowance - r_.clearance;
-  if (missing.high <= 0 ? r_.shortfall.low != 0 || r_.shortfall.high != 0
+  if (missing.high <= 0 ? sgn(r_.shortfall_as_written.digits) != 0
                         : differs(r_.shortfall, {std::max(0.0, missing.low), missing.high}))
     find("shortfall is not min_allowance less clearance");
   check_side();
@@ -315,7 +314,7 @@ void PoseCheck::check_side() {
 
 Json PoseCheck::certificate_of(const char* key) {
   const Json here = Fields(root_, "", complaint_).get(key);
-  if (!(here.text.empty() || here.is_null()) || !r_.in_file || !inputs_.certificate) return here;
+  if (!here.is_null() || !r_.in_file || !inputs_.certificate) return here;
   const auto root = parse_json(inputs_.certificate->bytes, inputs_.certificate->name);
   if (!root) return complaint_ = "it is no JSON document", Json{};
   refuse_unknown_fields(*root, complaint_);
@@ -332,8 +331,7 @@ bool PoseCheck::is_one_file() const {
 
 /// Says whether the part lies in the file that it is from as it is drawn there, and the result rests on it.
 bool PoseCheck::lies_in_one_file() {
-  const Json certificate = certificate_of("certificate");
-  return certificate.is_string() && json_text(certificate) == "same file" && sgn(r_.x.digits) == 0 &&
+  return certificate_of("certificate").text == R"("same file")" && sgn(r_.x.digits) == 0 &&
          sgn(r_.y.digits) == 0 && sgn(r_.theta.digits) == 0 && !r_.mirrored && is_one_file();
 }
 
@@ -365,17 +363,15 @@ bool PoseCheck::check_cover(const char* key, const DemandCheck* demands, const B
   if (certificate.is_string() && demands == nullptr)
     return check_own_outline(json_text(certificate), what), true;
   Fields fields(certificate, key, complaint_);
-  std::vector<Span> pivot;
-  fields.each("pivot", [&](Json item, const std::string& path) {
-    pivot.push_back(enclosed(fields.number_of(item, path)));
-  });
+  std::vector<Decimal> pivot;
+  fields.each("pivot",
+              [&](Json item, const std::string& path) { pivot.push_back(fields.number_of(item, path)); });
   if (pivot.size() != 2) fields.complain(fmt::format("{} is not two numbers", fields.name("pivot")));
   if (!complaint_.empty()) return false;
-  const Vec at{pivot[0], pivot[1]};
+  const Vec at{enclosed(pivot[0]), enclosed(pivot[1])};
   CoverTree::Problem problem{r_.part,        r_.blank,     at,          0,          0,
                              r_.window_from, r_.window_to, r_.locked_x, r_.locked_y};
-  if ((r_.locked_x || r_.locked_y) &&
-      !(pivot[0].low == 0 && pivot[0].high == 0 && pivot[1].low == 0 && pivot[1].high == 0))
+  if ((r_.locked_x || r_.locked_y) && !(sgn(pivot[0].digits) == 0 && sgn(pivot[1].digits) == 0))
     find("a shift is locked, but the pivot of the certificate is not the part's origin");
   problem.pivot_off = std::max(0.0, -signed_distance(at, r_.part).low);
   problem.bound = ((what.bound - r_.part_tolerance) - r_.blank_tolerance).low;
@@ -401,7 +397,7 @@ bool PoseCheck::check_cover(const char* key, const DemandCheck* demands, const B
 bool PoseCheck::check_certificates(DemandCheck* demands) {
   const bool bounds_largest = demands != nullptr && r_.demands->second && r_.demands->second->proof;
   const Json largest = Fields(root_, "", complaint_).get("largest_certificate");
-  if (!bounds_largest && !largest.text.empty() && !largest.is_null())
+  if (!bounds_largest && !largest.is_null())
     find("there is a largest_certificate, but nothing that it is to prove");
   if (demands == nullptr) {
     if (!check_cover("certificate", nullptr, {r_.upper_bound, {}, {}, {}})) return false;

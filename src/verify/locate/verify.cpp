@@ -1,18 +1,16 @@
 #include "lekalo/verify/verify.hpp"
 
-#include <array>
-
 #include "angle_check.hpp"
 #include "pose_check.hpp"
+#include "verify/read/fields.hpp"
 
 namespace lekalo::verify {
 namespace {
 
 /// Only a proof by boxes of poses needs the regions that were placed, so its result holds them.
 bool has_regions(Json result) {
-  std::array<Json, 1> found;
-  constexpr std::array<std::string_view, 1> kKeys{"regions"};
-  return result.is_object() && find_members(result, kKeys, found) && found[0].is_object();
+  std::string ignored;
+  return Fields(result, "", ignored).get("regions").is_object();
 }
 
 }  // namespace
