@@ -203,7 +203,8 @@ TEST(CoverTree, TheRootHoldsTheWindowAndTheBlank) {
   }
   const auto turned = [&](const std::string& theta, long from, long to) {
     Tree other;
-    other.theta = theta, other.window_from = Decimal{from, 0}, other.window_to = Decimal{to, 0};
+    other.theta = theta, other.x = "[1, 2]", other.window_from = Decimal{from, 0},
+    other.window_to = Decimal{to, 0};
     return other.found();
   };
   // A full turn holds every window, and the next double above it is the least one.
@@ -270,6 +271,14 @@ TEST(CoverTree, BallsAreNoLargerThanTheyAreFoundAndWritten) {
   EXPECT_FALSE(proves("[5, 5, 9, 5, -10, 20, 1]", -1e-9, {}));
   EXPECT_TRUE(proves("[5, 5, 4, 5, -10, 9, 1]", 2 + 1e-9, {}));
   EXPECT_FALSE(proves("[5, 5, 4, 5, -10, 9, 1]", 2 - 1e-9, {}));
+  // A centre beside the part is as far from it as from its nearest side.
+  for (const std::vector<double>& growth : {std::vector<double>{}, {0, 0, 0, 0}}) {
+    EXPECT_TRUE(proves("[5, -2, 0, 5, -1000, 1000, 1]", 1e-9, growth));
+    EXPECT_FALSE(proves("[5, -2, 0, 5, -1000, 1000, 1]", -1e-9, growth));
+  }
+  // Where one side's growth covers the side beside it the ball reaches to where both end, the root of 5.
+  EXPECT_TRUE(proves("[1, 9, 2.2, 1, -1000, 1000, 1]", 6.8 + 1e-9, {0, 0, 3, 0}));
+  EXPECT_FALSE(proves("[1, 9, 2.3, 1, -1000, 1000, 1]", 6.75, {0, 0, 3, 0}));
   // In a rim about a corner the material is further off than either of the rims is left.
   const std::vector<double> rims{-1, -1, -1, -1};
   EXPECT_FALSE(proves("[0.5, 0.5, 0, -1000, -1000, 1414.2135623730950, 1]", 1.3, rims));

@@ -504,6 +504,14 @@ TEST(VerifyRegions, OneFileIsOneOnlyIfItWasReadAlike) {
   Changed outline = of("0", "0");
   outline.own.certificate = "same outline", outline.own.blank_file = "[ ]";
   EXPECT_EQ(outline.found(), "");
+  // What is not one file has nothing to spare for its tolerances.
+  const std::string touches = "clearance is 0 mm, but the placed part meets the outline of the blank";
+  EXPECT_FALSE(of("0.5", "0.5").has(touches));
+  EXPECT_TRUE(file.has(touches));
+  Changed larger = of("0.5", "0.5"), said = of("0.5", "0.5");
+  larger.own.corner = "40", said.own.certificate = "same outline";
+  EXPECT_TRUE(larger.has(touches));
+  EXPECT_TRUE(said.has(touches));
   // Moved by anything the part does not lie in its file, and tolerances count; it sticks out by 0.5 and 1
   // more.
   for (const auto& [from, to] :
@@ -535,6 +543,16 @@ TEST(VerifyRegions, OneFileIsOneOnlyIfItWasReadAlike) {
     std::string notes;
     for (const std::string& note : report->notes) notes += note;
     EXPECT_EQ(notes.find("read from the file in the same way") == std::string::npos, same) << notes;
+    // Nothing is read where there are no tolerances, or where only the outlines are said to be the same.
+    for (const char* word : {"same file", "same outline"}) {
+      drawn.own.certificate = word;
+      drawn.own.tolerances =
+          word == std::string("same file") ? R"({"part": 0, "blank": 0})" : R"({"part": 0.5, "blank": 0.5})";
+      const auto other = drawn.report();
+      ASSERT_TRUE(other) << other.error().message;
+      for (const std::string& note : other->notes)
+        EXPECT_EQ(note.find("read from the file in the same way"), std::string::npos) << word << note;
+    }
   }
 }
 
@@ -553,6 +571,13 @@ TEST(VerifyRegions, TheBoundOfAnOwnOutlineIsWhatTolerancesMayBe) {
   EXPECT_TRUE(of("0.25", "0", "0.2").has(below));
   EXPECT_FALSE(of("0", "0", "0").has(below));
   EXPECT_TRUE(of("0", "0", "-0.5").has(below));
+  // A part that touches has nothing to spare for the tolerance of either.
+  for (const char* tolerances : {R"({"part": 0.25, "blank": 0})", R"({"part": 0, "blank": 0.25})"}) {
+    Changed touching;
+    touching.own.tolerances = tolerances;
+    EXPECT_TRUE(touching.has("clearance is 0 mm, but the placed part meets the outline of the blank"))
+        << touching.found();
+  }
 }
 
 TEST(VerifyRegions, TheAngleMayBeOffTheWindowByARounding) {
@@ -637,6 +662,20 @@ TEST(VerifyRegions, ContactsLieOnTheirEdgesAsFarApartAsWritten) {
             std::string::npos);
   EXPECT_NE(with("9, 0", "5, 0", "4.000031").find("mm apart, not 4.000031"), std::string::npos);
   EXPECT_NE(with("9, 0", "5, 0", "3.999969").find("mm apart, not 3.999969"), std::string::npos);
+  // What joins an arc to its ends belongs to it: their distances from the centre are 6 and 4 mm.
+  const auto on_arc = [](const std::string& part_at) {
+    Changed c;
+    c.changes = {
+        {R"("outer": [{"line": {"from": [0, 0], "to": [30, 0]}}, {"line": {"from": [30, 0], "to": [0, 20]}}, {"line": {"from": [0, 20], "to": [0, 0]}}])",
+         R"("outer": [{"arc": {"from": [6, 0], "to": [-4, 0], "centre": [0, 0], "ccw": true}}, {"line": {"from": [-4, 0], "to": [6, 0]}}])"},
+        {"\"contacts\": []", R"("contacts": [{"part_edge": 0, "blank_edge": 1, "part_at": [)" + part_at +
+                                 R"(], "blank_at": [5, 0], "distance": 0, "multiplier": 1}])"}};
+    return c.has("part_at is not on edge 0 of the part");
+  };
+  EXPECT_FALSE(on_arc("0, 5"));
+  EXPECT_FALSE(on_arc("5.5, 0"));
+  EXPECT_FALSE(on_arc("-4.5, 0"));
+  EXPECT_TRUE(on_arc("0, 0"));
   // The edges before and behind it are others.
   EXPECT_NE(with("0, 9", "5, 0", "10").find("part_at is not on edge 0 of the part"), std::string::npos);
   EXPECT_EQ(with("0, 9", "0, 0", "9", 2), "");
@@ -693,6 +732,19 @@ TEST(VerifyRegions, EveryWayThatThePartMayLieHasItsTree) {
                                                                       {"either", "false", false, true}}) {
     EXPECT_EQ(words(mirror, tree).find(plain) != std::string::npos, plain_missing) << mirror << tree;
     EXPECT_EQ(words(mirror, tree).find(mirrored) != std::string::npos, mirrored_missing) << mirror << tree;
+  }
+  for (const auto& [mirror, is, allowed] : {std::tuple{"no", "false", true},
+                                            {"no", "true", false},
+                                            {"yes", "true", true},
+                                            {"yes", "false", false},
+                                            {"either", "true", true},
+                                            {"either", "false", true}}) {
+    Rings rings;
+    rings.mirror = mirror, rings.mirrored = is;
+    const auto report = rings.report();
+    std::string all;
+    for (const std::string& finding : report->findings) all += finding;
+    EXPECT_EQ(all.find("which was not allowed") == std::string::npos, allowed) << mirror << is;
   }
 }
 

@@ -268,6 +268,19 @@ TEST(VerifyShapes, AnEdgeThatCutsACornerOffIsMovedOutToIt) {
   EXPECT_NE(words.find("upper_bound"), std::string::npos) << words;
 }
 
+/// Where the part sticks out over both hull edges at a corner by 1 mm, it may stick out over the diagonal
+/// that is moved out to that corner by the root of 2.
+TEST(VerifyShapes, ABoundBelow0OverAnEdgeThatIsMovedOutIsDividedByItsSpread) {
+  Files f = upright_squares();
+  f.part = "[[0, 0], [30, 0], [30, 40], [0, 40]]";
+  f["inputs"] = inputs_json(4, 4, "[]", "[1]");
+  f.certificate = {interval("0", "0", {{"1", "0", "0.41421"}, {"3", "2", "0.29289"}, {"0", "3", "0.29289"}})};
+  const auto report = check(f);
+  ASSERT_TRUE(report) << report.error().message;
+  // The distances 144 - 360, -336 and 0, over the lengths of the three edges.
+  EXPECT_NEAR(std::stod(report->bound_high), -552 / (12 * (2 + std::sqrt(2))) / std::sqrt(2), 1e-12);
+}
+
 TEST(VerifyShapes, NearlyOppositeEdgesWhoseThirdWeighsLessThanNothingStillProve) {
   // Lower and upper side miss being parallel by 1e-15, to the side where the left edge would need a negative
   // weight; the right one does not.
@@ -281,6 +294,18 @@ TEST(VerifyShapes, NearlyOppositeEdgesWhoseThirdWeighsLessThanNothingStillProve)
     f["upper_bound"] = "0.99999999999999";
     f["gap"] = "0";
     EXPECT_EQ(verdict_of(f), Verdict::refuted);
+    // It may be written anywhere among the three, and weigh as little as the tolerance.
+    f["upper_bound"] = "1.00000000000001";
+    f["gap"] = "2e-14";
+    for (const char* least : {"0", "0.000001"}) {
+      std::vector<ContactText>& contacts = f.certificate[0].contacts;
+      for (ContactText& contact : contacts)
+        if (contact.blank_edge == "3") contact.multiplier = least;
+      for (int k = 0; k < 3; ++k) {
+        std::rotate(contacts.begin(), contacts.begin() + 1, contacts.end());
+        EXPECT_EQ(verdict_of(f), Verdict::confirmed) << tilt << ' ' << least << findings(check(f));
+      }
+    }
   }
 }
 
@@ -699,8 +724,8 @@ TEST(VerifyShapes, AMultiplierMayBeOffByWhatTheBlanksRoundingMakesOfIt) {
   };
   EXPECT_FALSE(has(of_flat({{"0", "0", "0.25"}, {"1", "1", "0.25"}, {"2", "3", "0.5"}}), "multiplier"));
   EXPECT_FALSE(has(of_flat({{"0", "0", "0.2501"}, {"1", "1", "0.25"}, {"2", "3", "0.4999"}}), "multiplier"));
-  EXPECT_TRUE(has(of_flat({{"0", "0", "0.2502"}, {"1", "1", "0.25"}, {"2", "3", "0.4998"}}),
-                  "multiplier 0 is written as 0.2502, but the edges give 0.2"));
+  EXPECT_TRUE(has(of_flat({{"0", "0", "0.250138"}, {"1", "1", "0.25"}, {"2", "3", "0.499862"}}),
+                  "multiplier 0 is written as 0.250138, but the edges give 0.2"));
 }
 
 /// However it is decided which intervals are looked at closely, the bound is the largest of them.

@@ -17,7 +17,7 @@ constexpr std::size_t kMostComplaints = 20;
 /// Returns the double nearest to the number, or NaN when that is not finite or the number is too small for
 /// one.
 double nearest_double(std::string_view text) {
-  // What is out of range stays as it is.
+  // A number out of range leaves the value as it is.
   double value = std::numeric_limits<double>::quiet_NaN();
   std::from_chars(text.data(), text.data() + text.size(), value);
   return value;
@@ -166,9 +166,9 @@ double CertificateCheck::flat_bound(const WrittenInterval& interval, const Sinus
   const long unit = edges_.flat_scale();
   Span divisor;
   double spread = 1;
-  for (std::size_t j = 0; j < 3; ++j) {
-    divisor = divisor + to_span(s.triple.weights[j], 2 * unit) * s.triple.edges[j]->flat_length;
-    spread = std::max(spread, s.triple.edges[j]->spread.high_double());
+  for (std::size_t e = 0; e < 3; ++e) {
+    divisor = divisor + to_span(s.triple.weights[e], 2 * unit) * s.triple.edges[e]->flat_length;
+    spread = std::max(spread, s.triple.edges[e]->spread.high_double());
   }
   const Span k = to_span(s.constant, 4 * unit), a = to_span(s.cosine, 4 * unit),
              b = to_span(s.sine, 4 * unit);

@@ -45,7 +45,7 @@ CellBound bound_over(const PoseCell& cell, const std::vector<BallTerm>& terms) {
     // However the pose moves within the cell, the part's centre moves no further than this.
     const Span slide = length({just(half[1]), just(half[2])});
     const Span anyway = slide + far * h;
-    // Where the centres may meet, u may be any number, and the curved bound is infinite.
+    // If the centres may meet, u may be any number, and the curved bound is infinite.
     const Vec u{w.x / apart, w.y / apart};
     const Span lever = cross(p, u), along_p = dot(u, p), rest = just(0.5) * h * h * far;
     const double ux = magnitude(u.x), uy = magnitude(u.y);

@@ -350,7 +350,7 @@ void PoseCheck::check_own_outline(const std::string& says, const Bounded& what) 
     report_.notes.push_back("that part and blank were read from the file in the same way was not rechecked");
   }
   const bool none = says == "same file" || (r_.part_tolerance.high == 0 && r_.blank_tolerance.high == 0);
-  const Span least = none ? Span{0, 0} : r_.part_tolerance + r_.blank_tolerance;
+  const Span least = none ? Span{} : r_.part_tolerance + r_.blank_tolerance;
   if (!(what.bound.low >= least.high))
     find("upper_bound {} is below {} mm, which a part in its own outline may have", what.bound.low,
          least.high);
