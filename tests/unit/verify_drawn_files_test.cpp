@@ -75,6 +75,8 @@ TEST(VerifyDrawnDxf, WhatLekaloDoesNotWriteIsRefusedWithItsLine) {
   refused("0 LINE 10 1 20 2 11 3 40 4", "groups are missing in a LINE");
   refused("0 CIRCLE 10 1 20 2", "groups are missing in a CIRCLE");
   refused("0 CIRCLE 10 1 20 2 40 5 50 0", "groups are missing in a CIRCLE");
+  refused("0 CIRCLE 10 1 0 LINE 10 1 0 LWPOLYLINE 10 1", "groups are missing in a CIRCLE");
+  refused("0 SECTION 2 ENTITIES", "line 16: lekalo writes no SECTION");
 }
 
 TEST(VerifyDrawnDxf, TheFileSaysItsUnitAndShowsItsLayers) {
@@ -101,6 +103,7 @@ TEST(VerifyDrawnDxf, TheFileSaysItsUnitAndShowsItsLayers) {
   EXPECT_EQ(table("0 LAYER 2 A 70 0 62 7"), "M!: L 1,2 3,5\n");
   EXPECT_EQ(table("0 LAYER 2 -A 70 0 62 7"), "M!: L 1,2 3,5\n") << "a name is no colour";
   EXPECT_EQ(table("0 LTYPE 2 A 70 1 62 -7"), "M!: L 1,2 3,5\n");
+  EXPECT_EQ(table("0 LINE 2 A"), "M!: L 1,2 3,5\n") << "lines are drawn in ENTITIES alone";
   EXPECT_NE(table("0 LAYER 2 A 70 1 62 7").find("a layer is not shown"), std::string::npos);
   EXPECT_NE(table("0 LAYER 2 A 70 0 62 -7").find("a layer is not shown"), std::string::npos);
 }
@@ -114,6 +117,8 @@ TEST(VerifyDrawnDxf, AFileIsWholeAndItsBlocksAreEmpty) {
   EXPECT_EQ(dxf_whole(body + kTail + " 5 x"), "e.dxf: line 32: it goes on after its end");
   EXPECT_EQ(dxf_whole("x " + body), "e.dxf: line 1: it ends in the middle");
   EXPECT_EQ(dxf_whole("0x SECTION"), "e.dxf: line 1: it ends in the middle");
+  EXPECT_EQ(dxf_whole(body + "  x" + kTail), "e.dxf: line 27: it ends in the middle") << "a code left empty";
+  EXPECT_EQ(dxf_whole(body + " 99999999999 x" + kTail), "e.dxf: line 27: it ends in the middle");
   EXPECT_EQ(told(read_dxf({"e.dxf", ""})), "e.dxf: line 0: it ends in the middle");
   const auto blocks = [&](const std::string& words) {
     return dxf_whole(kHead + "0 SECTION 2 BLOCKS " + words + " 0 ENDSEC 0 SECTION 2 ENTITIES " + line +
@@ -122,6 +127,9 @@ TEST(VerifyDrawnDxf, AFileIsWholeAndItsBlocksAreEmpty) {
   EXPECT_EQ(blocks("0 BLOCK 8 0 10 1 0 ENDBLK 8 0"), read);
   EXPECT_EQ(blocks("0 BLOCK 0 LINE 0 ENDBLK"), "e.dxf: line 18: lekalo writes no LINE in a block");
   // Blanks around a line and the other ends of lines say nothing.
+  std::string other_ends;
+  for (const char c : dxf_text(body + kTail)) other_ends += c == '\n' ? "\r\n" : std::string(1, c);
+  EXPECT_EQ(told(read_dxf({"e.dxf", other_ends})), read);
   EXPECT_EQ(told(read_dxf({"e.dxf", "  0 \r\nSECTION\n2\n ENTITIES \n0\nENDSEC\n0\nEOF"})),
             "e.dxf: it does not say its unit");
 }
@@ -148,6 +156,7 @@ TEST(VerifyDrawnSvg, PathsCirclesAndLinesAreReadWithYUp) {
   EXPECT_EQ(path("M0 0A2.5 2.5 0 0 1 4 0Z"), "CUT: A 2,-1.5 2.5 - 0,0 4,0 L 4,0 0,0\n");
   EXPECT_EQ(path("M0 0A2.5 2.5 0 1 1 4 0Z"), "CUT: A 2,1.5 2.5 - 0,0 4,0 L 4,0 0,0\n");
   EXPECT_EQ(path("M0 0A1 1 0 0 0 4 0Z"), "CUT: A 2,0 2 + 0,0 4,0 L 4,0 0,0\n");
+  EXPECT_EQ(path("M0 0A.25 .25 0 0 0 .5 0Z"), "CUT: A 0.25,0 0.25 + 0,0 0.5,0 L 0.5,0 0,0\n");
   EXPECT_EQ(svg(R"(<circle cx="1" cy="-2" r="5" data-lekalo-arcs="1"/>)"), "CUT: A 1,2 5 + 6,2 6,2\n");
   EXPECT_EQ(svg(R"(<line x1="1" y1="-2" x2="3" y2="-5"/>)"), "CUT!: L 1,2 3,5\n");
   EXPECT_EQ(svg("<text x=\"1\">any words</text>"), "");
@@ -224,6 +233,7 @@ TEST(VerifyDrawnSvg, ThePageIsAsLargeAsItsView) {
   refused(R"(width="100mm" height="51mm" viewBox="0 -51 100 50")", large);
   refused(R"(width="100mm" height="50mm" viewBox="0 -50 100 50 1")", large);
   refused(R"(width="100mm" height="50mm" viewBox="0 -50 100")", large);
+  refused(R"(width="100mm" height="50mm" viewBox="x -50 100 50")", large);
   refused(R"(width="100mm" height="50mm" viewBox="1 -50 100 50")", corner);
   refused(R"(width="100mm" height="50mm" viewBox="0 -49 100 50")", corner);
   refused(R"(width="100mm" height="50mm" viewBox="0 -50 100 50" data-lekalo-corner="0")", corner);
@@ -239,6 +249,7 @@ TEST(VerifyDrawnSvg, AFileIsWhole) {
   EXPECT_NE(svg_whole(open).find("an element is not closed"), std::string::npos);
   EXPECT_NE(svg_whole(open + "</svg></svg>").find("an element is not closed"), std::string::npos);
   EXPECT_NE(svg_whole("").find("an element is not closed"), std::string::npos);
+  EXPECT_EQ(svg_whole(open + "<g></g></svg>"), "e.svg: a group that is no layer: g");
   EXPECT_NE(svg_whole("<text></text>").find("an element is not closed"), std::string::npos);
   EXPECT_NE(svg_whole(open + "</svg").find("an element is cut off"), std::string::npos);
   EXPECT_NE(svg_whole("words" + open + "</svg>").find("text where lekalo writes none"), std::string::npos);

@@ -8,6 +8,7 @@
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/verify/claims.hpp"
 #include "support/layout_texts.hpp"
+#include "verify/drawn/line_match.hpp"
 
 /// Exports are held against their layout, outline by outline.
 namespace lekalo::verify::verify_exports_test {
@@ -44,25 +45,27 @@ struct Made {
   std::string layout;
   layout::Document document;
 };
+Made made_of(const Json& layout) {
+  auto read = io::read_layout(layout.dump(), "layout");
+  if (!read) throw std::logic_error(read.error().message);
+  layout::Document document = std::move(read->document);
+  std::string text = io::write_layout(document);
+  return {std::move(text), std::move(document)};
+}
 const Made& made() {
-  static const Made one = [] {
-    auto read = io::read_layout(sample().dump(), "layout");
-    if (!read) throw std::logic_error(read.error().message);
-    layout::Document document = std::move(read->document);
-    std::string text = io::write_layout(document);
-    return Made{std::move(text), std::move(document)};
-  }();
+  static const Made one = made_of(sample());
   return one;
 }
-std::string exported(const std::string& form, const std::vector<io::ExportWord>& words = {}) {
+std::string exported(const std::string& form, const std::vector<io::ExportWord>& words = {},
+                     const Made& of = made()) {
   const auto request = io::read_export_words(*io::export_form(form), words, "--");
   if (!request) throw std::logic_error(request.error().message);
-  const auto files = io::export_layout(made().document, "Sample", *request);
+  const auto files = io::export_layout(of.document, "Sample", *request);
   if (!files) throw std::logic_error(files.error().message);
   return files->files.at(0).bytes;
 }
-std::string judged(const std::string& bytes, const ExportWords& words = {}) {
-  const auto report = verify_export({"e", bytes}, {"l.json", made().layout}, words);
+std::string judged(const std::string& bytes, const ExportWords& words = {}, const Made& of = made()) {
+  const auto report = verify_export({"e", bytes}, {"l.json", of.layout}, words);
   if (!report) return report.error().message;
   std::string text;
   for (const std::string& finding : report->findings) text += finding + "\n";
@@ -97,6 +100,107 @@ TEST(VerifyExports, WhatWasExportedIsTheLayout) {
   EXPECT_EQ(
       verify_export({"e", exported("dxf")}, {"l.json", cases::empty_layout().dump()}, {}).error().message,
       "l.json: nothing is placed, so nothing was exported");
+}
+
+/// An SVG with this on one layer.
+std::string drawn_on(const std::string& layer, const std::string& what) {
+  return R"(<svg width="9mm" height="9mm" viewBox="0 -9 9 9"><g inkscape:groupmode="layer" inkscape:label=")" +
+         layer + "\">" + what + "</g></svg>";
+}
+
+TEST(VerifyExports, AStripIsAsLongAsItIsUsed) {
+  Json layout = cases::empty_layout();
+  layout["stocks"] = {{{"id", "s"}, {"kind", "strip"}, {"height", 40}}};
+  add_part(layout, "plate", outline_json(rectangle(0, 0, 30, 20)));
+  const auto judged_of = [](const Json& of) {
+    const Made strip = made_of(of);
+    EXPECT_EQ(judged(exported("svg", {}, strip), {}, strip), "");
+    // The sheet alone, drawn from 0 to a length.
+    return [strip](const std::string& length) {
+      const std::string path = "<path d=\"M0 0L" + length + " 0L" + length + " -40L0 -40Z\"/>";
+      return judged(drawn_on("SHEET", path), on_sheet("", {"SHEET"}), strip);
+    };
+  };
+  place(layout, "plate", -60, 10);
+  EXPECT_EQ(judged_of(layout)("0.00000095367431640625"), "") << "nothing of it is used";
+  place(layout, "plate", 50, 10);
+  place(layout, "plate", 10, 10);
+  EXPECT_EQ(judged_of(layout)("80"), "");
+  EXPECT_NE(judged_of(layout)("40"), "");
+  layout["stocks"][0]["length"] = 75;
+  EXPECT_EQ(judged_of(layout)("75"), "");
+  EXPECT_NE(judged_of(layout)("80"), "");
+}
+
+TEST(VerifyExports, SheetsLieBesideWhatSticksOut) {
+  Json layout = cases::empty_layout();
+  layout["stocks"][0]["count"] = 2;
+  layout["stocks"][0]["defects"] = {
+      {{"id", "knot"}, {"severity", 1}, {"outline", outline_json(rectangle(150, 90, 50, 5))}}};
+  Json half =
+      Json::array({{{"line", {{"from", {0, 15}}, {"to", {0, -15}}}}},
+                   {{"arc", {{"from", {0, -15}}, {"to", {0, 15}}, {"centre", {0, 0}}, {"ccw", true}}}}});
+  add_part(layout, "d", {{"curves", {{"outer", half}}}});
+  // Neither the rightmost place of the one nor the leftmost of the other is at a quarter of its arc.
+  place(layout, "d", 96, 30, 33.3);
+  place(layout, "d", 4, 30, 180 + 33.3)["copy"] = 1;
+  // The rightmost place of its circle is none of the arc's.
+  Json cap =
+      Json::array({{{"line", {{"from", {-30, 40}}, {"to", {30, 40}}}}},
+                   {{"arc", {{"from", {30, 40}}, {"to", {-30, 40}}, {"centre", {0, 0}}, {"ccw", true}}}}});
+  add_part(layout, "cap", {{"curves", {{"outer", cap}}}});
+  place(layout, "cap", 75, 40);
+  const Made both = made_of(layout);
+  EXPECT_EQ(judged(exported("dxf", {}, both), {}, both), "");
+}
+
+TEST(VerifyExports, TheOnlyCopyHasTheNameOfItsStock) {
+  Json layout = cases::empty_layout();
+  add_part(layout, "plate", outline_json(rectangle(0, 0, 30, 20)));
+  place(layout, "plate", 10, 10);
+  const Made one = made_of(layout);
+  EXPECT_EQ(judged(exported("svg", {}, one), on_sheet("s"), one), "");
+  EXPECT_EQ(judged(exported("svg", {}, one), on_sheet("s#1"), one),
+            "l.json: nothing lies on a sheet s#1, only on s");
+}
+
+TEST(VerifyExports, LinesMayBeOffByTheRoundingOfADrawing) {
+  Json layout = cases::empty_layout();
+  add_part(layout, "plate", outline_json(rectangle(0, 0, 20, 10)))["grain"] = {{"deg", 0}};
+  place(layout, "plate", 0, 0);
+  place(layout, "plate", -25, -5);
+  const Made of = made_of(layout);
+  const auto drawn = [&](const std::string& layer, const std::string& what) {
+    return judged(drawn_on(layer, what), on_sheet("", {layer}), of);
+  };
+  const auto cut = [&](const std::string& y) {
+    return drawn("CUT", "<path d=\"M0 " + y + "L20 " + y + "L20 -10L0 -10L0 0L0 " + y + "Z\"/>" +
+                            R"(<path d="M-25 5L-5 5L-5 -5L-25 -5Z"/>)");
+  };
+  EXPECT_EQ(cut("-2e-6"), "");
+  EXPECT_NE(cut("-2.1e-6"), "");
+  const auto marks = [&](const std::string& second) {
+    return drawn("MARK", R"(<line x1="1" y1="-1" x2="2" y2="-1"/>)" + second);
+  };
+  EXPECT_EQ(marks(R"(<line x1="-20" y1="0" x2="-10" y2="-4e-6"/>)"), "");
+  EXPECT_EQ(marks(R"(<line x1="-20" y1="0" x2="-10" y2="-4.1e-6"/>)"),
+            "the mark from (-20, -0) runs along the grain of no part\n1 marks of a grain are missing\n");
+  EXPECT_NE(marks(R"(<path d="M-20 0L-10 0L-10 1Z"/>)"), "") << "a mark is one line";
+}
+
+TEST(VerifyExports, BothEndsOfAShortArcAreNearAChord) {
+  const Place begin{1, 0}, end{std::cos(0.3), std::sin(0.3)};
+  const Likeness likeness{0, 1};
+  const auto on = [&](Place from, Place to, const Stroke& arc) {
+    const DrawnLine chord{"CUT", {line_between(from, to)}, false};
+    return EdgeSet({&chord}).holds(arc, likeness);
+  };
+  const Stroke arc = arc_about(begin, end, {}, true), back = arc_about(end, begin, {}, false);
+  const Place up{0, 1};
+  for (const Stroke& either : {arc, back}) {
+    EXPECT_TRUE(on({0, -0.5}, {2, -0.5}, either));
+    EXPECT_FALSE(on(end + up, end + 2 * up, either)) << "the beginning is too far from it";
+  }
 }
 
 /// Every place where a digit of the file can be changed by one at the third decimal, or a line left out.

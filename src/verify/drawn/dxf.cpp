@@ -13,9 +13,9 @@ namespace lekalo::verify {
 namespace {
 
 struct Group {
-  int code = 0;
+  int code;
   std::string_view value;
-  std::size_t line = 0;  ///< of the value, from 1
+  std::size_t line;  ///< of the value, from 1
 };
 
 /// Reads pairs of lines: a code, and its value without blanks around it.
@@ -85,7 +85,7 @@ class DxfReader {
 
   void begin(const Group& group) {
     entity_ = group.value;
-    if (entity_ == "SECTION" || entity_ == "ENDSEC") section_ = "";
+    if (entity_ == "ENDSEC") section_ = "";
     if (section_ == "ENTITIES" && entity_ != "LWPOLYLINE" && entity_ != "CIRCLE" && entity_ != "LINE" &&
         entity_ != "TEXT")
       complain(group, fmt::format("lekalo writes no {}", excerpt(entity_)));
@@ -98,7 +98,7 @@ class DxfReader {
       section_ = group.value;
     else if (section_ == "HEADER")
       take_header(group);
-    else if (section_ == "TABLES" && entity_ == "LAYER")
+    else if (entity_ == "LAYER")
       take_layer(group);
     else if (section_ == "ENTITIES" && entity_ != "TEXT")
       take_entity(group);
@@ -154,7 +154,7 @@ class DxfReader {
   }
 
   void finish_entity() {
-    if (section_ == "ENTITIES" && complaint_.empty()) {
+    if (section_ == "ENTITIES") {
       if (entity_ == "LWPOLYLINE") add_polyline();
       if (entity_ == "CIRCLE") add_circle();
       if (entity_ == "LINE") add_line();

@@ -36,7 +36,7 @@ bool inside(Place p, const std::vector<std::vector<Stroke>>& contours) {
   bool in = false;
   std::vector<Stroke> pieces;
   for (const std::vector<Stroke>& contour : contours)
-    for (const Stroke& edge : contour) add_pieces(edge, edge.arc ? 0.1 * edge.radius : 1e30, pieces);
+    for (const Stroke& edge : contour) add_pieces(edge, edge.arc ? 0.1 * edge.radius : kInfinity, pieces);
   for (const Stroke& s : pieces)
     if (crosses_ray_to_the_right(line_between(s.from, s.to), p)) in = !in;
   return in;

@@ -53,8 +53,8 @@ class HpglReader {
                            values = word.substr(std::min<std::size_t>(2, word.size()));
     if (pen_ == 0 && begun_) complain(word);
     if (kind == "SP") {
-      pen_ = values.size() == 1 && values[0] <= '7' ? values[0] - '0' : -1;
-      if (pen_ < 0) complain(word);
+      if (values.size() != 1 || values[0] < '0' || values[0] > '7') return complain(word);
+      pen_ = values[0] - '0';
       begun_ = true;
     } else if (kind == "PU") {
       const std::vector<Place> places = read_places(values);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 
 #include "lekalo/base/stop.hpp"
 #include "placed_sheet.hpp"
@@ -22,11 +21,10 @@ Parents common(const Parents& a, const Parents& b) {
 
 EdgeSet::EdgeSet(const std::vector<const DrawnLine*>& lines) {
   std::uint32_t parent = 0;
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  Place low{kFar, kFar}, high{-kFar, -kFar};
+  Place low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
   for (const DrawnLine* line : lines)
     for (const Stroke& edge : line->edges) {
-      add_pieces(edge, 1e30, pieces_);
+      add_pieces(edge, kInfinity, pieces_);
       for (std::size_t i = parent_of_piece_.size(); i < pieces_.size(); ++i) {
         Place from, to;
         box_of(pieces_[i], from, to);
@@ -53,7 +51,7 @@ Parents EdgeSet::parents_near(Place p, double reach) const {
 bool EdgeSet::holds(const Stroke& edge, const Likeness& likeness) const {
   const bool as_chords = likeness.chords > 0 && edge.arc;
   // A chord over an angle a lies within r a^2 / 8 of its arc: these are within a fiftieth of `chords`.
-  const double longest = as_chords ? std::sqrt(8 * edge.radius * likeness.chords / 50) : 1e30;
+  const double longest = as_chords ? std::sqrt(8 * edge.radius * likeness.chords / 50) : kInfinity;
   std::vector<Stroke> pieces;
   add_pieces(edge, longest, pieces);
   const double reach = likeness.places, middle_reach = reach + 1.02 * likeness.chords;

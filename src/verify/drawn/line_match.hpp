@@ -10,7 +10,7 @@ namespace lekalo::verify {
 /// The distances, mm, within which two drawings are the same: of ends and middles of edges, and besides of
 /// chords from their arcs.
 struct Likeness {
-  double places = 0, chords = 0;
+  double places, chords;
 };
 
 /// A set of edges that others are looked for on.

@@ -68,18 +68,20 @@ void add(const char* layer, const Contours& contours, PlacedSheet& sheet) {
   for (const std::vector<Stroke>& contour : contours) sheet.lines.push_back({layer, contour, true});
 }
 
-const WrittenPiece kStill{0, 0, 0, 0, GridTurn{std::int64_t{1} << 52, 0}, {0, 0}, false, false};
+/// The place of what is no part.
+WrittenPiece still() {
+  WrittenPiece piece;
+  piece.turn.c = std::int64_t{1} << 52;
+  return piece;
+}
 
 /// Adds the stock's outline; that of a strip is as long as it is used.
-void add_material(const WrittenStock& stock, std::int64_t used, bool any, PlacedSheet& sheet) {
-  if (stock.kind != "strip") return add("SHEET", contours_of(stock.outline, kStill), sheet);
+void add_material(const WrittenStock& stock, std::int64_t used, PlacedSheet& sheet) {
+  if (stock.kind != "strip") return add("SHEET", contours_of(stock.outline, still()), sheet);
   const GridBox& box = stock.outline.box;
-  std::int64_t length = any ? std::max<std::int64_t>(used - box.low_x, 1) : box.high_y - box.low_y;
-  length = std::min(length, box.high_x - box.low_x);
-  const std::int64_t end = box.low_x + length;
-  const GridOutline rectangle =
-      make_outline({{{box.low_x, box.low_y}, {end, box.low_y}, {end, box.high_y}, {box.low_x, box.high_y}}});
-  add("SHEET", polygon_contours(rectangle, kStill), sheet);
+  const std::int64_t length = std::min(std::max<std::int64_t>(used, 1), box.high_x);
+  const GridOutline rectangle = make_outline({{{0, 0}, {length, 0}, {length, box.high_y}, {0, box.high_y}}});
+  add("SHEET", polygon_contours(rectangle, still()), sheet);
 }
 
 PlacedSheet sheet_of(const WrittenLayout& layout, SheetOf which) {
@@ -102,10 +104,10 @@ PlacedSheet sheet_of(const WrittenLayout& layout, SheetOf which) {
         turned({std::ldexp(static_cast<double>(grain.c), -52), std::ldexp(static_cast<double>(grain.s), -52)},
                piece.turn, piece.mirrored);
   }
-  add_material(stock, used, !sheet.parts.empty(), sheet);
+  add_material(stock, used, sheet);
   for (const WrittenStockFeature& defect : stock.defects)
-    add("DEFECT", contours_of(defect.outline, kStill), sheet);
-  for (const WrittenStockFeature& zone : stock.zones) add("ZONE", contours_of(zone.outline, kStill), sheet);
+    add("DEFECT", contours_of(defect.outline, still()), sheet);
+  for (const WrittenStockFeature& zone : stock.zones) add("ZONE", contours_of(zone.outline, still()), sheet);
   return sheet;
 }
 
@@ -115,7 +117,7 @@ std::pair<double, double> extent_x(const PlacedSheet& sheet) {
   std::vector<Stroke> pieces;
   for (const DrawnLine& line : sheet.lines)
     if (line.layer == "SHEET" || line.layer == "CUT")
-      for (const Stroke& edge : line.edges) add_pieces(edge, 1e30, pieces);
+      for (const Stroke& edge : line.edges) add_pieces(edge, kInfinity, pieces);
   for (const Stroke& s : pieces) {
     low = std::min({low, s.from.x, s.to.x}), high = std::max({high, s.from.x, s.to.x});
     if (!s.arc) continue;

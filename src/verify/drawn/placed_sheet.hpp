@@ -20,7 +20,7 @@ struct PlacedSheet {
   /// On the layers CUT, SHEET, DEFECT, ZONE and AREA.
   std::vector<DrawnLine> lines;
   struct Part {
-    std::uint64_t id = 0;
+    std::uint64_t id;
     /// The outer contour, then the holes.
     std::vector<std::vector<Stroke>> contours;
     /// The direction of the grain on the sheet, of a part that has one.

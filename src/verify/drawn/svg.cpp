@@ -23,9 +23,9 @@ class Words {
     while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == ',')) rest_.remove_prefix(1);
     return rest_.empty();
   }
-  /// Returns the character that comes next, or 0.
+  /// Returns the character that comes next.
+  /// \pre the last done() was false
   char letter() {
-    if (done()) return 0;
     const char c = rest_.front();
     rest_.remove_prefix(1);
     return c;
@@ -67,7 +67,7 @@ class SvgReader {
       element(rest_.substr(0, close));
       rest_.remove_prefix(close + 1);
     }
-    if (complaint_.empty() && (depth_ != 0 || !page_)) complain("an element is not closed");
+    if (depth_ != 0 || !page_) complain("an element is not closed");
     if (!complaint_.empty()) return complained(complaint_);
     return std::move(lines_);
   }
@@ -177,7 +177,7 @@ class SvgReader {
       const double x = words.number(), y = words.number();
       return Place{x, -y};
     };
-    if (words.letter() != 'M') return complain("a path that does not begin with M");
+    if (words.done() || words.letter() != 'M') return complain("a path that does not begin with M");
     const Place begin = place();
     Place at = begin;
     while (words.fine() && !words.done()) {

@@ -18,7 +18,7 @@ using Strokes = std::vector<Stroke>;
 
 /// A line or arc as pieces that are nearly straight: within `off` mm of their chords.
 void add_straight(const Stroke& edge, double off, Strokes& pieces) {
-  add_pieces(edge, edge.arc ? std::sqrt(8 * edge.radius * off) : 1e30, pieces);
+  add_pieces(edge, edge.arc ? std::sqrt(8 * edge.radius * off) : kInfinity, pieces);
 }
 
 struct Extent {
@@ -43,7 +43,7 @@ class Ring {
   Ring(const std::vector<Strokes>& contours, double off) {
     for (const Strokes& contour : contours)
       for (const Stroke& edge : contour) {
-        add_pieces(edge, 1e30, pieces);
+        add_pieces(edge, kInfinity, pieces);
         add_straight(edge, off, straight_);
       }
     extent_.add(pieces);
