@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdlib>
 
@@ -71,9 +70,8 @@ std::optional<Decimal> parse_decimal(std::string_view text) {
   if (digits.size() > limits::kMostDigits || magnitude <= -kMost || magnitude > kMost) return std::nullopt;
 
   // A long is made without the text's way through numbers of any length.
-  long few = 0;
-  const bool fits = digits.size() <= 18;
-  if (fits) std::from_chars(digits.data(), digits.data() + digits.size(), few);
+  long few{};
+  const bool fits = std::from_chars(digits.data(), digits.data() + digits.size(), few).ec == std::errc{};
   Decimal value{fits ? Integer(few) : Integer(digits, 10), exponent};
   if (negative) value.digits = -value.digits;
   return value;
@@ -109,8 +107,8 @@ Integer in_units(const Decimal& value, long exponent) {
 }
 
 Fraction to_fraction(const Decimal& value) {
-  if (value.exponent >= 0) return value.digits * power_of_ten(static_cast<unsigned long>(value.exponent));
-  Fraction made(value.digits, power_of_ten(static_cast<unsigned long>(-value.exponent)));
+  const auto tens = [](long zeros) { return power_of_ten(static_cast<unsigned long>(std::max(zeros, 0L))); };
+  Fraction made(value.digits * tens(value.exponent), tens(-value.exponent));
   made.canonicalize();
   return made;
 }
@@ -146,20 +144,16 @@ Decimal exactly(double value) {
 }
 
 std::optional<SmallDecimal> small(const Decimal& value) {
-  static constexpr std::array<double, 23> kPowers = [] {
-    std::array<double, 23> powers{1};
-    for (std::size_t k = 1; k < powers.size(); ++k) powers[k] = 10 * powers[k - 1];
-    return powers;
-  }();
   constexpr long kMost = 1'000'000'000'000'000'000;
-  if (value.digits >= kMost || value.digits <= -kMost || value.exponent <= -long{kPowers.size()})
-    return std::nullopt;
+  if (value.digits >= kMost || value.digits <= -kMost || value.exponent < -22) return std::nullopt;
   long digits = to_long(value.digits), exponent = value.exponent;
   for (; exponent > 0; --exponent) {
     if (std::abs(digits) >= kMost / 10) return std::nullopt;
     digits *= 10;
   }
-  return SmallDecimal{digits, kPowers[static_cast<std::size_t>(-exponent)]};
+  double power = 1;
+  for (; exponent < 0; ++exponent) power *= 10;
+  return SmallDecimal{digits, power};
 }
 
 double approximate(const Decimal& value) {

@@ -55,9 +55,9 @@ struct Decimal {
 
 /// Returns value / 2^scale, cut towards zero by less than one step of a double.
 [[nodiscard]] inline double scaled_down(const Integer& value, long scale) {
-  long exponent = 0;
+  long exponent{};
   const double digits = mpz_get_d_2exp(&exponent, value.get_mpz_t());
-  return std::ldexp(digits, static_cast<int>(std::clamp(exponent - scale, -4000L, 4000L)));
+  return std::scalbln(digits, exponent - scale);
 }
 /// Returns the value, cut towards zero by less than one step of a double.
 [[nodiscard]] inline double cut_to_double(const Fraction& value) { return value.get_d(); }

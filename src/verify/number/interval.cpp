@@ -36,8 +36,8 @@ void free_caches_with_the_thread() {
 Interval::Interval(Precision precision) {
   mpfr_init2(low_, precision);
   mpfr_init2(high_, precision);
-  mpfr_set_zero(low_, 1);
-  mpfr_set_zero(high_, 1);
+  mpfr_set_ui(low_, 0, MPFR_RNDD);
+  mpfr_set_ui(high_, 0, MPFR_RNDU);
 }
 
 Interval::Interval(const Integer& value, Precision precision) : Interval(precision) {
@@ -52,9 +52,9 @@ Interval Interval::exactly(double value, Precision precision) {
   return interval;
 }
 
-Interval::Interval(const Decimal& value, Precision precision) : Interval(value.digits, precision) {
-  const Interval power(power_of_ten(static_cast<unsigned long>(std::abs(value.exponent))), precision);
-  *this = value.exponent < 0 ? *this / power : *this * power;
+Interval::Interval(const Decimal& value, Precision precision) : Interval(precision) {
+  const Fraction exact = to_fraction(value);
+  *this = Interval(exact.get_num(), precision) / Interval(exact.get_den(), precision);
 }
 
 Interval::Interval(const Interval& other) : Interval(other.precision()) {
@@ -121,22 +121,22 @@ Interval operator*(const Interval& a, const Interval& b) {
 Interval operator/(const Interval& a, const Interval& b) {
   LEKALO_ASSERT(certainly_positive(b));
   Interval result(common_precision(a, b));
-  mpfr_div(result.low_, a.low_, mpfr_sgn(a.low_) < 0 ? b.low_ : b.high_, MPFR_RNDD);
-  mpfr_div(result.high_, a.high_, mpfr_sgn(a.high_) < 0 ? b.high_ : b.low_, MPFR_RNDU);
+  mpfr_div(result.low_, a.low_, mpfr_signbit(a.low_) != 0 ? b.low_ : b.high_, MPFR_RNDD);
+  mpfr_div(result.high_, a.high_, mpfr_signbit(a.high_) != 0 ? b.high_ : b.low_, MPFR_RNDU);
   return result;
 }
 
 Interval square_root(const Interval& a) {
-  Interval result(a.precision());
-  if (mpfr_sgn(a.low_) > 0) mpfr_sqrt(result.low_, a.low_, MPFR_RNDD);
-  if (mpfr_sgn(a.high_) > 0) mpfr_sqrt(result.high_, a.high_, MPFR_RNDU);
+  Interval result = maximum(a, Interval(a.precision()));
+  mpfr_sqrt(result.low_, result.low_, MPFR_RNDD);
+  mpfr_sqrt(result.high_, result.high_, MPFR_RNDU);
   return result;
 }
 
 Interval square(const Interval& a) {
   Interval result(a.precision());
   const bool low_is_smaller = mpfr_cmpabs(a.low_, a.high_) <= 0;
-  const bool crosses_zero = mpfr_sgn(a.low_) < 0 && mpfr_sgn(a.high_) > 0;
+  const bool crosses_zero = mpfr_sgn(a.low_) != mpfr_sgn(a.high_);
   if (!crosses_zero) mpfr_sqr(result.low_, low_is_smaller ? a.low_ : a.high_, MPFR_RNDD);
   mpfr_sqr(result.high_, low_is_smaller ? a.high_ : a.low_, MPFR_RNDU);
   return result;
@@ -217,7 +217,7 @@ long bits_of(const Interval& a) {
 }
 
 std::optional<std::int64_t> nearest_multiple(const Interval& a, int bits) {
-  Interval whole(std::max<Precision>(a.precision(), 64));
+  Interval whole(a.precision());
   mpfr_mul_2si(whole.low_, a.low_, bits, MPFR_RNDN);  // exact
   mpfr_mul_2si(whole.high_, a.high_, bits, MPFR_RNDN);
   mpfr_rint(whole.low_, whole.low_, MPFR_RNDN);  // ties to even
@@ -230,7 +230,7 @@ double Interval::nearly_low(long scale) const {
   if (mpfr_zero_p(low_) != 0) return 0;
   long exponent = 0;
   const double digits = mpfr_get_d_2exp(&exponent, low_, MPFR_RNDN);
-  return std::ldexp(digits, static_cast<int>(std::clamp(exponent - scale, -4000L, 4000L)));
+  return std::scalbln(digits, exponent - scale);
 }
 
 double Interval::high_double(long scale) const {

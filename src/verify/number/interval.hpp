@@ -57,7 +57,7 @@ class Interval {
   friend long bits_of(const Interval& a);
   /// Returns the whole number that is nearest (ties to even) to every number of the interval times 2^bits, if
   /// there is one such number.
-  /// \pre it fits 62 bits
+  /// \pre it fits 62 bits, and the precision is as large
   friend std::optional<std::int64_t> nearest_multiple(const Interval& a, int bits);
 
   friend bool certainly_zero(const Interval& a) {
@@ -97,7 +97,7 @@ struct Turn {
 
 /// The doubles nearest to cosine and sine of an angle.
 struct RoundedTurn {
-  double cosine = 1, sine = 0;
+  double cosine, sine;
 };
 /// \pre finite
 [[nodiscard]] RoundedTurn rounded_turn(double angle);

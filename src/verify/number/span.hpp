@@ -60,7 +60,8 @@ struct Span {
 /// Nothing is known of a quotient whose divisor may be 0 or less.
 [[nodiscard]] inline Span operator/(Span a, Span b) {
   if (!(b.low > 0)) return {-kInfinity, kInfinity};
-  return outwards(a.low / (a.low < 0 ? b.low : b.high), a.high / (a.high < 0 ? b.high : b.low));
+  return outwards(a.low / (std::signbit(a.low) ? b.low : b.high),
+                  a.high / (std::signbit(a.high) ? b.high : b.low));
 }
 [[nodiscard]] inline Span square_root(Span a) {
   return outwards(std::sqrt(std::max(a.low, 0.0)), std::sqrt(a.high));
@@ -70,9 +71,7 @@ struct Span {
   return {std::max(0.0, product.low), product.high};
 }
 [[nodiscard]] inline Span absolute(Span a) {
-  if (a.low >= 0) return a;
-  if (a.high <= 0) return -a;
-  return {0, std::max(-a.low, a.high)};
+  return {std::max({0.0, a.low, -a.high}), std::max(-a.low, a.high)};
 }
 
 }  // namespace lekalo::verify
