@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/verify/claims.hpp"
 #include "support/layout_texts.hpp"
 #include "verify/profile/profile_moves.hpp"
@@ -50,6 +51,9 @@ TEST(VerifyProfileMoves, WhatIsOnCuts) {
   EXPECT_EQ(cuts("G0 Z0\nG0 X1 Y2\nM3\nG1 X9\nG1 Z-1\nG1 X3"), "7: L 9,2 3,2\n");
   EXPECT_EQ(cuts("G0 X1 Y2\nM3\nG1 X5\nG1 Z-1\nG1 X6"), "4: L 1,2 5,2\n6: L 5,2 6,2\n");
   EXPECT_EQ(cuts("G0 X1 Y2\nM3\nG1 X5\nG4 P1\nG1 X6"), "4: L 1,2 5,2 L 5,2 6,2\n");
+  EXPECT_EQ(cuts("G0 Z5\nX1 Y2\nM3\nG1 X9\nZ-1\nX3"), "7: L 9,2 3,2\n");
+  EXPECT_EQ(cuts("G0 X1 Y2\nG0 Z-1\nG0 Z5"), "") << "nothing turns";
+  EXPECT_EQ(cuts("G0 X1 Y2\nM3\nG1 X1 Y2\nX5"), "4: L 1,2 1,2 L 1,2 5,2\n");
 }
 
 TEST(VerifyProfileMoves, WordsAreReadAsTheyStand) {
@@ -111,6 +115,7 @@ TEST(VerifyProfileMoves, WhatIsNotWrittenThereIsRefusedWithItsLine) {
   refused("G0 Z5\nM4", "M4 where M3 is meant");
   refused("%", "p.nc:2: % neither begins the program nor ends it");
   EXPECT_EQ(cuts("G0 X0 Y0\nM3\nG2 X2.004 Y0 I1 J0"), "4: A 1,0 1.002 - 0,0 2.004,0\n");
+  EXPECT_EQ(cuts("G0 X.01 Y0\nM3\nG2 X-.005 Y0 I-.01 J0"), "4: A 0,0 0.0075 - 0.01,0 -0.005,0\n");
   EXPECT_EQ(cuts("G0 X1 Y1\nM3\nG1 Z-1\nG0 Z2"), "");
   EXPECT_EQ(cuts("G0 X0 Y0\nM3\nG2 X0 Y2 I0 J1"), "4: A 0,1 1 - 0,0 0,2\n");
 }
@@ -157,6 +162,7 @@ TEST(VerifyProfileMoves, ModesThatAreNotSaidAreTheControls) {
   EXPECT_EQ(unsaid("G21 G17 G49 G54 G90 G94\n" + tail, Control::grbl).first, 0U) << "GRBL has no G41";
   EXPECT_EQ(unsaid("%\nO1\n" + kModes + tail + "%\n", Control::linuxcnc).first, 0U) << "LinuxCNC reads no O1";
   EXPECT_EQ(unsaid("%\nO1\nG21 G17 G49 G54 G90 G94\n" + tail, Control::linuxcnc).first, 1U);
+  EXPECT_EQ(unsaid("%\nO1\nG21 G17 G49 G54 G90 G94\n" + tail, Control::grbl).first, 0U);
 }
 
 // ---- against a layout -------------------------------------------------------------------------------------
@@ -191,16 +197,37 @@ std::string within(double x, double y, double width, double height, double in) {
 const std::string kHole = within(16, 16, 8, 8, 0.5), kRing = around(10, 10, 20, 20, 0.5),
                   kPlate = around(50, 10, 10, 10, 0.5);
 
-std::string judged(const std::string& cut, double kerf = 1, double tolerance = 0.01) {
+std::string judged_on(const std::string& layout, const std::string& cut, double kerf = 1,
+                      double tolerance = 0.01) {
   ProfileWords words;
   words.kerf_mm = kerf, words.tolerance_mm = tolerance;
-  const std::string layout = layout_text(), program = kModes + cut + "M2\n";
+  const std::string program = kModes + cut + "M2\n";
   const Result<ClaimReport> report = verify_profile({"p.nc", program}, {"l.json", layout}, words);
   if (!report) return report.error().message;
   std::string text;
   for (const std::string& finding : report->findings) text += finding + "\n";
   return text;
 }
+
+std::string judged(const std::string& cut) { return judged_on(layout_text(), cut); }
+/// One part, as it is drawn.
+std::string alone(const cases::Json& outline) {
+  cases::Json layout = cases::empty_layout();
+  cases::add_part(layout, "part", outline);
+  cases::place(layout, "part", 0, 0);
+  return io::write_layout(io::read_layout(layout.dump(), "layout").value().document);
+}
+std::string plate(const std::vector<cases::Points>& holes = {}) {
+  return alone(cases::outline_json(cases::rectangle(0, 0, 30, 30), holes));
+}
+/// The way along these places, the first of which is gone to without a cut.
+std::string along(const cases::Points& places) {
+  std::string words;
+  for (const auto& [x, y] : places)
+    words += fmt::format("{} X{} Y{}\n", words.empty() ? "G0" : "G1", x, y) + (words.empty() ? "M3\n" : "");
+  return words + "M5\n";
+}
+const std::string kNoContour = "the cut follows no contour of a part";
 
 TEST(VerifyProfile, EveryContourIsCutOnItsWasteSide) {
   EXPECT_EQ(judged(kHole + kRing + kPlate), "");
@@ -211,6 +238,8 @@ TEST(VerifyProfile, EveryContourIsCutOnItsWasteSide) {
   EXPECT_EQ(verify_profile({"p.nc", program}, {"l.json", layout}, words)->unchecked.size(), 2U);
   words.control = words::Control::haas;
   EXPECT_TRUE(verify_profile({"p.nc", program}, {"l.json", layout}, words)->unchecked.empty());
+  EXPECT_EQ(judged(kHole + kRing + around(50, 10, 10, 10, 0.505) + around(50, 10, 10, 10, 0.495)), "")
+      << "one contour may be cut twice";
   EXPECT_EQ(judged(kHole + kRing), "the outline of placement 2 is not cut\n");
   EXPECT_EQ(judged(kRing + kPlate), "hole 1 of placement 1 is not cut\n");
   EXPECT_EQ(judged(kHole + kPlate), "the outline of placement 1 is not cut\n");
@@ -230,6 +259,24 @@ TEST(VerifyProfile, TheKerfKeepsItsDistance) {
   EXPECT_EQ(judged(kHole + kRing + around(50, 10, 10, 10, 0.7)),
             "line 22: the cut follows no contour of a part\nthe outline of placement 2 is not cut\n");
   EXPECT_NE(judged(kHole + kRing + within(50, 10, 10, 10, 0.5)).find("placement 2"), std::string::npos);
+  const double least = 0.5 - 0.25 - 1e-7;
+  const auto below = [&](double by) {
+    return judged_on(plate(), along({{-0.3, -by}, {30.3, -by}, {30.3, 30.3}, {-0.3, 30.3}, {-0.3, -by}}), 1,
+                     0.25);
+  };
+  EXPECT_EQ(below(least), "");
+  EXPECT_NE(below(std::nextafter(least, 0)).find("the kerf enters a part"), std::string::npos);
+  // Beyond the tolerance a tenth of half the kerf is let be, or 0.02 mm.
+  EXPECT_EQ(judged_on(plate(), around(0, 0, 30, 30, 0.555)), "");
+  EXPECT_NE(judged_on(plate(), around(0, 0, 30, 30, 0.565)), "");
+  EXPECT_EQ(judged_on(plate(), around(0, 0, 30, 30, 0.115), 0.2, 0.001), "");
+  EXPECT_NE(judged_on(plate(), around(0, 0, 30, 30, 0.125), 0.2, 0.001), "");
+}
+
+TEST(VerifyProfile, AHoleMayBeSmall) {
+  EXPECT_EQ(judged_on(plate({cases::rectangle(5, 5, 0.6, 0.6)}),
+                      within(5, 5, 0.6, 0.6, 0.1) + around(0, 0, 30, 30, 0.1), 0.2),
+            "");
 }
 
 TEST(VerifyProfile, ALeadMayComeFromOutsideAlone) {
@@ -237,11 +284,67 @@ TEST(VerifyProfile, ALeadMayComeFromOutsideAlone) {
   EXPECT_EQ(judged(kHole + kRing + "G0 X50 Y5\nM3\nG1 Y9.5\n" + way + "M5\n"), "");
   const std::string said = judged(kHole + kRing + "G0 X55 Y15\nM3\nG1 X50 Y9.5\n" + way + "M5\n");
   EXPECT_NE(said.find("the kerf enters a part"), std::string::npos) << said;
+  const auto enters = [&](const std::string& lead) {
+    return judged(kHole + kRing + lead + "X50 Y9.5\n" + way + "M5\n").find("the kerf enters a part") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(enters("G0 X50 Y20.3\nM3\nG1 Y25.3\nX45\nY9.5\n")) << "it begins too near";
+  EXPECT_FALSE(enters("G0 X50 Y20.5\nM3\nG1 Y25.3\nX45\nY9.5\n"));
+  EXPECT_TRUE(enters("G0 X47.5 Y15\nM3\nG1 X62.5\nY9.5\n")) << "it crosses the plate";
   const std::string inside = judged(kHole + kRing + within(50, 10, 10, 10, 2));
   EXPECT_NE(inside.find("line 22: the cut begins in placement 2"), std::string::npos) << inside;
   EXPECT_NE(
       judged(kHole + kRing + "G0 X50 Y9.5\nM3\nG0" + way.substr(2) + "M5\n").find("a rapid motion cuts"),
       std::string::npos);
+}
+
+/// A plate with a notch down from its upper side.
+std::string notched(double width) {
+  return alone(cases::outline_json(
+      {{0, 0}, {30, 0}, {30, 20}, {10 + width, 20}, {10 + width, 10}, {10, 10}, {10, 20}, {0, 20}}));
+}
+
+TEST(VerifyProfile, ACutGoesWhereItsKerfHasRoom) {
+  EXPECT_EQ(judged_on(notched(0.4), around(0, 0, 30, 20, 0.5)), "");
+  // All of this is near the contour, and it goes by the notch.
+  std::string by = around(0, 0, 30, 20, 0.5);
+  by.replace(by.find("G1 X0\n"), 6,
+             "G1 X11.05\nG3 X10.55 Y20 I0 J-0.5\nG1 X10.5\nG3 X10 Y20.5 I-0.5 J0\nG1 X0\n");
+  EXPECT_NE(judged_on(notched(1.05), by).find(kNoContour), std::string::npos);
+}
+
+TEST(VerifyProfile, ACutThatLeavesItsContourFollowsNone) {
+  const std::string outline = around(0, 0, 30, 30, 0.5);
+  const auto refused = [&](const std::string& layout, cases::Points round, const cases::Points& and_across) {
+    EXPECT_EQ(judged_on(layout, along(round) + outline), "");
+    round.insert(round.end(), and_across.begin(), and_across.end());
+    EXPECT_NE(judged_on(layout, along(round) + outline).find("line 4: " + kNoContour), std::string::npos);
+  };
+  const std::pair<double, double> a{5.5, 5.5}, b{14.646446, 14.646446}, c{5.5, 23.792893};
+  refused(plate({cases::rectangle(5, 5, 8, 8)}), {a, {12.5, 5.5}, {12.5, 12.5}, {5.5, 12.5}, a},
+          {{12.5, 12.5}, a});
+  refused(plate({{{5, 5}, {25, 5}, {5, 25}}}), {a, {23.792893, 5.5}, c, a}, {b, c, a});
+}
+
+TEST(VerifyProfile, AChordOfARoundHoleFollowsNothing) {
+  const auto half = [](double from, double to) {
+    return cases::Json{
+        {"arc", {{"from", {from, 15}}, {"to", {to, 15}}, {"centre", {15, 15}}, {"ccw", true}}}};
+  };
+  cases::Json outer = cases::Json::array();
+  cases::Points corners = cases::rectangle(0, 0, 30, 30);
+  corners.push_back(corners[0]);
+  for (std::size_t i = 0; i < 4; ++i)
+    outer.push_back({{"line",
+                      {{"from", {corners[i].first, corners[i].second}},
+                       {"to", {corners[i + 1].first, corners[i + 1].second}}}}});
+  const cases::Json hole = cases::Json::array({half(25, 5), half(5, 25)});
+  const std::string layout = alone({{"curves", {{"outer", outer}, {"holes", cases::Json::array({hole})}}}});
+  const std::string round = "G0 X24.5 Y15\nM3\nG3 X5.5 I-9.5 J0\nG3 X24.5 I9.5 J0\n";
+  EXPECT_EQ(judged_on(layout, round + "M5\n" + around(0, 0, 30, 30, 0.5)), "");
+  EXPECT_NE(judged_on(layout, round + "G1 X15 Y24.5\nX24.5 Y15\nM5\n" + around(0, 0, 30, 30, 0.5))
+                .find("line 4: " + kNoContour),
+            std::string::npos);
 }
 
 TEST(VerifyProfile, ACutThatLeavesAStretchOutIsNone) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
 
 #include "lekalo/base/stop.hpp"
 #include "lekalo/verify/claims.hpp"
@@ -22,8 +22,7 @@ void add_straight(const Stroke& edge, double off, Strokes& pieces) {
 }
 
 struct Extent {
-  Place low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()},
-      high{-low.x, -low.y};
+  Place low{kInfinity, kInfinity}, high{-low.x, -low.y};
   void add(const Strokes& strokes) {
     for (const Stroke& s : strokes) {
       Place from, to;
@@ -33,7 +32,7 @@ struct Extent {
     }
   }
   [[nodiscard]] bool holds(Place p, double margin) const {
-    return p.x >= low.x - margin && p.x <= high.x + margin && p.y >= low.y - margin && p.y <= high.y + margin;
+    return std::max({low.x - p.x, p.x - high.x, low.y - p.y, p.y - high.y}) <= margin;
   }
 };
 
@@ -135,7 +134,7 @@ class ProfileCheck {
   void keep_out(const CutChain& chain) {
     const double least = half_ - words_.tolerance_mm - kRounding;
     Strokes pieces;
-    for (const Stroke& edge : chain.edges) add_pieces(edge, std::max(5.0, 4 * half_), pieces);
+    for (const Stroke& edge : chain.edges) add_pieces(edge, 5, pieces);
     for (const Stroke& piece : pieces) {
       ask();
       const double reach = half_ + 0.5 * length(piece) + kRounding;
@@ -179,7 +178,6 @@ class ProfileCheck {
   [[nodiscard]] bool follows(const Ring& loop, const Wanted& wanted) const {
     const Place start = loop.pieces[0].from, corner = wanted.ring.pieces[0].from;
     if (!wanted.ring.is_near(start, half_ + slack())) return false;
-    if (!(wanted.ring.distance_of(start) <= half_ + slack())) return false;
     if (wanted.hole == 0 ? !loop.encloses(corner) : !wanted.ring.encloses(start)) return false;
     if (!std::all_of(loop.pieces.begin(), loop.pieces.end(),
                      [&](const Stroke& piece) { return stays_near(piece, wanted.ring); }))
@@ -200,9 +198,9 @@ class ProfileCheck {
             distance(piece.to, ring.pieces[i]) <= reach)
           return true;
     const Place middle = at_share(piece, 0.5);
-    const double there = ring.distance_of(middle), half_length = 0.5 * length(piece);
+    const double there = ring.distance_of(middle), half_length = length(until(piece, middle));
     if (there + half_length <= half_ + slack()) return true;
-    if (!(there <= half_ + slack()) || !(half_length > 1e-6)) return false;
+    if (!(half_length > 1e-6)) return false;
     return stays_near(until(piece, middle), ring) && stays_near(beginning(piece, middle), ring);
   }
 
@@ -211,8 +209,7 @@ class ProfileCheck {
     const bool right = (wanted.ring.area() > 0) == (wanted.hole == 0);
     for (const Stroke& piece : wanted.ring.pieces) {
       const double whole = length(piece);
-      if (!(whole > 0)) continue;
-      const int samples = static_cast<int>(std::clamp(std::ceil(whole / kSampling), 1.0, 1e4));
+      const int samples = static_cast<int>(std::ceil(whole / kSampling));
       for (int k = 0; k < samples; ++k) {
         ask();
         const Place at = at_share(piece, (k + 0.5) / samples);
@@ -226,12 +223,12 @@ class ProfileCheck {
 
   /// A part that a loop encloses would be loose after it.
   void check_order() {
-    for (std::size_t i = 0; i < loops_.size(); ++i)
-      for (std::size_t j = i + 1; j < loops_.size(); ++j)
-        if (loops_[i].of != loops_[j].of && loops_[i].ring.encloses(loops_[j].ring.pieces[0].from)) {
+    for (auto first = loops_.begin(); first != loops_.end(); ++first)
+      for (auto later = std::next(first); later != loops_.end(); ++later)
+        if (first->of != later->of && first->ring.encloses(later->ring.pieces[0].from)) {
           report_.findings.push_back(fmt::format("line {}: {} is cut after {}, which encloses it",
-                                                 loops_[j].line, wanted_[loops_[j].of].name(),
-                                                 wanted_[loops_[i].of].name()));
+                                                 later->line, wanted_[later->of].name(),
+                                                 wanted_[first->of].name()));
           return;
         }
   }

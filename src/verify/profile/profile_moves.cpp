@@ -24,7 +24,7 @@ constexpr double kArcRounding = 5e-3;
 struct Block {
   std::map<char, double> words;
   std::vector<int> g, m;  ///< tenths
-  std::size_t line = 0;
+  std::size_t line;
   [[nodiscard]] bool has(char letter) const { return words.contains(letter); }
 };
 
@@ -34,7 +34,7 @@ class ProfileReader {
       : name_(document.name), rest_(document.bytes), control_(control), unsaid_(control, "program") {}
 
   Result<ProfileProgram> read() {
-    while (!rest_.empty() && complaint_.empty()) {
+    while (!rest_.empty()) {
       ++line_;
       const std::size_t end = std::min(rest_.find('\n'), rest_.size());
       std::string_view text = rest_.substr(0, end);
@@ -49,8 +49,8 @@ class ProfileReader {
       else
         act(block);
     }
-    if (complaint_.empty() && !ended_) complain("the program does not end with M2 or M30");
-    if (complaint_.empty() && on_) complain("the beam or spindle is on at the end");
+    if (!ended_) complain("the program does not end with M2 or M30");
+    if (on_) complain("the beam or spindle is on at the end");
     if (!complaint_.empty()) return failure(ErrorCode::bad_input, fmt::format("{}:{}", name_, complaint_));
     return ProfileProgram{std::move(chains_), std::move(unsaid_)};
   }
@@ -132,13 +132,13 @@ class ProfileReader {
     if (block.has('O') && control_ == words::Control::linuxcnc)
       unsaid_ = UnsaidModes(words::Control::fanuc, "program");
     if (dwell && motion) complain("a wait beside a motion");
-    if (motion && !dwell && complaint_.empty()) move(block);
+    if (motion) move(block);
   }
 
   void switch_by(int code) {
     if (code == 30 || code == 40) {
       // One program has one word for it; a spindle that goes down turns clockwise.
-      if ((on_by_ != 0 && on_by_ != code) || (has_z_ && code == 40)) return complain("M4 where M3 is meant");
+      if ((on_by_ != 0 && on_by_ != code) || (z_ && code == 40)) return complain("M4 where M3 is meant");
       on_by_ = code;
       on_ = true;
     } else if (code == 50)
@@ -162,15 +162,14 @@ class ProfileReader {
     if (arc != (block.has('I') && block.has('J')) || (!arc && (block.has('I') || block.has('J'))))
       return complain("an arc without I and J, or these without an arc");
     const Place from = at_, to{word('X', at_.x), word('Y', at_.y)};
-    const double z = word('Z', z_);
     const bool flat = block.has('X') || block.has('Y'), was_known = known_x_ && known_y_;
     if (flat && block.has('Z')) return complain("a motion in X or Y and Z at once");
     known_x_ = known_x_ || block.has('X'), known_y_ = known_y_ || block.has('Y');
-    has_z_ = has_z_ || block.has('Z');
-    const bool cuts = on_ && (!has_z_ || z < 0 || z_ < 0);
-    at_ = to, z_ = z;
+    if (block.has('Z')) z_ = scale_ * block.words.at('Z');
+    const bool cuts = on_ && (!z_ || *z_ < 0);
+    at_ = to;
     if (!flat) {
-      if (cuts && motion_ == 0 && z < 0) complain("a rapid motion down into the material");
+      if (cuts && motion_ == 0) complain("a rapid motion down into the material");
       going_on_ = false;
       return;
     }
@@ -200,10 +199,10 @@ class ProfileReader {
   SaidGroups said_;
   words::Control control_;
   UnsaidModes unsaid_;
-  double scale_ = 0, z_ = 0;
+  double scale_ = 0;
+  std::optional<double> z_;  ///< once an axis Z has been named
   int motion_ = -1, on_by_ = 0;
-  bool marked_ = false, on_ = false, ended_ = false, known_x_ = false, known_y_ = false, has_z_ = false,
-       going_on_ = false;
+  bool marked_ = false, on_ = false, ended_ = false, known_x_ = false, known_y_ = false, going_on_ = false;
   Place at_;
   std::vector<CutChain> chains_;
 };
