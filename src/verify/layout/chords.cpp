@@ -44,9 +44,9 @@ Span distance(const Vec& c, const Vec& from, const Vec& to) {
   const Span ends{std::min(length(from - c).low, length(to - c).low),
                   std::min(length(from - c).high, length(to - c).high)};
   const Span before = dot(c - from, along), after = dot(to - c, along);
-  if (before.high <= 0 || after.high <= 0) return ends;
+  if (std::min(before.high, after.high) <= 0) return ends;
   const Span line = absolute(cross(along, c - from)) / length(along);
-  if (before.low > 0 && after.low > 0) return line;
+  if (std::min(before.low, after.low) > 0) return line;
   return {line.low, ends.high};
 }
 

@@ -17,7 +17,7 @@ namespace lekalo::verify {
 __extension__ using Wide = __int128;
 
 struct GridPoint {
-  std::int64_t x = 0, y = 0;
+  std::int64_t x{}, y{};
   friend auto operator<=>(const GridPoint&, const GridPoint&) = default;
 };
 
@@ -26,7 +26,7 @@ struct GridEdge {
 };
 
 struct GridBox {
-  std::int64_t low_x = 0, low_y = 0, high_x = 0, high_y = 0;
+  std::int64_t low_x{}, low_y{}, high_x{}, high_y{};
 };
 
 using GridLoop = std::vector<GridPoint>;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <ranges>
 #include <tuple>
 
 #include "layout_document.hpp"
@@ -19,12 +20,12 @@ struct Placed {
 };
 
 struct Found {
-  std::size_t stock = 0;
-  std::int64_t copy = 0;
-  std::uint64_t a = 0;
-  LayoutRule kind{};
-  std::uint64_t b = 0;
-  std::size_t feature = 0;
+  std::size_t stock;
+  std::int64_t copy;
+  std::uint64_t a;
+  LayoutRule kind;
+  std::uint64_t b;
+  std::size_t feature;
   [[nodiscard]] auto key() const { return std::tuple{stock, copy, a, kind, b, feature}; }
 };
 
@@ -116,8 +117,8 @@ class SheetChecker {
     std::ranges::sort(pieces, {}, [](const Placed& p) {
       return std::pair{p.outline.box.low_x, p.piece->id};
     });
-    std::int64_t largest = 0;
-    for (const Placed& piece : pieces) largest = std::max(largest, piece.part->gap);
+    const std::int64_t largest =
+        std::ranges::max(pieces | std::views::transform([](const Placed& piece) { return piece.part->gap; }));
     std::vector<const Placed*> active;
     for (const Placed& piece : pieces) {
       ask(1 + active.size());
@@ -130,11 +131,11 @@ class SheetChecker {
   }
 
   void check_pair(const Placed& p, const Placed& q) {
-    const Placed &a = p.piece->id < q.piece->id ? p : q, &b = p.piece->id < q.piece->id ? q : p;
-    if (have_common_disc({&a.outline, &b.outline}, {}))
-      add(a, LayoutRule::overlap, b.piece->id);
-    else if (edges_nearer_than(a.outline, b.outline, std::max(a.part->gap, b.part->gap)))
-      add(a, LayoutRule::gap, b.piece->id);
+    const auto [a, b] = std::ranges::minmax({&p, &q}, {}, [](const Placed* one) { return one->piece->id; });
+    if (have_common_disc({&a->outline, &b->outline}, {}))
+      add(*a, LayoutRule::overlap, b->piece->id);
+    else if (edges_nearer_than(a->outline, b->outline, std::max(a->part->gap, b->part->gap)))
+      add(*a, LayoutRule::gap, b->piece->id);
   }
 
   const WrittenLayout& layout_;

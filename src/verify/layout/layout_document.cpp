@@ -43,20 +43,19 @@ class Members {
   }
   [[nodiscard]] double number_of(Json value, const std::string& what, double least, double most) {
     const double number = approximate(fields_.number_of(value, what));
-    if (!complaint_.empty()) return 0;
     if (number >= least && number <= most) return number;
     complain(fmt::format("field {} is {}, not from {} to {}", what, excerpt(value.text), least, most));
-    return 0;
+    return least;
   }
   [[nodiscard]] std::int64_t steps(std::string_view key, double least, double most, ToStep how) {
-    return steps_of(number(key, least, most), how, most).value_or(0);
+    return *steps_of(number(key, least, most), how, most);
   }
   [[nodiscard]] std::int64_t whole(std::string_view key, std::int64_t least, std::int64_t most,
                                    std::int64_t otherwise) {
     if (!has(key)) return otherwise;
     const Json value = get(key);
     const auto number = value.is_number() ? parse_decimal(value.text) : std::nullopt;
-    if (number && number->exponent >= 0 && number->exponent < 19) {
+    if (number && number->exponent >= 0) {
       const Integer exact = in_units(*number, 0);
       if (exact >= static_cast<long>(least) && exact <= static_cast<long>(most)) return to_long(exact);
     } else if (number) {
@@ -106,9 +105,8 @@ GridPoint read_point(Json item, const std::string& path, Members& members) {
     for (; const auto number = numbers.next(); ++count)
       if (count < 2)
         steps[count] =
-            steps_of(members.number_of(*number, path, -limits::kLargestOutline, limits::kLargestOutline),
-                     ToStep::nearest, limits::kLargestOutline)
-                .value_or(0);
+            *steps_of(members.number_of(*number, path, -limits::kLargestOutline, limits::kLargestOutline),
+                      ToStep::nearest, limits::kLargestOutline);
   }
   if (count != 2) members.complain(fmt::format("{} is not a list of two numbers", path));
   return {steps[0], steps[1]};
@@ -144,7 +142,7 @@ WrittenOutline read_outline(Json value, const std::string& path, std::string& co
   if (tolerant)
     outline.chord_tolerance =
         members.number("chord_tolerance", limits::kLeastChordTolerance, limits::kMostChordTolerance);
-  if (members.has("curves") && complaint.empty())
+  if (members.has("curves"))
     outline.drawn =
         std::make_shared<Shape>(read_shape(members.get("curves"), members.name("curves"), complaint));
   else if (tolerant)
@@ -385,7 +383,7 @@ std::size_t find(Members& members, std::string_view key, const Index& index) {
   const auto found = index.find(id);
   if (found != index.end()) return found->second;
   members.complain(fmt::format("{} names \"{}\", which is not there", members.name(key), excerpt(id)));
-  return 0;
+  return {};
 }
 
 void read_kits(Members& root, const Index& parts, std::vector<WrittenKit>& kits) {

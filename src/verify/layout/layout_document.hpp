@@ -30,7 +30,7 @@ struct WrittenArea {
 };
 
 struct WrittenAngles {
-  double from = 0, to = 0;
+  double from, to;
   friend bool operator==(const WrittenAngles&, const WrittenAngles&) = default;
 };
 
@@ -65,7 +65,7 @@ struct WrittenPart {
 /// A defect with its severity or a zone with its quality.
 struct WrittenStockFeature {
   std::string id;
-  std::int64_t grade = 0;
+  std::int64_t grade;
   WrittenOutline outline;
 };
 
@@ -90,7 +90,7 @@ struct WrittenPiece {
 };
 
 struct WrittenKitPiece {
-  std::size_t part = 0;
+  std::size_t part;
   std::int64_t count = 1;
   /// Without a value either serves.
   std::optional<bool> mirrored;

@@ -320,7 +320,7 @@ class ChainEnds {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       for (const std::size_t tip : {0U, 1U}) ends_.push_back({approximate(lines[i].tips[tip].x), i, tip});
     }
-    std::stable_sort(ends_.begin(), ends_.end(), [](const End& a, const End& b) { return a.x < b.x; });
+    std::ranges::stable_sort(ends_, {}, &End::x);
   }
 
   void use(std::size_t line) { used_[line] = true; }
@@ -331,8 +331,7 @@ class ChainEnds {
     const double x = approximate(p.x);
     // The reach is a little larger, which pays for the rounding of both x.
     const double reach = 1.001e-6 + 1e-15 * std::abs(x);
-    const auto first = std::lower_bound(ends_.begin(), ends_.end(), x - reach,
-                                        [](const End& end, double value) { return end.x < value; });
+    const auto first = std::ranges::lower_bound(ends_, x - reach, {}, &End::x);
     std::optional<End> best;
     Decimal best_distance, distance;
     for (auto end = first; end != ends_.end() && end->x <= x + reach; ++end) {
@@ -398,9 +397,9 @@ Result<Contour> read_contour(const Document& document) {
     if (ending == ".dxf") return DxfReader(document).read();
     return bad(document, "the name does not end in .csv, .txt, .xyz, .json or .dxf");
   };
-  auto contour = read();
-  if (contour && contour->size() < 3) {
-    return bad(document, fmt::format("{} points; a contour has at least 3", contour->size()));
+  LEKALO_TRY(Contour contour, read());
+  if (contour.size() < 3) {
+    return bad(document, fmt::format("{} points; a contour has at least 3", contour.size()));
   }
   return contour;
 }

@@ -28,10 +28,8 @@ class Fields {
     }
     JsonItems items(object);
     while (const auto item = items.next()) members_.push_back({std::string(items.key()), *item});
-    std::sort(members_.begin(), members_.end(),
-              [](const Member& a, const Member& b) { return a.key < b.key; });
-    const auto twice = std::adjacent_find(members_.begin(), members_.end(),
-                                          [](const Member& a, const Member& b) { return a.key == b.key; });
+    std::ranges::sort(members_, {}, &Member::key);
+    const auto twice = std::ranges::adjacent_find(members_, {}, &Member::key);
     if (twice != members_.end()) complain(fmt::format("field {} is given twice", name(twice->key)));
   }
 

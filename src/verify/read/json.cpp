@@ -179,7 +179,8 @@ std::size_t value_length(std::string_view text) {
   if (text[0] == '"') return string_length(text);
   std::size_t n = 0;
   if (text[0] != '{' && text[0] != '[') {
-    while (n < text.size() && !is_blank(text[n]) && text[n] != ',' && text[n] != ']' && text[n] != '}') ++n;
+    // What the value stands in is taken off before, so that no bracket comes behind it.
+    while (n < text.size() && !is_blank(text[n]) && text[n] != ',') ++n;
     return n;
   }
   int depth = 0;
