@@ -96,6 +96,12 @@ TEST(VerifyChords, ChordsOutsideAnArc) {
           {{{2, 0, 3}}, 5 - 3 * kStep, kFar}});
 }
 
+TEST(VerifyChords, ASingleChordMayCutIn) {
+  expect({{5 * kMm, 0}, {0, 5 * kMm}, {0, 0}},
+         arc(5, 0, 0, 5, 0, 0) + ", " + line(0, 5, 0, 0) + ", " + line(0, 0, 5, 0), ChordSide::outside,
+         {{{}, 3, kCuts}});
+}
+
 TEST(VerifyChords, ChordsInsideAnArc) {
   const GridLoop loop{{5 * kMm, 0}, {4 * kMm, 3 * kMm}, {0, 5 * kMm}, {-4 * kMm, 3 * kMm}, {-5 * kMm, 0}};
   const std::vector<Move> in{{2, 0, -3}, {1, -3, -3}, {3, 3, -3}};

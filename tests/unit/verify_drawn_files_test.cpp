@@ -51,6 +51,7 @@ TEST(VerifyDrawnDxf, PolylinesCirclesAndLinesAreRead) {
   EXPECT_EQ(dxf("0 CIRCLE 8 CUT 10 1 20 2 30 0 40 5"), "CUT: A 1,2 5 + 6,2 6,2\n");
   EXPECT_EQ(dxf("0 LINE 8 MARK 10 1 20 2 30 0 11 3 21 5 31 0.0"), "MARK!: L 1,2 3,5\n");
   EXPECT_EQ(dxf("0 TEXT 8 LABEL 10 1 1 any 0 LINE 8 MARK 10 1 20 2 11 3 21 5"), "MARK!: L 1,2 3,5\n");
+  EXPECT_EQ(dxf("0 TEXT 2 X 0 LINE 8 MARK 10 1 20 2 11 3 21 5"), "MARK!: L 1,2 3,5\n");
   EXPECT_EQ(dxf("0 LINE 8 A 10 1 20 2 11 3 21 5 0 LINE 10 1 20 2 11 3 21 6"),
             "A!: L 1,2 3,5\n!: L 1,2 3,6\n");
 }

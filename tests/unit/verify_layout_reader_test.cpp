@@ -90,8 +90,9 @@ TEST(VerifyLayoutReader, WholeNumbersUpToTheirBounds) {
   EXPECT_EQ(demand("999999999.99999999999"), "1000000000") << "as doubles are read";
   EXPECT_EQ(demand("0.00000000000000000000000001e26"), "1");
   EXPECT_EQ(demand("1e-400"), "0") << "as doubles are read";
-  for (const char* written : {"-1", "1000000001", "1e10", "12.5", "-1.0", "1000000001.0", "1e30", "1e19",
-                              "-0.5", "-0.99999999999999999999", "true", "\"1\""})
+  for (const char* written :
+       {"-1", "1000000001", "1e10", "12.5", "-1.0", "1000000001.0", "1e30", "1e19", "-0.5",
+        "-0.99999999999999999999", "1000000000.99999999999999999999", "true", "\"1\""})
     EXPECT_NE(demand(written).find("not a whole number from 0 to 1000000000"), std::string::npos) << written;
 }
 

@@ -528,6 +528,11 @@ TEST(VerifyReaders, OfEqualEndsTheFirstInTheFileIsTaken) {
             "1,2;3.0000001,4;9,9;2.9999999,4;5,7;");
 }
 
+TEST(VerifyReaders, AnEndingHasSmallLetters) {
+  EXPECT_EQ(ending_of("Part.AZaz@["), ".azaz@[");
+  EXPECT_EQ(ending_of("Part"), "");
+}
+
 TEST(VerifyReaders, InchesAreTurnedIntoMillimetresExactly) {
   auto read = read_contour({"c.csv", "1 0\n-0.5 4\n5 7"});
   ASSERT_TRUE(read);

@@ -82,7 +82,7 @@ struct WrittenStock {
 
 struct WrittenPiece {
   std::uint64_t id = 0;
-  std::size_t part = 0, stock = 0;
+  std::size_t part{}, stock{};
   std::int64_t copy = 0;
   GridTurn turn;
   GridPoint at;
