@@ -298,6 +298,17 @@ TEST(VerifyProfile, ALeadMayComeFromOutsideAlone) {
       std::string::npos);
 }
 
+TEST(VerifyProfile, NeighboursMayShareACut) {
+  cases::Json layout = cases::empty_layout();
+  cases::add_part(layout, "plate", cases::outline_json(cases::rectangle(0, 0, 10, 10)));
+  cases::place(layout, "plate", 50, 10);
+  cases::place(layout, "plate", 39, 10);
+  const std::string left =
+      "G0 X49.5 Y15\nM3\nG1 Y20\nG3 X49 Y20.5 I-.5 J0\nG1 X39\nG3 X38.5 Y20 I0 J-.5\nG1 Y10\n"
+      "G3 X39 Y9.5 I.5 J0\nG1 X49\nG3 X49.5 Y10 I0 J.5\nG1 Y15\nM5\n";
+  EXPECT_EQ(judged_on(layout.dump(), around(50, 10, 10, 10, 0.5) + left), "");
+}
+
 /// A plate with a notch down from its upper side.
 std::string notched(double width) {
   return alone(cases::outline_json(

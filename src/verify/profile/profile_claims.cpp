@@ -9,6 +9,7 @@
 #include "profile_moves.hpp"
 #include "verify/drawn/placed_sheet.hpp"
 #include "verify/layout/layout_document.hpp"
+#include "verify/number/span.hpp"
 #include "verify/pocket/stroke_index.hpp"
 
 namespace lekalo::verify {
@@ -221,11 +222,12 @@ class ProfileCheck {
     return true;
   }
 
-  /// A part that a loop encloses would be loose after it.
+  /// A part that a loop encloses would be loose after it. No contour comes near a loop of another, while the
+  /// loops of neighbours may share a line.
   void check_order() {
     for (auto first = loops_.begin(); first != loops_.end(); ++first)
       for (auto later = std::next(first); later != loops_.end(); ++later)
-        if (first->of != later->of && first->ring.encloses(later->ring.pieces[0].from)) {
+        if (first->of != later->of && first->ring.encloses(wanted_[later->of].ring.pieces[0].from)) {
           report_.findings.push_back(fmt::format("line {}: {} is cut after {}, which encloses it",
                                                  later->line, wanted_[later->of].name(),
                                                  wanted_[first->of].name()));
