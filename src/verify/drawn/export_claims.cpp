@@ -8,6 +8,7 @@
 #include "line_match.hpp"
 #include "placed_sheet.hpp"
 #include "verify/layout/layout_document.hpp"
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
 namespace {

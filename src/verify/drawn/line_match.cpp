@@ -5,6 +5,7 @@
 
 #include "lekalo/base/stop.hpp"
 #include "placed_sheet.hpp"
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
 namespace {

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "verify/layout/grid_number.hpp"
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
 namespace {

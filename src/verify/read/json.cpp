@@ -179,7 +179,7 @@ std::size_t value_length(std::string_view text) {
   if (text[0] == '"') return string_length(text);
   std::size_t n = 0;
   if (text[0] != '{' && text[0] != '[') {
-    // What the value stands in is taken off before, so that no bracket comes behind it.
+    // The brackets around the value are taken off before, so that none comes behind it.
     while (n < text.size() && !is_blank(text[n]) && text[n] != ',') ++n;
     return n;
   }
