@@ -489,8 +489,10 @@ TEST(VerifyMachineTime, AnArcIsAsFastAsItsRadiusAllows) {
   EXPECT_NEAR(circle(1, 6000, 3), 2 * w / 500 + (whole - w * w / 500) / w, 1e-6);
   EXPECT_NEAR(circle(1, 6000, -3), circle(1, 6000, 3), 1e-12);
   // What is left of it beyond its full turns may be no way at all.
-  EXPECT_NEAR(seconds({Move{.arc = true, .from = {1, 0}, .to = {1 + 1e-9, 0}, .turns = 2, .feed = 6000}}),
-              circle(1, 6000), 1e-9);
+  Move twice;
+  twice.arc = true, twice.turns = 2, twice.feed = 6000;
+  twice.from = {1, 0}, twice.to = {1 + 1e-9, 0};
+  EXPECT_NEAR(seconds({twice}), circle(1, 6000), 1e-9);
 }
 
 TEST(VerifyMachineTime, ManyShortLinesAreAsSlowAsTheCurveThatTheyFollow) {

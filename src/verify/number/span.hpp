@@ -71,7 +71,9 @@ struct Span {
   return {std::max(0.0, product.low), product.high};
 }
 [[nodiscard]] inline Span absolute(Span a) {
-  return {std::max({0.0, a.low, -a.high}), std::max(-a.low, a.high)};
+  if (a.low >= 0) return a;
+  if (a.high <= 0) return -a;
+  return {0, std::max(-a.low, a.high)};
 }
 
 }  // namespace lekalo::verify
