@@ -804,6 +804,29 @@ TEST(VerifyShapes, TheBoundIsLookedAtWithAllDigits) {
   EXPECT_EQ(findings(check(f)), "");
 }
 
+/// Some of these fall at their beginning, or rise at their end, and are highest between; they are no narrower
+/// than half a turn.
+TEST(VerifyShapes, TheBoundOfMoreThanHalfATurnMayLieWithin) {
+  Files f = upright_squares();
+  f.blank = "[[100, 200], [113, 200], [104, 211]]", f.part = "[[10, 0], [50, 0], [50, 40], [10, 40]]";
+  f["inputs"] = inputs_json(4, 3);
+  const auto bound_of = [&f](const std::vector<IntervalText>& certificate) {
+    f.certificate = certificate;
+    const auto report = check(f);
+    EXPECT_TRUE(report) << report.error().message;
+    return report ? report->bound_high : "";
+  };
+  for (int k = 0; k < 64; ++k) {
+    const std::vector<ContactText> contacts{{std::to_string(k % 4), "0", "0.43"},
+                                            {std::to_string(k / 4 % 4), "1", "0"},
+                                            {std::to_string(k / 16), "2", "0"}};
+    const IntervalText wide = interval("0", "3.95", contacts);
+    const std::string alone = bound_of({wide});
+    for (const char* within : {"0.4", "0.8", "3.2", "3.6"})
+      EXPECT_EQ(bound_of({interval(within, within, contacts), wide}), alone) << k << ' ' << within;
+  }
+}
+
 TEST(VerifyShapes, TheWorstIntervalIsNamed) {
   Files f = with_intervals({{"0", "0"}, {"0", "0.5"}, {"0.5", "0.5"}});
   f["upper_bound"] = "0.5", f["gap"] = "-0.5";
