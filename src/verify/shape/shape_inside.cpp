@@ -100,7 +100,7 @@ Around around(const Shape& shape, const Vec& p, std::size_t except = kNoContour)
   shape.contours->visit_about(box_of(p), [&](std::size_t contour) {
     if (contour == except) return;
     ask();
-    // Where one ray grazes an end or a tangent, another does not. The first runs along x, and each other is
+    // One ray may graze an end or a tangent where another does not. The first runs along x, and each other is
     // turned on by an angle that is no fraction of a turn, while those of corners of regular shapes are.
     Ray ray{just(1), just(0)};
     std::optional<int> turns = winding(shape, contour, p, ray);
