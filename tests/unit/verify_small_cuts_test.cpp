@@ -366,6 +366,31 @@ TEST(VerifySmallCuts, AtTheBounds) {
        .left = "35.332044 34.381107 1.1389299 0 1.5463446 0.99998945 1.5463446; 20 65.40625 38.519531 "
                "36.204613; 4 9.6041667 6.9583333 0.90597385 0.14149306",
        .cut = "180 180 180 0 0.016666667 0 0 0.7 0 0 0.3913553 0.175; 18 46.277778 -5.9 11880 5940 0"},
+      {.name = "gouged corner",
+       .pocket = kBox,
+       .program = "G0 X0.2 Y0.2 Z1\nG1 Z-0.1 F300\nG1 X1.2 F600\nG0 Z1\n",
+       .left = "40.446276 39.402832 1.1249999 0.056 1.5441778 0.91961537 1.5441778; 16 49.552 40.068 "
+               "36.995491; 4 9.5786667 6.976 0.92277228 0.14563556",
+       .cut = "180 180 180 0 0.1 0 0 1 0 0 0.4213553 0.25; 24 70.633333 -8 16200 8100 0",
+       .tool = 0.512},
+      {.name = "shallow ramp",
+       .pocket = kBox,
+       .program = "G0 X0.3 Y0.3 Z1\nG1 Z0 F300\nX1.2 Z-0.01 F600\nG0 Z1\n",
+       .left = "0 0 1.8867962 0 1.5463446 1.5463446 1.5463446; 17 52.628906 31.480469 116.98137; 4 9.6041667 "
+               "6.9583333 0.90597385 0.14149306",
+       .cut = "0 0 0 0 0.9 0.01 0 0.9 0 0 0.3874988 0; 24 77.25 0.42166667 16200 8100 90"},
+      {.name = "back over one stroke of a ramp",
+       .pocket = kBox,
+       .program = "G0 X0.5 Y0.3 Z1\nG1 Z0 F300\nX0.6 Z-0.1 F600\nZ-0.05\nX0.3\nG0 Z1\n",
+       .left = "0 0 1.8867962 0 1.5463446 1.5463446 1.5463446; 17 52.628906 31.480469 116.98137; 4 9.6041667 "
+               "6.9583333 0.90597385 0.14149306",
+       .cut = "180 180 180 0 0.1 0.1 0 0.4 3.1415927 0 0.36441365 0.075; 9 16.25 -1.25 5580 2790 3"},
+      {.name = "a ramp of a hair",
+       .pocket = kBox,
+       .program = "G0 X0.3 Y0.3 Z1\nG1 Z0 F300\nX0.9 Z-0.0009 F600\nG0 Z1\n",
+       .left = "0 0 1.8867962 0 1.5463446 1.5463446 1.5463446; 17 52.628906 31.480469 116.98137; 4 9.6041667 "
+               "6.9583333 0.90597385 0.14149306",
+       .cut = "0 0 0 0 0.6 0 0 0.6 0 0 0.35705947 0; 15 41.24 0.57054 10260 5130 57"},
       {.name = "back higher",
        .pocket = kBox,
        .program = "G0 X0.3 Y0.3 Z1\nG1 Z0 F300\nX1.1 Z-0.1 F600\nZ-0.0437\nX0.3\nX0.5 Y0.5\nG0 Z1\n",
@@ -514,7 +539,7 @@ TEST(VerifySmallCuts, AFarWayHasAsManySamplesAsItMayHave) {
   constexpr double kWay = 100014;  // a few lines more or less would make one sample more or less
   CutPath path;
   for (const auto& [from, to, number] :
-       {std::tuple{0.0, 1e7, 1}, {1e7, 1e7 + kWay, 2}, {1e7 + kWay, 1e7 + 2 * kWay, 2}}) {
+       {std::tuple{0.0, 5e6, 1}, {5e6, 1e7, 1}, {1e7, 1e7 + kWay, 2}, {1e7 + kWay, 1e7 + 2 * kWay, 2}}) {
     Cut one;
     one.stroke.from = {from, 0}, one.stroke.to = {to, 0};
     one.from_z = one.to_z = -1, one.radius = 1, one.line = static_cast<std::size_t>(number);

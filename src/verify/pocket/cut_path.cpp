@@ -96,7 +96,7 @@ std::vector<bool> repeated(const std::vector<Cut>& cuts) {
   struct Deepest {
     double z, radius;
   };
-  // A stroke is told by its ends, in either order, and its centre: an arc turns by at most a quarter.
+  // The ends of a stroke, in either order, and its centre tell it: an arc turns by at most a quarter.
   std::map<std::array<double, 7>, Deepest> known;
   std::vector<bool> found(cuts.size(), false);
   for (std::size_t i = 0; i < cuts.size(); ++i) {

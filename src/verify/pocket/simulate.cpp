@@ -51,8 +51,8 @@ double turning_of(const CutPath& path) {
 /// says that it never does.
 Result<CutPath> cuts_of(const Document& program, const std::vector<Move>& moves, double diameter,
                         double top) {
-  Result<CutPath> path = cut_path(moves, top, diameter / 2, diameter / 4, program.name);
-  if (path && path->cuts.empty())
+  LEKALO_TRY(CutPath path, cut_path(moves, top, diameter / 2, diameter / 4, program.name));
+  if (path.cuts.empty())
     return failure(
         ErrorCode::bad_input,
         fmt::format("{}: the tool never goes below Z {:g}, the top of the stock; give --top if it is "
