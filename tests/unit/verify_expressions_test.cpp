@@ -74,6 +74,7 @@ TEST(VerifyExpressions, VariablesAreReadWhereTheyWereSet) {
   EXPECT_EQ(value("#100X"), "7 X");
   EXPECT_EQ(value("#<a>"), "3");
   EXPECT_EQ(value("#< _b >"), "4");
+  EXPECT_EQ(value("#<\t_b>"), "4");
   EXPECT_EQ(value("##3"), "5");
   EXPECT_EQ(value("#[2+1]"), "1");
   EXPECT_EQ(value("[#1+1]"), "6");
@@ -94,6 +95,11 @@ TEST(VerifyExpressions, VariablesAreReadWhereTheyWereSet) {
 TEST(VerifyExpressions, WhatIsNotComputedIsSaid) {
   EXPECT_EQ(value("[2**3]"), "powers are not computed");
   EXPECT_EQ(value("[1/0]"), "a division by 0");
+  EXPECT_EQ(value("[2000000+1/0]"), "a division by 0");
+  EXPECT_EQ(value("[6/*2]"), "an expression without a number");
+  EXPECT_EQ(value("SIN"), "an expression without brackets");
+  EXPECT_EQ(value("XIN[30]"), "an expression that is not understood");
+  EXPECT_EQ(value("[1 MOD"), "an expression without a number");
   EXPECT_EQ(value("[1 MOD 0]"), "a division by 0");
   EXPECT_EQ(value("[-1 MOD 2]"), "MOD of numbers below 0");
   EXPECT_EQ(value("[1 MOD -2]"), "MOD of numbers below 0");
@@ -150,6 +156,9 @@ TEST(VerifyExpressions, AnAssignmentStandsAlone) {
   EXPECT_EQ(set("#2=3 X1"), alone);
   EXPECT_EQ(set("#2=3]"), alone);
   EXPECT_EQ(set("#2=[1/0]"), "a division by 0");
+  EXPECT_EQ(set("#2=[1/0] X1"), "a division by 0");
+  EXPECT_EQ(set("#<n = 3"), "the name of a variable is not closed");
+  EXPECT_EQ(set("#<_feed> = 3"), "the control alone sets <_FEED>");
   EXPECT_EQ(set("#2=1000001"), "an expression is beyond 1000000");
   EXPECT_EQ(set("#2=3", true), "a local variable in a subprogram");
   EXPECT_EQ(set("#102=3", true), "102=3");
@@ -184,6 +193,11 @@ TEST(VerifyFlow, SubprogramsRunWhereTheyAreCalled) {
   EXPECT_EQ(run("%\nO1 (main)\nM98 P2\nM30\nO2\nM98 P3\nX5\nM99\nO3\nX6\nM99\n%"), "1 2 3- 6- 10s 7s 4 12 ");
   EXPECT_EQ(run("G0 X1\nM98 P7\nM30\nX9\nX10\nO7\nX3\nM99\n"), "1 2- 7s 3 ");
   EXPECT_EQ(run("G0 X1\nM98 P7\nM02\nX9\nO7\nX3\nM99\n"), "1 2- 6s 3 ");
+  EXPECT_EQ(run("G0 X1\nM98\tP7\nM30\n\nO7\nX3\nM99\n"), "1 2- 6s 3 ");
+  // The number of the program itself opens no subprogram, and a word that ends as one does opens none.
+  EXPECT_EQ(run("\nO1\nG0 X1\nM98 P7\nM30\nO7\nX3\nM99\n"), "1- 2 3 4- 7s 5 ");
+  EXPECT_EQ(run("O7 ENDSUB\nG0 SUB\nM98 P7\nM30\nO7\nX3\nM99\n"), "1 2 3- 6s 4 ");
+  EXPECT_EQ(run("G0 CALL\n"), "1 ");
 }
 
 TEST(VerifyFlow, CallsThatAreNotUnderstoodAreRefusedWithTheirLine) {
@@ -196,8 +210,11 @@ TEST(VerifyFlow, CallsThatAreNotUnderstoodAreRefusedWithTheirLine) {
   EXPECT_EQ(run("G0 X1\nO9 CALL" + tail), "p.nc:2: " + none);
   EXPECT_EQ(run("G0 X1\nM98 P7 X2" + tail), "p.nc:2: a call beside other words");
   EXPECT_EQ(run("G0 X1\nG1 M98 P7" + tail), "p.nc:2: a call beside other words");
+  EXPECT_EQ(run("G0 X1\n) M98 P7" + tail), "p.nc:2: a call beside other words");
+  EXPECT_EQ(run("G0 X1\nM98 (a; b) P7" + tail), "p.nc:2: a comment before the words of a call");
+  EXPECT_EQ(run("G0 X1\nO<7 CALL" + tail), "p.nc:2: " + none);
   const std::string times = "p.nc:2: a call that is repeated L times is not understood";
-  for (const char* l : {"L0", "L10000", "L99999", "L"})
+  for (const char* l : {"L0", "L10000", "L99999", "L99999999999999999999", "L"})
     EXPECT_EQ(run("G0 X1\nM98 P7 " + std::string(l) + tail), times) << l;
   EXPECT_EQ(run("G0 X1\nM98 P7 L9999" + tail).substr(0, 12), "1 2- 5s 5s 5");
   EXPECT_EQ(run("G0 X1\nM98 P7\nM99" + tail), "p.nc:3: M99 outside a subprogram");
@@ -223,8 +240,14 @@ TEST(VerifyFlow, SubprogramsCallEachOtherTo10Deep) {
 }
 
 TEST(VerifyFlow, AProgramRunsNoMoreThanAMillionLines) {
-  EXPECT_EQ(run("M98 P7 L9999\nM30\nO7\nM98 P8 L101\nM99\nO8\nX1\nM99\n"),
+  EXPECT_EQ(run("M98 P7 L9999\nM30\nO7\nM98 P8 L9999\nM99\nO8\nX1\nM99\n"),
             "p.nc:7: the program runs more than a million lines");
+  // The call, 9999 times another call and 99 lines, the end, and 98 lines are a million.
+  const std::string body = "M30\nO7\nM98 P8 L99\nM99\nO8\nX1\nM99\n";
+  std::string lines = "M98 P7 L9999\n";
+  for (int k = 0; k < 98; ++k) lines += "X1\n";
+  EXPECT_TRUE(lines_in_order({"p.nc", lines + body}, words::Control::linuxcnc));
+  EXPECT_EQ(run(lines + "X1\n" + body), "p.nc:101: the program runs more than a million lines");
 }
 
 TEST(VerifyFlow, CommentsAndBlanksSayNothing) {

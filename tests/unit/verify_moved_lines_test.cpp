@@ -21,6 +21,7 @@ struct Claim {
   const char* theta = "0";
   std::size_t work_offset = 1;
   const char *x = "10", *y = "20", *rounding = "0.001";
+  words::Control control = words::Control::linuxcnc;
 };
 
 std::string said(const Claim& claim) {
@@ -32,7 +33,7 @@ std::string said(const Claim& claim) {
                                                       *parse_decimal(claim.rounding),
                                                       claim.mode,
                                                       claim.work_offset,
-                                                      words::Control::linuxcnc,
+                                                      claim.control,
                                                       {}});
   return verdict.fault ? *verdict.fault : verdict.open ? "open: " + *verdict.open : "confirmed";
 }
@@ -63,6 +64,20 @@ TEST(VerifyMovedLines, EveryMotionIsTheOriginalsMoved) {
   EXPECT_EQ(away("G2 X30 Y20 I5 J0", "G1 X30 Y20"), another(5));
   EXPECT_EQ(away("G2 X30", "G3 X30"), another(5));
   EXPECT_EQ(away("P2", "P3"), another(6));
+  EXPECT_EQ(away("G1 X20", "G3 X20 I5 J0"), another(4));
+  EXPECT_EQ(said({"G0 X0 Y0 Z5\nX5\n", "G0 X10 Y20 Z5\nG1 X15\n"}),
+            "its motion in line 2 is another than the original's");
+  EXPECT_EQ(away("G1 Z-1 F100", "G1 X10.0005 Z-1 F100"), "confirmed");
+  // Heights are the same words.
+  EXPECT_EQ(said({"G0 X0 Y0 Z5\nZ0\n", "G0 X10 Y20 Z5\nZ0.000000000001\n"}), "confirmed");
+  EXPECT_EQ(said({"G0 X0 Y0 Z5\nZ0\n", "G0 X10 Y20 Z5\nZ0.0000000000015\n"}),
+            "its motion in line 2 is another than the original's");
+  // Nothing is stated to be rounded, and doubles of 1 mm at most are read.
+  const auto exact = [](const char* x) {
+    return said({"G0 X0 Y0 Z5\n", fmt::format("G0 X{} Y0 Z5\n", x), "coordinates", "0", 1, "0", "0", "0"});
+  };
+  EXPECT_EQ(exact("0.000000000002"), "confirmed");
+  EXPECT_EQ(exact("0.000000000003"), "its motion in line 1 is 3e-12 mm off the original's, moved");
   // A full turn and an arc of nearly none end at the same place within the rounding.
   EXPECT_EQ(away("G3 X30 Y20 I5 J0 P2", "G3 X30 Y20.0005 I5 J0 P2"), another(6));
   EXPECT_EQ(away("X20\n", "X20.0005\n"), "confirmed");
@@ -84,6 +99,15 @@ TEST(VerifyMovedLines, NoMotionIsMoreOrLess) {
   EXPECT_EQ(said({"G0 X0 Y0 Z5\nG0 X0\nX5\n", "G0 X10 Y20 Z5\nG0 X10\nX15\n"}), "confirmed");
   EXPECT_EQ(said({"G0 X0 Y0 Z5\nG1 X2 F100\n", "G0 X10 Y20 Z5\nG18 G2 X12 Z5 I1 K0 F100\n"}),
             "its line 2 makes other motions than the original");
+  EXPECT_EQ(said({"G0 X0 Y0 Z5\nG1 X0.02 F100\n", "G0 X10 Y20 Z5\nG18 G3 X10.02 Z5 I0.01 K1 F100\n"}),
+            "its line 2 makes other motions than the original");
+  EXPECT_EQ(said({"G0 X0 Y0 Z5\nG28 Z5\n", "G0 X10 Y20 Z5.000000000001\nG28 Z5\n"}),
+            "its line 2 makes other motions than the original");
+  EXPECT_EQ(said({"G0 X0 Y0 Z5.000000000001\nG28 Z5\n", "G0 X10 Y20 Z5\nG28 Z5\n"}),
+            "its line 2 makes other motions than the original");
+  // Lines need no plane and have no centre.
+  EXPECT_EQ(said({"G21 G90 G17 G91.1\nG0 X0 Y0 Z5\nG1 X5 F100\n", "G21 G90\nG0 X10 Y20 Z5\nG1 X15 F100\n"}),
+            "confirmed");
   EXPECT_EQ(said({"", "G0 X1 Y1 Z1\n"}), "its line 1 does something that the original does not");
   EXPECT_EQ(said({"", ""}), "confirmed");
 }
@@ -127,6 +151,14 @@ TEST(VerifyMovedLines, AnArcThatKeepsItsPlaneIsTheSameArc) {
   // An arc of the plane XY is none of another plane, with the words of its height among the places.
   EXPECT_NE(changed("G18 G2 X12 Z5 I1 K0", "G2 X12 I1 J0"), "confirmed");
   EXPECT_NE(said({replaced(kUpright, "G18 G2 X2 Z5 I1 K0", "G2 X2 I1 J0"), kUprightAway}), "confirmed");
+  // Within the rounding it may end at another height, from which no other motion begins.
+  const auto behind = [](const char* height) {
+    return said({replaced(kUpright, "G17 G0 X5", "G17 G0 Z7"),
+                 replaced(replaced(kUprightAway, "Z5 I1", fmt::format("Z{} I1", height)), "G17 G0 X15",
+                          "G17 G0 Z7")});
+  };
+  EXPECT_EQ(behind("5"), "confirmed");
+  EXPECT_EQ(behind("5.0004"), "its motion in line 4 is another than the original's");
 }
 
 /// The half circle of kUpright as so many lines, turned by a right angle about the origin and moved; its feed
@@ -157,7 +189,16 @@ TEST(VerifyMovedLines, AnArcThatWasTurnedOutOfItsPlaneIsItsChords) {
   EXPECT_NE(made(replaced(lines, "F100", "F101")), "confirmed");
   EXPECT_NE(made(replaced(lines, "\n", "\nM8\n")), "confirmed");
   EXPECT_NE(made(replaced(lines, "F100\n", "F100 G55\n")), "confirmed");
+  EXPECT_NE(made(replaced(lines, "\nG1 X10", "\nG3 R5 X10")), "confirmed");
+  const auto last = [](const std::string& made, const char* rounding = "0.001") {
+    return said({replaced(kUpright, "G17 G0 X5\n", ""), kFirst + made, "coordinates", kRight, 1, "10", "20",
+                 rounding});
+  };
+  EXPECT_EQ(last(lines), "confirmed");
+  EXPECT_EQ(last(replaced(lines, "F100\n", "F100 G55\n"), "0.1"), "its line 3 is no chord of an arc");
   lines.erase(lines.rfind("G1"));
+  EXPECT_NE(last(lines), "confirmed");
+  EXPECT_NE(last(lines + "M8\n"), "confirmed");
   EXPECT_NE(made(lines), "confirmed");  // it does not come to its end
   EXPECT_NE(made(chords(64) + "G1 Y22.5\n"), "confirmed");
   // The arc, chord by chord, but the other way round and over the other side.
@@ -181,6 +222,22 @@ TEST(VerifyMovedLines, ChordsShareTheTimeOfTheirArc) {
   EXPECT_NE(made(replaced(shared, "F256", "F257")), "confirmed");
   EXPECT_NE(made(replaced(shared, "F256\nG1", "F256 M8\nG1")), "confirmed");
   EXPECT_NE(made(shared.substr(4)), "confirmed");
+  EXPECT_NE(said({replaced(replaced(original, "G93 G18", "G93 F4\nG18"), "K0 F4", "K0"),
+                  kFirst + replaced(shared, "G93 ", "G93 F4\n") + end, "coordinates", kRight}),
+            "confirmed");
+  // The feed behind it is that of the arc and not that of a chord.
+  EXPECT_EQ(
+      said({replaced(timed, "G17 G0 X5", "G17 G1 X5"), kFirst + shared + "G1 Y25\n", "coordinates", kRight}),
+      "its motion in line 67 is another than the original's");
+}
+
+TEST(VerifyMovedLines, TheLastChordMayEndAsFarOffAsAnyPlace) {
+  // The largest of all numbers is 2 in both programs.
+  const double limit = 0.5 + 1e-12 * (2.0 + 2.0);
+  EXPECT_EQ(said({replaced(kUpright, "G17 G0 X5\n", "G17 G0 Z7\n"),
+                  fmt::format("G21 G90 G17\nG0 X0 Y0 Z5\nG1 X1 Z4 F100\nX2 Y{:.17g} Z5\nG0 Z7\n", limit),
+                  "coordinates", "0", 1, "0", "0", "0.5"}),
+            "confirmed");
 }
 
 // ---- frames -----------------------------------------------------------------------------------------------
@@ -210,6 +267,12 @@ TEST(VerifyMovedLines, AnOffsetThatIsSetMakesTheFrame) {
   EXPECT_EQ(changed("X10 Y20", "X10.002 Y20").find("its frame puts line "), 0U);
   EXPECT_EQ(changed("X10 Y20", "X10 Y20.002").find("its frame puts line "), 0U);
   EXPECT_EQ(changed("R90", "R91").find("its frame puts line "), 0U);
+  const auto shifted = [](const char* x) {
+    return said({kHead + "G0 X0 Y0 Z5\n", fmt::format("{}G10 L2 P1 X{} Y0 R0\nG54\nG0 X0 Y0 Z5\n", kHead, x),
+                 "offset", "0", 1, "0", "0", "0"});
+  };
+  EXPECT_EQ(shifted("0.000000000002"), "confirmed");
+  EXPECT_EQ(shifted("0.000000000003"), "its frame puts line 2 3e-12 mm off");
   EXPECT_EQ(framed(kPlain), "it sets no frame");
   EXPECT_EQ(changed("G1 Z-1", "G1 Z-2").find("its motion in line "), 0U);
   // Small letters, comments and the ends of lines make no difference; what stands in a comment is no frame.
@@ -235,6 +298,9 @@ TEST(VerifyMovedLines, NothingMovesOutsideOfItsFrame) {
                    kHead + arrives + "G54\n" + kBody + "M30\n"),
             "confirmed");
   EXPECT_EQ(framed("M8\nM30\n", 1, "M8\nM30\n"), "confirmed");
+  EXPECT_EQ(framed("G21\nG10 L2 P1 X10 Y20 R90\nM8\nM30\n", 1, "M8\nM30\n"), "confirmed");
+  EXPECT_EQ(framed("G21\nG10 L2 P2 X10 Y20 R90\nM8\nM30\n", 1, "M8\nM30\n"),
+            "it sets its frame in two ways, or another work offset than the result says");
   EXPECT_EQ(framed("M8\nM9\nM30\n", 1, "M8\nM30\n"),
             "its line 2 says \"M9 \" besides places, where the original has \"M30 \"");
   EXPECT_EQ(framed("G5.1\n"), "open: out.nc:1: G5.1 is not understood here");
@@ -280,8 +346,8 @@ TEST(VerifyMovedLines, AShiftAndATurnMakeTheFrame) {
     return rotated(replaced(kTurned, what, with));
   };
   EXPECT_EQ(changed("G68 X0 Y0 R90\n", ""), "it sets no frame");
-  EXPECT_EQ(changed("G52 X10 Y20\n", ""), "it sets no frame");
-  EXPECT_EQ(changed("G52 X10 Y20", "G52 X10"), "it sets no frame");
+  EXPECT_NE(changed("G52 X10 Y20\n", ""), "confirmed");
+  EXPECT_NE(changed("G52 X10 Y20", "G52 X10"), "confirmed");
   EXPECT_EQ(changed("X10 Y20", "X10.002 Y20").find("its frame puts line "), 0U);
   EXPECT_EQ(changed("R90", "R91").find("its frame puts line "), 0U);
   const std::string two = "it sets its frame in two ways, or another work offset than the result says";
@@ -289,6 +355,7 @@ TEST(VerifyMovedLines, AShiftAndATurnMakeTheFrame) {
   EXPECT_EQ(changed("R90\n", "R90\nG68 X0 Y0 R91\n"), two);
   EXPECT_EQ(changed("R90\n", "R90\nG68 X0 Y0 R90\n"), "confirmed");
   EXPECT_EQ(changed("G69\n", "G80 G69\n"), "confirmed");
+  EXPECT_EQ(rotated("G21 G90 G17\nG68 X0 Y0 R90\nM8\n", "M8\n"), "it sets no frame");
   EXPECT_EQ(changed("G69\n", ""), "confirmed");
   // What comes behind the end of the frame is outside of it.
   EXPECT_EQ(
@@ -300,6 +367,75 @@ TEST(VerifyMovedLines, AShiftAndATurnMakeTheFrame) {
   // The words of the other way to set a frame are none here, and the other way round.
   EXPECT_EQ(rotated(kOffset).find("open: "), 0U);
   EXPECT_EQ(framed(kTurned).find("open: "), 0U);
+}
+
+/// Whatever stood behind a frame in its line went by unseen.
+TEST(VerifyMovedLines, AFrameStandsAloneInItsLine) {
+  for (const char* more : {" Z-50", " A90", " M3 S900", " G1 X9", " P1", " X10", "1.5.", " R", " (a) Z1"}) {
+    EXPECT_NE(framed(replaced(kOffset, "R90\n", fmt::format("R90{}\n", more))), "confirmed") << more;
+    EXPECT_NE(rotated(replaced(kTurned, "R90\n", fmt::format("R90{}\n", more))), "confirmed") << more;
+    EXPECT_NE(rotated(replaced(kTurned, "Y20\n", fmt::format("Y20{}\n", more))), "confirmed") << more;
+  }
+  EXPECT_EQ(framed(replaced(kOffset, "R90\n", "R90\nG10 L2 P1 Z-50\n")),
+            "its line 3 sets a frame beside other words, or where unit, plane or G90 are not said");
+  EXPECT_EQ(framed(replaced(kOffset, "G10", "/G10")), "it sets no frame");
+  EXPECT_NE(rotated(replaced(kTurned, "G52 X10", "/ G52 X10")), "confirmed");
+  EXPECT_EQ(rotated(replaced(kTurned, "G68", "/G68")), "it sets no frame");
+  EXPECT_EQ(rotated(replaced(kTurned, "X0 Y0 R90", "X1 Y0 R90")), "it sets no frame");
+  EXPECT_EQ(rotated(replaced(kTurned, "X0 Y0 R90", "X0 Y1 R90")), "it sets no frame");
+  EXPECT_EQ(framed(replaced(kOffset, "G10", "N7 G21 G10")), "confirmed");
+  EXPECT_EQ(framed(replaced(kOffset, "G10", "G1 X5 F100 G10")).find("its line 2 "), 0U);
+}
+
+/// Words are words however they are written and in whatever order lines run.
+TEST(VerifyMovedLines, AFrameIsInTheUnitAndPlaneThatAreInForce) {
+  for (const char* inches : {"G20", "G 20", "g020", "G20.0", "G2(a)0", "G[4*5]"}) {
+    const std::string written =
+        fmt::format("G21 G90 G17\n{}\nG10 L2 P1 X10 Y20 R90\nG21\nG54\n{}M30\n", inches, kBody);
+    EXPECT_NE(said({kPlain, written, "offset", kRight}), "confirmed") << inches;
+  }
+  // A subprogram behind the end runs before the frame.
+  EXPECT_NE(framed(kHead + "M98 P7\nG10 L2 P1 X10 Y20 R90\nG21 G54\n" + kBody + "M30\nO7\nG20\nM99\n"),
+            "confirmed");
+  EXPECT_EQ(said({kPlain, kHead + "M98 P7\nG10 L2 P1 X1 Y2 R90\nG21 G54\n" + kBody + "M30\nO7\nG20\nM99\n",
+                  "offset", kRight, 1, "25.4", "50.8"}),
+            "confirmed");
+  EXPECT_EQ(
+      framed(replaced(kOffset, kHead + "G10 L2 P1 X10 Y20 R90\n", "G90 G17\nG10 L2 P1 X10 Y20 R90\nG21\n")),
+      "it sets no frame");
+  for (const char* head : {"G90 G17", "G21 G17", "G21 G90", "G21 G90 G18", "G21 G91 G17"}) {
+    const std::string written =
+        fmt::format("{}\nG52 X10 Y20\nG68 X0 Y0 R90\n{}{}G69\nG52 X0 Y0\nM30\n", head, kHead, kBody);
+    EXPECT_NE(said({kPlain, written, "g68", kRight}), "confirmed") << head;
+  }
+}
+
+TEST(VerifyMovedLines, AFrameHoldsUntilAnyWordEndsIt) {
+  const auto more = [](const std::string& lines) {
+    return said({replaced(kPlain, "M30", "G1 X20\nM30"), replaced(kTurned, "G69\nG52 X0 Y0\n", lines), "g68",
+                 kRight, 1, "10", "20", "0.001", words::Control::fanuc});
+  };
+  EXPECT_EQ(more("G1 X20\nG69\nG52 X0 Y0\n"), "confirmed");
+  for (const char* end :
+       {"G69", "G 69", "N5 G69", "G69 G80", "G52 X0 Y0", "N5 G52 X0.0 Y0", "G69\nG52 X0 Y0"})
+    EXPECT_NE(more(std::string(end) + "\nG1 X20\n"), "confirmed") << end;
+  EXPECT_EQ(more("G69\nG68 X0 Y0 R90\nG1 X20\nG69\nG52 X0 Y0\n"), "confirmed");
+  EXPECT_NE(more("G69\nG52 X0 Y0\nG68 X0 Y0 R90\nG1 X20\n"), "confirmed");
+  // A turn before its shift, or a shift within a turn, is another frame.
+  EXPECT_NE(rotated(replaced(kTurned, "G52 X10 Y20\nG68 X0 Y0 R90\n", "G68 X0 Y0 R90\nG52 X10 Y20\n")),
+            "confirmed");
+  // No shift is a frame too.
+  EXPECT_EQ(said({kPlain, replaced(kTurned, "X10 Y20", "X0.0000 Y0.0000"), "g68", kRight, 1, "0", "0"}),
+            "confirmed");
+}
+
+/// The frame is that of one work offset.
+TEST(VerifyMovedLines, NothingMovesInAnotherWorkOffsetThanItsFrame) {
+  const std::string two = replaced(kBody, "G1 X10\n", "G1 X10\nG55\nG0 X0 Y0 Z5\nX1\n");
+  EXPECT_EQ(
+      framed(kHead + "G10 L2 P1 X10 Y20 R90\nG54\n" + two + "M30\n", 1, kHead + "G54\n" + two + "M30\n"),
+      "its line 9 moves outside its frame");
+  EXPECT_EQ(framed(replaced(kOffset, "G54\n", "")), "its line 4 moves outside its frame");
 }
 
 }  // namespace

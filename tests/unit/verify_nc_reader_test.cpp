@@ -109,6 +109,8 @@ TEST(VerifyNcReader, BlocksThatAreComparedSayWhatTheirMovesDoNot) {
       {"G0 X0 Y0 Z5\nG18 G2 X2 I1 K0 F9 P2\n", "1:0,0,5>0,0,5R\n2:F9 334 chords to 2,0,5\n"},
       {"G0 X0 Y0 Z5\nG19 G3 Y2 X3 J1 K0 F9\n", "1:0,0,5>0,0,5R\n2:F9 112 chords to 3,2,5\n"},
       {"G0 X1 Y1\nG18 G2 X3 I1 K0 F9\n", "p:2: an arc from a Z that no block has said"},
+      // Of a spiral the larger end decides how long chords are.
+      {"G0 X0 Y0 Z5\nG18 G2 X5 I1 K0 F9\n", "1:0,0,5>0,0,5R\n2:F9 223 chords to 5,0,5\n"},
       {"G0 X1 Y2 Z3\nG2 I1 F9\nG28 X5\n", "1:1,2,3>1,2,3R\n2:F9 1,2,3>1,2,3-2,2*1F9\n3:G28 X5\n"},
       {"G0 X1 Y1 Z1\nG1 X2 F9\nT2 M6\n", "1:1,1,1>1,1,1R\n2:F9 1,1,1>2,1,1F9\n3:M6 T2\n"},
       {"G53\n", "p:1: G53 without G0 and G90"},
@@ -150,6 +152,7 @@ TEST(VerifyNcReader, CountsAndDistancesHaveTheirBounds) {
       {"G2 I1 P0 F9\n", "p:2: P of an arc is not a number of turns"},
       {"G2 I1 P1.5 F9\n", "p:2: P of an arc is not a number of turns"},
       {"G1 X1 F0\n", "p:2: a feed that is not above 0"},
+      {"G80\nG1 X1 F0\n", "p:3: a feed that is not above 0"},
       {"G1 X1\n", "p:2: a motion with feed before any F"},
       {"G98 G81 X1 Z5 R5 F9\n", "0,0,5>1,0,5R "},
       {"G98 G81 X1 Z5.1 R5 F9\n", "p:2: R of a cycle is below its Z"},
@@ -170,6 +173,9 @@ TEST(VerifyNcReader, CountsAndDistancesHaveTheirBounds) {
       {"G98 G81 X1. Z-1. R1. L0 F9.\n", "", Control::haas},
   };
   for (const Case& one : cases) EXPECT_EQ(judged(begin + one.program, one.control), one.says) << one.program;
+  EXPECT_EQ(judged("G1 X1 F0\n"), "p:1: a feed that is not above 0");
+  EXPECT_TRUE(read_moves({"p", begin + "G98 G83 X1 Z-5000 R5000 Q1 F9\n"}, 0));
+  EXPECT_FALSE(read_moves({"p", begin + "G98 G83 X1 Z-5000.1 R5000 Q1 F9\n"}, 0));
 }
 
 TEST(VerifyNcReader, CyclesAreTheMovesThatTheControlMakes) {
@@ -255,6 +261,11 @@ TEST(VerifyNcReader, CyclesAreTheMovesThatTheControlMakes) {
       {"M3 S9\nG98 G86 X1 Z-1 R2\n", "p:3: G86 without P in its first block"},
       {"G91 G99 G81 X1 Z-3 R-3\nX1 R-2\n", "p:3: Z or R of a cycle changed under G91 and G99"},
       {"G98 G81 X1 Z-1 R7\nX2 R7\n", "p:3: R of a cycle changed above the plane that it began at"},
+      {"G99 G81 X1 Z-1 R7\nX2 R7\n",
+       "0,0,5>0,0,7R 0,0,7>1,0,7R 1,0,7>1,0,-1F9 1,0,-1>1,0,7R 1,0,7>2,0,7R 2,0,7>2,0,-1F9 2,0,-1>2,0,7R "},
+      {"G0 Z-1\nG98 G81 X1 Z-3 R-2\n",
+       "0,0,5>0,0,-1R 0,0,-1>1,0,-1R 1,0,-1>1,0,-2R 1,0,-2>1,0,-3F9 1,0,-3>1,0,-1R "},
+      {"G53 G0 Z0 M19 G103 P1\n", "p:2: two words of the block take P", Control::haas},
       {"G98 G81 X1 Z-1 R5\nX2 R5\n",
        "0,0,5>1,0,5R 1,0,5>1,0,-1F9 1,0,-1>1,0,5R 1,0,5>2,0,5R 2,0,5>2,0,-1F9 2,0,-1>2,0,5R "},
       {"G98 G81 X1 Z-1 R2\nX2 R3\n",
@@ -333,9 +344,22 @@ TEST(VerifyNcReader, ArcsOfOtherPlanesRiseEvenlyAcrossThem) {
                   1e-12);
       EXPECT_NEAR(std::hypot(end[one.first] - one.middle_of_first, end[one.second] - one.middle_of_second), 3,
                   1e-12);
+      const double way =
+          std::hypot(move.to.x - move.from.x, move.to.y - move.from.y, move.to_z - move.from_z);
+      EXPECT_NEAR(way, std::hypot(6 * std::sin(std::acos(0.0) / 2 / 97), 6.0 / 97), 1e-12);
     }
     EXPECT_EQ(end[one.across], 6);
     EXPECT_EQ(end[one.second], one.middle_of_second);
+  }
+}
+
+TEST(VerifyNcReader, ArcsOfOtherPlanesComeToTheirEndItself) {
+  for (const char* number : {"0.1", "0.3", "0.7", "1.1", "1.7", "2.3", "3.9"}) {
+    const auto moves =
+        read_moves({"p", fmt::format("G0 X0 Y0 Z2\nF9 G18 G3 X{0} Z[2-{0}] I0 K-{0}\n", number)}, 0);
+    ASSERT_TRUE(moves) << moves.error().message;
+    EXPECT_EQ(fmt::format("{}", moves->back().to.x), number);
+    EXPECT_EQ(moves->back().to_z, 2 - moves->back().to.x);
   }
 }
 
@@ -446,7 +470,8 @@ TEST(VerifyNcReader, LinesHaveTheirLettersAndBounds) {
 /// A program with `B0.` on a line of its own was rewritten, and then not read.
 TEST(VerifyNcReader, ARotaryWordAloneMovesUnderG0AndG1Only) {
   const std::string there = "G0 X1 Y1 Z1\n";
-  EXPECT_EQ(judged(there + "B0.\nX2\n"), "1,1,1>2,1,1R ");
+  for (const char* words : {"A0.", "B0.", "C0."})
+    EXPECT_EQ(judged(there + words + "\nX2\n"), "1,1,1>2,1,1R ") << words;
   EXPECT_EQ(judged(there + "G1 X2 F9\nA0 B0 C0 M8\nX3\n"), "1,1,1>2,1,1F9 2,1,1>3,1,1F9 ");
   EXPECT_EQ(compared(there + "B0.\nG1 B0.\nB0.\nX2\n"),
             "1:1,1,1>1,1,1R\n2:G0 B0\n3:G1 B0\n4:G1 B0\n5:1,1,1>2,1,1F0\n");
@@ -508,6 +533,7 @@ TEST(VerifyNcReader, NumbersAreReadAsTheyAreWritten) {
   EXPECT_EQ(judged("#1=2 (a remark)\nG0 X#1 Y-#1 Z+[#1*2]\nX[#1+1]\n"), "2,-2,4>3,-2,4R ");
   EXPECT_EQ(judged("#1=2\nG0 X - #1 Y1 Z1\nX1\n"), "-2,1,1>1,1,1R ");
   EXPECT_EQ(judged("#1=2\nN#1 G0 X1\n"), "p:2: the number of a block is computed");
+  EXPECT_EQ(judged("#1=2\nO#1\n"), "p:2: the number of a block is computed");
   EXPECT_EQ(judged("G0 X+-1\n"), "p:1: X is not followed by a plain number");
   EXPECT_EQ(judged("G0 X-\n"), "p:1: X is not followed by a plain number");
   EXPECT_EQ(judged("G0 X- \n"), "p:1: X is not followed by a plain number");

@@ -467,6 +467,17 @@ TEST(VerifyMachineTime, ACornerIsAsFastAsItsAngleAllows) {
   std::reverse(pieces.begin(), pieces.end());
   for (Move& move : pieces) std::swap(move.from, move.to);
   EXPECT_NEAR(seconds(pieces), seconds({fed({0, 0}, {11, 0}, 6000)}), 1e-9);
+  // At a right angle the way that leaves the corner by 0.01 mm has the radius 0.01 s / (1 - s), s =
+  // sqrt(1/2).
+  const double s = std::sqrt(0.5), slow = std::sqrt(500 * 0.01 * s / (1 - s));
+  const double square = 2 * ((20 - slow) / 500 + (10 - (200 - slow * slow) / 1000) / 10);
+  EXPECT_NEAR(seconds({fed({0, 0}, {10, 0}, 600), fed({10, 0}, {10, 10}, 600)}), square, 1e-9);
+  EXPECT_NEAR(seconds({fed({0, 0}, {10, 0}, 600), fed({10, 0}, {10, 0}, 600, 0, -10)}), square, 1e-9);
+  EXPECT_NEAR(seconds({fed({0, 0}, {0, 0}, 600, 10, 0), fed({0, 0}, {10, 0}, 600)}), square, 1e-9);
+  // 0.1 rad within 0.5 mm are a radius of 5 mm and 50 mm/s, where the corner alone would allow more.
+  const Place far{20 + 20 * std::cos(0.1), 20 * std::sin(0.1)};
+  EXPECT_NEAR(seconds({fed({0, 0}, {20, 0}, 6000), fed({20, 0}, far, 6000)}),
+              2 * ((200.0 - 50) / 500 + (20 - 17.5) / 100), 1e-9);
 }
 
 TEST(VerifyMachineTime, AnArcIsAsFastAsItsRadiusAllows) {
@@ -493,6 +504,11 @@ TEST(VerifyMachineTime, AnArcIsAsFastAsItsRadiusAllows) {
   twice.arc = true, twice.turns = 2, twice.feed = 6000;
   twice.from = {1, 0}, twice.to = {1 + 1e-9, 0};
   EXPECT_NEAR(seconds({twice}), circle(1, 6000), 1e-9);
+  // A wide one is not cut into pieces of a quarter of a millimetre.
+  EXPECT_NEAR(circle(1e6, 6000), 0.4 + (2e6 * kPi - 20) / 100, 1e-3);
+  // 0.1 - 0.3 + 0.3 is not 0.1, and what is left behind the last quarter has no length.
+  EXPECT_NEAR(seconds({Move{.arc = true, .from = {0.1, 0}, .to = {0.1, 0}, .centre = {0.3, 0}, .feed = 600}}),
+              0.04 + (0.4 * kPi - 0.2) / 10, 1e-9);
 }
 
 TEST(VerifyMachineTime, ManyShortLinesAreAsSlowAsTheCurveThatTheyFollow) {

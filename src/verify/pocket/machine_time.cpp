@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 
 #include "cut_path.hpp"
 #include "lekalo/base/stop.hpp"
@@ -10,6 +11,8 @@ namespace {
 constexpr double kJunctionDeviation = 0.01;  // mm
 /// Curvature is averaged over this much path.
 constexpr double kWindow = 0.5;  // mm
+/// What turns by less is straight, and as fast as any.
+constexpr double kStraight = 1e-300;
 /// Arcs are cut into pieces of at most this length, or a 32nd of the radius if that is longer.
 constexpr double kLongest = 0.25;  // mm
 
@@ -103,10 +106,10 @@ double machine_seconds(const std::vector<Move>& moves, const SimulateOptions& o)
     s += pieces[i - 1].length;
     const double cosine = dot(pieces[i - 1].last, pieces[i].first);
     // The sine of half the angle between the two directions at the corner.
-    const double half = std::sqrt(std::clamp(0.5 * (1 + cosine), 0.0, 1.0));
-    double radius = kJunctionDeviation * half / (1 - half);  // infinite straight on
+    const double half = std::sqrt(std::max(0.0, 0.5 * (1 + cosine)));
     const double bend = turned(s + kWindow / 2) - turned(s - kWindow / 2);
-    if (bend > 0) radius = std::min(radius, kWindow / bend);
+    const double radius = std::min(kJunctionDeviation * half / std::max(1 - half, kStraight),
+                                   kWindow / std::max(bend, kStraight));
     const double slower = std::min(pieces[i - 1].feed, pieces[i].feed);
     square[i] = std::min({slower * slower, a * radius, pieces[i - 1].square_limit, pieces[i].square_limit});
   }

@@ -9,11 +9,15 @@
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/double_of_text.hpp"
 #include "lekalo/base/stop.hpp"
+#include "nc_block.hpp"
+#include "nc_flow.hpp"
 #include "nc_program.hpp"
 #include "verify/number/interval.hpp"
 
 namespace lekalo::verify {
 namespace {
+
+using words::Group;
 
 /// Motions are computed in doubles. This many times the largest number is far above what their rounding makes
 /// of places, and of centres that two ends and a radius give.
@@ -37,6 +41,12 @@ double apart(Place a, Place b) { return length(a - b); }
 bool same(double a, double b) { return std::abs(a - b) <= kSame * (1 + std::abs(a)); }
 bool same_ends(const Move& move) { return move.from.x == move.to.x && move.from.y == move.to.y; }
 
+/// The byte order mark of UTF-8 is no part of a program.
+Document without_mark(Document program) {
+  if (program.bytes.starts_with("\xEF\xBB\xBF")) program.bytes.remove_prefix(3);
+  return program;
+}
+
 double largest_of(const std::vector<Move>& moves) {
   double largest = 1;
   for (const Move& move : moves)
@@ -58,13 +68,19 @@ std::string code_without_comments(std::string_view line) {
   return code;
 }
 
-/// The number behind ` X` and its like.
-std::optional<double> number_behind(const std::string& line, const std::string& word) {
-  const std::size_t at = line.find(word);
-  if (at == std::string::npos) return std::nullopt;
-  const std::size_t begin = at + word.size(),
-                    end = std::min(line.find_first_not_of("0123456789.-", begin), line.size());
-  return double_of_text(std::string_view(line).substr(begin, end - begin));
+/// The numbers of words that have these letters, in this order, and are no more.
+std::optional<std::vector<double>> numbers_of(std::string_view words, std::string_view letters) {
+  std::vector<double> numbers;
+  for (const char letter : letters) {
+    if (!words.starts_with(std::string{' ', letter})) return std::nullopt;
+    const std::size_t end = std::min(words.find_first_not_of("0123456789.-", 2), words.size());
+    const auto number = double_of_text(words.substr(2, end - 2));
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+    words.remove_prefix(end);
+  }
+  if (words.find_first_not_of(" \t") != std::string_view::npos) return std::nullopt;
+  return numbers;
 }
 
 /// Under G93 the chords of an arc share its time: each says F, so many times that of the arc.
@@ -72,7 +88,7 @@ bool shares_time(std::string arc, std::string chord, bool first, double chords) 
   const auto take_feed = [](std::string& words) -> std::optional<double> {
     const std::size_t at = words.starts_with('F') ? 0 : words.find(" F") + 1;
     const std::size_t end = words.find(' ', at);
-    if (words.empty() || words[at] != 'F' || end == std::string::npos) return std::nullopt;
+    if (words[at] != 'F') return std::nullopt;
     const auto feed = double_of_text(std::string_view(words).substr(at + 1, end - at - 1));
     words.erase(at, end + 1 - at);
     return feed;
@@ -81,81 +97,126 @@ bool shares_time(std::string arc, std::string chord, bool first, double chords) 
   return whole && share && same(*whole * chords, *share) && chord == (first ? arc : "");
 }
 
+constexpr const char* kTwoWays = "it sets its frame in two ways, or another work offset than the result says";
+
 /// The frame that lines put into a program make, and the program without them.
 struct Framed {
   std::string rest;
-  /// For each line whether the frame is in force.
+  /// For each line whether the frame is in force whenever it runs.
   std::vector<bool> in_force;
-  std::optional<double> x, y, degrees;  ///< mm and degrees
-  bool steady = true;                   ///< it is the same wherever it is said
+  std::optional<Place> shift;  ///< mm
+  std::optional<double> degrees;
+  std::optional<std::string> fault;
 };
 
 class FrameReader {
  public:
-  FrameReader(bool g68, std::size_t work_offset) : g68_(g68), work_offset_(work_offset) {}
+  explicit FrameReader(const ProgramClaim& claim)
+      : claim_(claim), g68_(claim.mode == "g68"), lines_(claim.control, claim.allowed_m) {}
 
-  Framed read(std::string_view text) {
-    while (!text.empty()) {
+  Result<Framed> read(const Document& program) {
+    LEKALO_TRY(const std::vector<NcLine> order, lines_in_order(program, claim_.control));
+    for (std::string_view text = program.bytes; !text.empty();) {
       const std::size_t end = std::min(text.find('\n'), text.size());
-      const std::string_view line = text.substr(0, end);
-      take(line, code_without_comments(line));
-      framed_.in_force.push_back(turned_ && framed_.x.has_value());
+      framed_.rest += divided(text.substr(0, end)).first + "\n";
+      framed_.in_force.push_back(true);
       text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    for (const NcLine& line : order) {
+      take(line);
+      if (!turned_ || !shifted_) framed_.in_force[line.number - 1] = false;
     }
     return std::move(framed_);
   }
 
  private:
-  void take(std::string_view line, const std::string& code) {
-    if (code.find("G20") != std::string::npos) unit_ = 25.4;
-    if (code.find("G21") != std::string::npos) unit_ = 1;
-    const std::size_t frame = code.find(g68_ ? "G52 X" : "G10 L2 ");
-    if (frame != std::string::npos && code.find("G52 X0 Y0") != frame) {
-      set_frame(code);
-      framed_.rest += code.substr(0, frame) + "\n";
-    } else if (g68_ && code.starts_with("G68 X0 Y0 R")) {
-      turn(number_behind(code, " R"));
-      framed_.rest += "\n";
-    } else if (g68_ && (code == "G69" || code == "G80 G69" || code == "G52 X0 Y0")) {
-      turned_ = false;
-      framed_.rest += "\n";
-    } else {
-      framed_.rest += std::string(line) + "\n";
+  /// A line up to the words of a frame, and these.
+  [[nodiscard]] std::pair<std::string, std::string> divided(std::string_view line) const {
+    const std::string code = code_without_comments(line);
+    std::size_t at = code.find(g68_ ? "G52 " : "G10 L2 ");
+    if (g68_) at = std::min({at, code.find("G68 "), code.find("G69")});
+    if (at == std::string::npos) return {std::string(line), ""};
+    return {code.substr(0, at), code.substr(at)};
+  }
+
+  void take(const NcLine& line) {
+    const auto [before, words] = divided(line.text);
+    NcBlock block;
+    // What is not understood is so in the rest as well.
+    if (!lines_.read(before, line.in_subprogram, block)) return;
+    if (const words::Word* code = block.code(Group::unit)) unit_ = code->tenths == 200 ? 25.4 : 1;
+    if (const words::Word* code = block.code(Group::plane)) level_ = code->tenths == 170;
+    if (const words::Word* code = block.code(Group::distance)) absolute_ = code->tenths == 900;
+    if (block.code(Group::rotation) != nullptr) turned_ = false;
+    const bool alone = before.find('/') == std::string::npos;
+    if (!words.empty() && !(alone && set_frame(words)))
+      fault(
+          fmt::format("its line {} sets a frame beside other words, or where unit, plane or G90 are not said",
+                      line.number));
+  }
+
+  /// False where the words are not these alone, or depend on what is not said.
+  bool set_frame(std::string_view words) {
+    const std::string_view rest = words.substr(g68_ ? 3 : 6);
+    if (!g68_) {
+      const auto n = numbers_of(rest, "PXYR");
+      if (n && (*n)[0] != static_cast<double>(claim_.work_offset)) fault(kTwoWays);
+      return n && shift({(*n)[1], (*n)[2]}) && turn((*n)[3]);
     }
+    if (words.starts_with("G69")) {
+      turned_ = false;
+      return numbers_of(rest, "").has_value();
+    }
+    if (words.starts_with("G68")) {
+      const auto n = numbers_of(rest, "XYR");
+      return n && (*n)[0] == 0 && (*n)[1] == 0 && level_ && absolute_ && turn((*n)[2]);
+    }
+    const auto n = numbers_of(rest, "XY");
+    if (n && framed_.shift && (*n)[0] == 0 && (*n)[1] == 0) {
+      shifted_ = false;
+      return true;
+    }
+    return n && absolute_ && shift({(*n)[0], (*n)[1]});
   }
 
-  void set_frame(const std::string& code) {
-    framed_.steady = framed_.steady && !framed_.x;
-    const auto x = number_behind(code, " X"), y = number_behind(code, " Y");
-    if (x && y) framed_.x = unit_ * *x, framed_.y = unit_ * *y;
-    if (g68_) return;
-    framed_.steady = framed_.steady && number_behind(code, " P") == static_cast<double>(work_offset_);
-    turn(number_behind(code, " R"));
+  bool shift(Place by) {
+    if (framed_.shift) fault(kTwoWays);
+    framed_.shift = unit_ * by;
+    shifted_ = true;
+    return unit_ != 0;
   }
 
-  void turn(std::optional<double> degrees) {
-    framed_.steady = framed_.steady && degrees && (!framed_.degrees || framed_.degrees == degrees);
+  bool turn(double degrees) {
+    if (!shifted_ || (framed_.degrees && framed_.degrees != degrees)) fault(kTwoWays);
     framed_.degrees = degrees;
     turned_ = true;
+    return true;
   }
 
+  void fault(std::string sentence) {
+    if (!framed_.fault) framed_.fault = std::move(sentence);
+  }
+
+  const ProgramClaim& claim_;
   bool g68_;
-  std::size_t work_offset_;
+  NcLines lines_;
   Framed framed_;
-  double unit_ = 1;
-  bool turned_ = false;
+  double unit_ = 0;  ///< mm; 0 before it is said
+  bool level_ = false, absolute_ = false, turned_ = false, shifted_ = false;
 };
 
 class ProgramCheck {
  public:
   explicit ProgramCheck(const ProgramClaim& claim)
       : claim_(claim),
+        original_(without_mark(claim.original)),
+        written_(without_mark(claim.written)),
         exact_(map_of(approximate(claim.x), approximate(claim.y), approximate(claim.theta))),
         rounding_(approximate(claim.rounding)) {}
 
   ProgramVerdict run() {
     if (claim_.mode == "coordinates") {
-      const auto original = read(claim_.original), written = read(claim_.written);
+      const auto original = read(original_), written = read(written_);
       if (original && written) compare(*original, *written, exact_);
     } else if (claim_.mode == "offset" || claim_.mode == "g68") {
       compare_frames();
@@ -171,11 +232,13 @@ class ProgramCheck {
   }
 
   /// Returns nothing where a program is not understood.
-  std::optional<NcProgram> read(Document program) {
-    // The byte order mark of UTF-8 is no part of a program.
-    if (program.bytes.starts_with("\xEF\xBB\xBF")) program.bytes.remove_prefix(3);
-    Result<NcProgram> found =
-        read_program(program, {.control = claim_.control, .judged = false, .allowed_m = claim_.allowed_m});
+  std::optional<NcProgram> read(const Document& program) {
+    return kept(
+        read_program(program, {.control = claim_.control, .judged = false, .allowed_m = claim_.allowed_m}));
+  }
+
+  template <class T>
+  std::optional<T> kept(Result<T> found) {
     if (found) return *std::move(found);
     if (!verdict_.open) verdict_.open = found.error().message;
     return std::nullopt;
@@ -196,15 +259,15 @@ class ProgramCheck {
       else
         compare_event(original, event, written, other, map), ++next;
     }
-    if (next < written.events.size() && !verdict_.fault)
+    if (next < written.events.size())
       fault(fmt::format("its line {} does something that the original does not", written.events[next].line));
   }
 
   /// The written program has to say what the original says of its motions: else the control decides.
   void check_said(const NcEvent& event, const NcProgram& written, const NcEvent& other) {
-    if (other.first_move == other.end_move && !other.upright) return;
+    if (other.first_move == other.end_move) return;
     // Lines that stand for an arc of another plane need none.
-    const bool turns = other.first_move < other.end_move && written.moves[other.first_move].arc;
+    const bool turns = written.moves[other.first_move].arc;
     // Other modes stand in the words of events, which are the same.
     struct Shown {
       words::Group group;
@@ -226,20 +289,21 @@ class ProgramCheck {
                                b.line, excerpt(b.words), excerpt(a.words)));
     if (!same_offset(a, b))
       return fault(fmt::format("its line {} runs in another work offset than the original", b.line));
-    const bool upright = a.upright && b.upright;
-    if (a.upright.has_value() != b.upright.has_value() ||
-        (!upright && a.end_move - a.first_move != b.end_move - b.first_move))
+    if (a.upright) return compare_upright(*a.upright, *b.upright, b.line, map);
+    if (b.upright || a.end_move - a.first_move != b.end_move - b.first_move)
       return fault(fmt::format("its line {} makes other motions than the original", b.line));
-    if (upright) return compare_upright(*a.upright, *b.upright, b.line, map);
     for (std::size_t k = 0; k < a.end_move - a.first_move; ++k)
       compare_move(original.moves[a.first_move + k], written.moves[b.first_move + k], map);
   }
 
   /// Lines that set a frame may select the offset that the result names where the original selects none.
   [[nodiscard]] bool same_offset(const NcEvent& a, const NcEvent& b) const {
+    return a.offset == b.offset ||
+           (a.offset == 0 && b.offset == named_offset() && claim_.mode != "coordinates");
+  }
+  [[nodiscard]] int named_offset() const {
     const auto number = static_cast<int>(claim_.work_offset);
-    const int named = number <= 6 ? 530 + 10 * number : 590 + number - 6;
-    return a.offset == b.offset || (a.offset == 0 && b.offset == named && claim_.mode != "coordinates");
+    return number < 7 ? 530 + 10 * number : 584 + number;
   }
 
   void compare_move(const Move& a, const Move& b, const Map& map) {
@@ -286,7 +350,7 @@ class ProgramCheck {
     }
     const std::size_t count = end - first;
     if (count == 0) fault(fmt::format("its line {} is no chord of an arc", written.events[first].line));
-    for (std::size_t k = 0; k < count && !verdict_.fault; ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
       const NcEvent& chord = written.events[first + k];
       const Move& move = move_of(first + k);
       const auto at = [&](double part) {
@@ -305,20 +369,19 @@ class ProgramCheck {
 
   /// The frame that the lines put in make, and whether they are all that was put in.
   void compare_frames() {
-    const Framed framed = FrameReader(claim_.mode == "g68", claim_.work_offset).read(claim_.written.bytes);
-    const auto original = read(claim_.original);
-    const auto written = read({claim_.written.name, framed.rest});
+    const auto original = read(original_);
+    const auto framed = kept(FrameReader(claim_).read(written_));
+    const auto written = framed ? read({written_.name, framed->rest}) : std::nullopt;
     if (!original || !written) return;
-    if (original->moves.empty() && !framed.x) return compare(*original, *written, {});
-    if (!framed.x || !framed.y || !framed.degrees) return fault("it sets no frame");
-    if (!framed.steady)
-      return fault("it sets its frame in two ways, or another work offset than the result says");
+    const bool any = framed->shift || framed->degrees;
+    if (original->moves.empty() && !any) return compare(*original, *written, {});
+    if (!framed->shift || !framed->degrees) return fault("it sets no frame");
+    if (framed->fault) return fault(*framed->fault);
     compare(*original, *written, {});
-    for (const Move& move : written->moves)
-      if (!(move.line <= framed.in_force.size() && framed.in_force[move.line - 1]) &&
-          !(move.rapid && same_ends(move)))
-        return fault(fmt::format("its line {} moves outside its frame", move.line));
-    const Map map = map_of(*framed.x, *framed.y, *framed.degrees * kPi / 180);
+    for (const NcEvent& event : written->events)
+      for (std::size_t k = event.first_move; k < event.end_move; ++k)
+        check_framed(event, written->moves[k], *framed);
+    const Map map = map_of(framed->shift->x, framed->shift->y, *framed->degrees * kPi / 180);
     const double turned = std::hypot(map.cosine - exact_.cosine, map.sine - exact_.sine);
     for (const Move& move : original->moves) {
       const double radius =
@@ -330,7 +393,16 @@ class ProgramCheck {
     }
   }
 
+  /// A rapid to the first place, whose beginning nobody knows, may come before the frame.
+  void check_framed(const NcEvent& event, const Move& move, const Framed& framed) {
+    const bool in_frame =
+        framed.in_force[move.line - 1] && (claim_.mode == "g68" || event.offset == named_offset());
+    if (!in_frame && !(move.rapid && same_ends(move)))
+      fault(fmt::format("its line {} moves outside its frame", move.line));
+  }
+
   const ProgramClaim& claim_;
+  Document original_, written_;
   Map exact_;
   double rounding_, limit_ = 0;
   ProgramVerdict verdict_;

@@ -42,7 +42,7 @@ bool may_be_skipped(const NcBlock& block) {
       return false;
   for (char letter = 'A'; letter <= 'Z'; ++letter)
     if (block[letter] && std::string_view("NPS").find(letter) == std::string_view::npos) return false;
-  return !block['P'] || block.has('G', words::kDwell);
+  return !block['P'] || block.code(Group::once) != nullptr;
 }
 
 }  // namespace

@@ -31,11 +31,6 @@ struct NcBlock {
       if (each->group == group) return each;
     return nullptr;
   }
-  [[nodiscard]] bool has(char letter, int tenths) const {
-    for (const words::Word* each : codes)
-      if (each->letter == letter && each->tenths == tenths) return true;
-    return false;
-  }
   [[nodiscard]] bool has_axis() const { return (*this)['X'] || (*this)['Y'] || (*this)['Z']; }
   [[nodiscard]] bool has_rotary() const { return (*this)['A'] || (*this)['B'] || (*this)['C']; }
   [[nodiscard]] bool empty() const;

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <vector>
@@ -24,7 +25,7 @@ class Reader {
 
   double sum() {
     double left = product();
-    for (char c = next(); complaint.empty() && (c == '+' || c == '-'); c = next()) {
+    for (char c = next(); c == '+' || c == '-'; c = next()) {
       ++at_;
       const double right = product();
       left = c == '+' ? left + right : left - right;
@@ -68,12 +69,12 @@ class Reader {
     return name;
   }
 
-  bool takes(char c) {
-    if (next() != c) return false;
-    ++at_;
-    return true;
+  /// What stands behind the variable that is set.
+  double assigned() {
+    constexpr const char* kNotAlone = "a variable that is neither set alone nor used as a number";
+    const double value = takes('=') ? sum() : complain(kNotAlone);
+    return next() == '\0' ? value : complain(kNotAlone);
   }
-  bool at_end() { return next() == '\0'; }
   [[nodiscard]] std::size_t at() const { return at_; }
   std::string complaint;
 
@@ -86,6 +87,12 @@ class Reader {
   char next() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
     return at_ < text_.size() ? text_[at_] : '\0';
+  }
+
+  bool takes(char c) {
+    if (next() != c) return false;
+    ++at_;
+    return true;
   }
 
   double nested() {
@@ -109,14 +116,14 @@ class Reader {
         continue;
       }
       if (right == 0) return complain("a division by 0");
-      if (rest && !(left >= 0 && right > 0)) return complain("MOD of numbers below 0");
+      if (rest && std::min(left, right) < 0) return complain("MOD of numbers below 0");
       left = rest ? std::fmod(left, right) : left / right;
     }
     return left;
   }
 
   double in_brackets() {
-    if (++depth_ > kDeepestExpression) return complain("an expression is nested too deeply");
+    ++depth_;  // and what they hold is nested in its turn
     if (!takes('[')) return complain("an expression without brackets");
     const double value = sum();
     if (!takes(']')) return complain("an expression that is not understood");
@@ -203,10 +210,7 @@ bool assign(std::string_view text, NcVariables& variables, bool globals_only, st
     complaint = "the control alone sets " + key;
     return false;
   }
-  const bool assigns = reader.takes('=');
-  const double value = assigns ? reader.sum() : 0;
-  if (reader.complaint.empty() && (!assigns || !reader.at_end()))
-    reader.complaint = "a variable that is neither set alone nor used as a number";
+  const double value = reader.assigned();
   complaint = reader.complaint;
   if (const auto kept = bounded(value, complaint)) variables[key] = *kept;
   return complaint.empty();

@@ -13,7 +13,6 @@ namespace lekalo::verify {
 namespace {
 
 constexpr std::size_t kMostLines = 1'000'000, kDeepestCall = 10;
-constexpr long kMostCalls = 9999;
 
 /// A line in capitals, without blanks, comments and the number of its block.
 struct Code {
@@ -108,7 +107,7 @@ class Flow {
   }
 
   static std::string name_of(const std::string& code) {
-    if (code.starts_with("O<")) return code.substr(1, std::min(code.find('>'), code.size() - 1));
+    if (code.starts_with("O<")) return code.substr(1, code.find('>'));
     return without_zeros(digits_at(code, 1));
   }
 
@@ -117,7 +116,7 @@ class Flow {
     for (std::size_t k = 0; k < codes_.size(); ++k) {
       const std::string& code = codes_[k].text;
       const bool opens = code.starts_with('O') && code.ends_with("SUB") && !code.ends_with("ENDSUB");
-      const bool numbered = any && code.starts_with('O') && code == "O" + digits_at(code, 1);
+      const bool numbered = any && code == "O" + digits_at(code, 1);
       any = any || (!code.empty() && code != "%");
       if (!opens && !numbered) continue;
       const std::string last = opens ? code.substr(0, code.size() - 3) + "ENDSUB" : "M99";
@@ -163,11 +162,11 @@ class Flow {
       if (at == std::string::npos) continue;
       const std::string digits = digits_at(code, at + 1);
       rest += letter + digits;
+      // No control counts to more than 9999.
       if (letter == 'L') repeats = digits.size() > 4 || digits.empty() ? 0 : std::stol(digits);
     }
     if (rest.size() != code.size()) return complain("a call beside other words");
-    if (repeats < 1 || repeats > kMostCalls)
-      return complain("a call that is repeated L times is not understood");
+    if (repeats < 1) return complain("a call that is repeated L times is not understood");
     const std::string wanted = number_of(code, 'P');
     if (number_of(code, 'M') == "98") return repeat(bodies_.find(wanted), repeats);
     if (wanted.empty()) return complain("a call without P");

@@ -103,7 +103,7 @@ class ProgramReader {
       return complain(fmt::format("{0} has no decimal point, and {1} controls may count it in thousandths",
                                   block.pointless[at], name_of(control_)));
     // A rotary word alone makes no arc and no hole, so only a line in force takes it.
-    const bool carries = block.has_axis() || (block.has_rotary() && is_line(motion_));
+    const bool carries = block.has_axis() || is_line(motion_);
     const words::Word* carried = motion == nullptr && carries && !off ? motion_ : nullptr;
     for (const char letter : words::kTakenLetters)
       if (block[letter] && !has_one_taker(block, letter, carried)) return false;
@@ -241,7 +241,7 @@ class ProgramReader {
         return void(complain("G53 without G0 and G90"));
     } else {
       const words::Word* before = std::exchange(motion_, words::word_at('G', kRapid, control_));
-      if (!block['X'] && !block['Y'] && block['Z']) move(block);
+      if (!block['X'] && !block['Y']) move(block);
       motion_ = before;
     }
     const bool all = !block.has_axis();

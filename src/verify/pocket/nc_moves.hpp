@@ -18,7 +18,7 @@ struct Move {
   /// An arc turns by less than turns * 360 degrees and at least (turns - 1) * 360.
   int turns = 1;
   double feed = 0;  ///< mm/min; 0 for a rapid
-  std::size_t line = 0;
+  std::size_t line{};
 };
 
 /// Reads the motions of an NC program as the control moves, from the words that it knows (base/nc_words.hpp).

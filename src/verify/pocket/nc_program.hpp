@@ -28,7 +28,7 @@ struct NcReading {
 
 /// A block that does something: its words but for places and for modes that its moves show, and its moves.
 struct NcEvent {
-  std::size_t line = 0;
+  std::size_t line{};
   std::string words;
   /// Indices of its moves, the last one not among them.
   std::size_t first_move = 0, end_move = 0;

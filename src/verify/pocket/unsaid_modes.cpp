@@ -53,12 +53,11 @@ Result<void> add_unsaid(const Document& program, const std::string& called, cons
   LEKALO_TRY(const NcProgram read, read_program(program, {.control = options.control, .top = options.top}));
   UnsaidModes unsaid(options.control, called);
   for (const NcEvent& event : read.events) {
-    if (event.first_move == event.end_move && !event.upright && !event.places) continue;
+    if (event.first_move == event.end_move && !event.places) continue;
     const auto first = read.moves.begin() + static_cast<std::ptrdiff_t>(event.first_move),
                end = read.moves.begin() + static_cast<std::ptrdiff_t>(event.end_move);
-    const bool upright = event.upright.has_value();
-    const bool feeds = upright || std::any_of(first, end, [](const Move& move) { return !move.rapid; });
-    const bool turns = upright || std::any_of(first, end, [](const Move& move) { return move.arc; });
+    const bool feeds = std::any_of(first, end, [](const Move& move) { return !move.rapid; });
+    const bool turns = event.upright || std::any_of(first, end, [](const Move& move) { return move.arc; });
     unsaid.look(event.line, event.said, {.with_feed = feeds, .arcs = turns});
   }
   to.insert(to.end(), unsaid.sentences().begin(), unsaid.sentences().end());

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <bitset>
 #include <cstddef>
-#include <cstdint>
 #include <set>
 #include <string>
 #include <string_view>
@@ -16,22 +16,14 @@ namespace lekalo::verify {
 class SaidGroups {
  public:
   /// Takes what a word says. Blending, G64, takes back the exact path.
-  void take(const words::Word& word) noexcept {
+  void take(const words::Word& word) {
     constexpr int kBlending = 640;
-    if (word.group == words::Group::path_control && word.tenths == kBlending)
-      bits_ &= ~bit(word.group);
-    else
-      bits_ |= bit(word.group);
+    said_.set(static_cast<std::size_t>(word.group), word.letter != 'G' || word.tenths != kBlending);
   }
-  [[nodiscard]] bool has(words::Group group) const noexcept { return (bits_ & bit(group)) != 0; }
+  [[nodiscard]] bool has(words::Group group) const { return said_[static_cast<std::size_t>(group)]; }
 
  private:
-  static constexpr std::uint32_t bit(words::Group group) noexcept {
-    return 1U << static_cast<unsigned>(group);
-  }
-  static_assert(words::kGroups <= 32);
-
-  std::uint32_t bits_ = 0;
+  std::bitset<words::kGroups> said_;
 };
 
 /// How a block moves, as far as modes depend on it.
