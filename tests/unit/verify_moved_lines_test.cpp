@@ -99,7 +99,7 @@ TEST(VerifyMovedLines, NoMotionIsMoreOrLess) {
   EXPECT_EQ(said({"G0 X0 Y0 Z5\nG0 X0\nX5\n", "G0 X10 Y20 Z5\nG0 X10\nX15\n"}), "confirmed");
   EXPECT_EQ(said({"G0 X0 Y0 Z5\nG1 X2 F100\n", "G0 X10 Y20 Z5\nG18 G2 X12 Z5 I1 K0 F100\n"}),
             "its line 2 makes other motions than the original");
-  EXPECT_EQ(said({"G0 X0 Y0 Z5\nG1 X0.02 F100\n", "G0 X10 Y20 Z5\nG18 G3 X10.02 Z5 I0.01 K1 F100\n"}),
+  EXPECT_EQ(said({"G0 X0 Y0 Z5\nG1 X0.02 F100\n", "G0 X10 Y20 Z5\nG18 G2 X10.02 Z5 I0.01 K1 F100\n"}),
             "its line 2 makes other motions than the original");
   EXPECT_EQ(said({"G0 X0 Y0 Z5\nG28 Z5\n", "G0 X10 Y20 Z5.000000000001\nG28 Z5\n"}),
             "its line 2 makes other motions than the original");
@@ -234,8 +234,8 @@ TEST(VerifyMovedLines, ChordsShareTheTimeOfTheirArc) {
 TEST(VerifyMovedLines, TheLastChordMayEndAsFarOffAsAnyPlace) {
   // The largest of all numbers is 2 in both programs.
   const double limit = 0.5 + 1e-12 * (2.0 + 2.0);
-  EXPECT_EQ(said({replaced(kUpright, "G17 G0 X5\n", "G17 G0 Z7\n"),
-                  fmt::format("G21 G90 G17\nG0 X0 Y0 Z5\nG1 X1 Z4 F100\nX2 Y{:.17g} Z5\nG0 Z7\n", limit),
+  EXPECT_EQ(said({replaced(kUpright, "G17 G0 X5\n", "G17 G1 Z7\n"),
+                  fmt::format("G21 G90 G17\nG0 X0 Y0 Z5\nG1 X1 Z4 F100\nX2 Y{:.17g} Z5\nG1 Z7\n", limit),
                   "coordinates", "0", 1, "0", "0", "0.5"}),
             "confirmed");
 }
@@ -297,6 +297,7 @@ TEST(VerifyMovedLines, NothingMovesOutsideOfItsFrame) {
   EXPECT_EQ(framed(kHead + arrives + "G10 L2 P1 X10 Y20 R90\nG54\n" + kBody + "M30\n", 1,
                    kHead + arrives + "G54\n" + kBody + "M30\n"),
             "confirmed");
+  EXPECT_EQ(framed(arrives + kOffset, 1, arrives + kHead + "G54\n" + kBody + "M30\n"), "confirmed");
   EXPECT_EQ(framed("M8\nM30\n", 1, "M8\nM30\n"), "confirmed");
   EXPECT_EQ(framed("G21\nG10 L2 P1 X10 Y20 R90\nM8\nM30\n", 1, "M8\nM30\n"), "confirmed");
   EXPECT_EQ(framed("G21\nG10 L2 P2 X10 Y20 R90\nM8\nM30\n", 1, "M8\nM30\n"),
@@ -333,6 +334,12 @@ TEST(VerifyMovedLines, AFullTurnIsAsFarOffAsItsFarSide) {
   };
   EXPECT_EQ(turned("90.0025"), "confirmed");
   EXPECT_EQ(turned("90.0043").find("its frame puts line 4 "), 0U);
+  // Out and back only the far end is off; of a spiral the wider end counts.
+  const auto other = [](const char* degrees, const std::string& lines) {
+    return framed(kHead + "G10 L2 P1 X10 Y20 R" + degrees + "\nG54\n" + lines, 1, kHead + lines);
+  };
+  EXPECT_EQ(other("90.01", "G0 X0 Y0 Z5\nG1 X10 F100\nX0\n").find("its frame puts line 3 "), 0U);
+  EXPECT_EQ(other("90.004", "G0 X9 Y0 Z5\nG3 X1 Y4 I1 J0 F100\n").find("its frame puts line 3 "), 0U);
 }
 
 const std::string kTurned = kHead + "G52 X10 Y20\nG68 X0 Y0 R90\n" + kBody + "G69\nG52 X0 Y0\nM30\n";
@@ -356,6 +363,7 @@ TEST(VerifyMovedLines, AShiftAndATurnMakeTheFrame) {
   EXPECT_EQ(changed("R90\n", "R90\nG68 X0 Y0 R90\n"), "confirmed");
   EXPECT_EQ(changed("G69\n", "G80 G69\n"), "confirmed");
   EXPECT_EQ(rotated("G21 G90 G17\nG68 X0 Y0 R90\nM8\n", "M8\n"), "it sets no frame");
+  EXPECT_EQ(rotated("G21 G90 G17\nG52 X10 Y20\nM8\n", "M8\n"), "it sets no frame");
   EXPECT_EQ(changed("G69\n", ""), "confirmed");
   // What comes behind the end of the frame is outside of it.
   EXPECT_EQ(
@@ -407,6 +415,9 @@ TEST(VerifyMovedLines, AFrameIsInTheUnitAndPlaneThatAreInForce) {
     const std::string written =
         fmt::format("{}\nG52 X10 Y20\nG68 X0 Y0 R90\n{}{}G69\nG52 X0 Y0\nM30\n", head, kHead, kBody);
     EXPECT_NE(said({kPlain, written, "g68", kRight}), "confirmed") << head;
+    if (std::string_view(head) == "G90 G17")
+      EXPECT_EQ(said({kPlain, written, "g68", kRight}),
+                "its line 2 sets a frame beside other words, or where unit, plane or G90 are not said");
   }
 }
 
@@ -421,6 +432,13 @@ TEST(VerifyMovedLines, AFrameHoldsUntilAnyWordEndsIt) {
     EXPECT_NE(more(std::string(end) + "\nG1 X20\n"), "confirmed") << end;
   EXPECT_EQ(more("G69\nG68 X0 Y0 R90\nG1 X20\nG69\nG52 X0 Y0\n"), "confirmed");
   EXPECT_NE(more("G69\nG52 X0 Y0\nG68 X0 Y0 R90\nG1 X20\n"), "confirmed");
+  // Each is said in G90.
+  EXPECT_NE(rotated(replaced(replaced(kTurned, "G21 G90 G17\n", "G21 G17\n"), "Y20\n", "Y20\nG90\n")),
+            "confirmed");
+  EXPECT_NE(rotated(replaced(replaced(kTurned, "Y20\n", "Y20\nG91\n"), "R90\n", "R90\nG90\n")), "confirmed");
+  for (const char* end : {"G52 X0", "G52 X5 Y0", "G52 X0 Y5"})
+    EXPECT_NE(rotated(replaced(kTurned, "G52 X0 Y0", end)), "confirmed") << end;
+  EXPECT_EQ(said({kPlain, replaced(kTurned, "X10 Y20", "X10 Y0"), "g68", kRight, 1, "10", "0"}), "confirmed");
   // A turn before its shift, or a shift within a turn, is another frame.
   EXPECT_NE(rotated(replaced(kTurned, "G52 X10 Y20\nG68 X0 Y0 R90\n", "G68 X0 Y0 R90\nG52 X10 Y20\n")),
             "confirmed");

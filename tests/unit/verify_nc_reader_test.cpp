@@ -485,7 +485,9 @@ TEST(VerifyNcReader, ARotaryWordAloneMovesUnderG0AndG1Only) {
   for (const Control control : {Control::fanuc, Control::haas})
     EXPECT_EQ(compared("G0 X1. Y1. Z1.\nG98 G81 X2. A0 Z-1. R1. F9.\nX3. A0\n", control),
               compared("G0 X1. Y1. Z1.\nG98 G81 X2. A0 Z-1. R1. F9.\nA0 X3.\n", control));
-  EXPECT_EQ(judged(there + "G4 P1 B0\n"), "p:2: a dwell beside a motion; give it a block of its own");
+  for (const char* words : {"A0", "B0", "C0"})
+    EXPECT_EQ(judged(there + "G4 P1 " + words + "\n"),
+              "p:2: a dwell beside a motion; give it a block of its own");
   EXPECT_EQ(judged("G0 X1. Y1. Z1.\nG4 X1. B0\n", Control::fanuc),
             "p:2: a dwell beside a motion; give it a block of its own");
 }

@@ -63,7 +63,7 @@ std::string code_without_comments(std::string_view line) {
     if (c == ';' && depth == 0) break;
     depth += c == '(' ? 1 : 0;
     if (depth == 0 && c != '\r') code += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    depth -= c == ')' && depth > 0 ? 1 : 0;
+    depth -= c == ')' ? 1 : 0;  // a line with one too many is not understood
   }
   return code;
 }
@@ -161,7 +161,9 @@ class FrameReader {
     if (!g68_) {
       const auto n = numbers_of(rest, "PXYR");
       if (n && (*n)[0] != static_cast<double>(claim_.work_offset)) fault(kTwoWays);
-      return n && shift({(*n)[1], (*n)[2]}) && turn((*n)[3]);
+      if (!n || !shift({(*n)[1], (*n)[2]})) return false;
+      turn((*n)[3]);
+      return true;
     }
     if (words.starts_with("G69")) {
       turned_ = false;
@@ -169,7 +171,9 @@ class FrameReader {
     }
     if (words.starts_with("G68")) {
       const auto n = numbers_of(rest, "XYR");
-      return n && (*n)[0] == 0 && (*n)[1] == 0 && level_ && absolute_ && turn((*n)[2]);
+      if (!n || (*n)[0] != 0 || (*n)[1] != 0 || !level_ || !absolute_) return false;
+      turn((*n)[2]);
+      return true;
     }
     const auto n = numbers_of(rest, "XY");
     if (n && framed_.shift && (*n)[0] == 0 && (*n)[1] == 0) {
@@ -186,11 +190,10 @@ class FrameReader {
     return unit_ != 0;
   }
 
-  bool turn(double degrees) {
+  void turn(double degrees) {
     if (!shifted_ || (framed_.degrees && framed_.degrees != degrees)) fault(kTwoWays);
     framed_.degrees = degrees;
     turned_ = true;
-    return true;
   }
 
   void fault(std::string sentence) {

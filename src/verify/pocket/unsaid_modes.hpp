@@ -18,7 +18,7 @@ class SaidGroups {
   /// Takes what a word says. Blending, G64, takes back the exact path.
   void take(const words::Word& word) {
     constexpr int kBlending = 640;
-    said_.set(static_cast<std::size_t>(word.group), word.letter != 'G' || word.tenths != kBlending);
+    said_.set(static_cast<std::size_t>(word.group), word.tenths != kBlending);
   }
   [[nodiscard]] bool has(words::Group group) const { return said_[static_cast<std::size_t>(group)]; }
 
