@@ -447,6 +447,14 @@ TEST(VerifyMovedLines, AFrameHoldsUntilAnyWordEndsIt) {
             "confirmed");
 }
 
+/// A line that runs before the frame and under it moves outside of it.
+TEST(VerifyMovedLines, ALineHasToBeInTheFrameWheneverItRuns) {
+  const std::string begin = kHead + "G54\nG0 X0 Y0 Z5\nM98 P7\n",
+                    end = "M98 P7\nM30\nO7\nG91 G1 X1 F100\nM99\n";
+  EXPECT_EQ(framed(begin + "G10 L2 P1 X10 Y20 R90\n" + end, 1, begin + end),
+            "its line 9 moves outside its frame");
+}
+
 /// The frame is that of one work offset.
 TEST(VerifyMovedLines, NothingMovesInAnotherWorkOffsetThanItsFrame) {
   const std::string two = replaced(kBody, "G1 X10\n", "G1 X10\nG55\nG0 X0 Y0 Z5\nX1\n");

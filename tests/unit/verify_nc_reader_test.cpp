@@ -109,6 +109,7 @@ TEST(VerifyNcReader, BlocksThatAreComparedSayWhatTheirMovesDoNot) {
       {"G0 X0 Y0 Z5\nG18 G2 X2 I1 K0 F9 P2\n", "1:0,0,5>0,0,5R\n2:F9 334 chords to 2,0,5\n"},
       {"G0 X0 Y0 Z5\nG19 G3 Y2 X3 J1 K0 F9\n", "1:0,0,5>0,0,5R\n2:F9 112 chords to 3,2,5\n"},
       {"G0 X1 Y1\nG18 G2 X3 I1 K0 F9\n", "p:2: an arc from a Z that no block has said"},
+      {"G0 X0 Y0 Z5\nG2 X12 I1 F9\n", "1:0,0,5>0,0,5R\n2:F9 0,0,5>12,0,5-1,0*1F9\n"},
       // Of a spiral the larger end decides how long chords are.
       {"G0 X0 Y0 Z5\nG18 G2 X5 I1 K0 F9\n", "1:0,0,5>0,0,5R\n2:F9 223 chords to 5,0,5\n"},
       {"G0 X1 Y2 Z3\nG2 I1 F9\nG28 X5\n", "1:1,2,3>1,2,3R\n2:F9 1,2,3>1,2,3-2,2*1F9\n3:G28 X5\n"},
@@ -351,6 +352,18 @@ TEST(VerifyNcReader, ArcsOfOtherPlanesRiseEvenlyAcrossThem) {
     EXPECT_EQ(end[one.across], 6);
     EXPECT_EQ(end[one.second], one.middle_of_second);
   }
+}
+
+TEST(VerifyNcReader, AnArcByRadiusReachesItsBoundsExactly) {
+  const auto middle = [](double half) {
+    const auto moves = read_moves({"p", fmt::format("G0 X0 Y0 Z5\nF9 G3 X{:.17g} R1\n", 2 * half)}, 0);
+    return moves ? moves->back().centre.y : std::nan("");
+  };
+  const double largest = 1 + 5e-5 * 25.4;
+  EXPECT_EQ(middle(largest), 0);
+  EXPECT_TRUE(std::isnan(middle(std::nextafter(largest, 2))));
+  EXPECT_NEAR(middle(1 - 1e-12), std::sqrt(2e-12), 1e-9);
+  EXPECT_EQ(middle(std::nextafter(1 - 1e-12, 1)), 0);
 }
 
 TEST(VerifyNcReader, ArcsOfOtherPlanesComeToTheirEndItself) {

@@ -506,9 +506,6 @@ TEST(VerifyMachineTime, AnArcIsAsFastAsItsRadiusAllows) {
   EXPECT_NEAR(seconds({twice}), circle(1, 6000), 1e-9);
   // A wide one is not cut into pieces of a quarter of a millimetre.
   EXPECT_NEAR(circle(1e6, 6000), 0.4 + (2e6 * kPi - 20) / 100, 1e-3);
-  // 0.1 - 0.7 + 0.7 is not 0.1, and what is left behind the last quarter has no length.
-  EXPECT_NEAR(seconds({Move{.arc = true, .from = {0.1, 0}, .to = {0.1, 0}, .centre = {0.7, 0}, .feed = 600}}),
-              0.04 + (1.2 * kPi - 0.2) / 10, 1e-9);
 }
 
 TEST(VerifyMachineTime, ManyShortLinesAreAsSlowAsTheCurveThatTheyFollow) {

@@ -11,7 +11,7 @@ namespace {
 constexpr double kJunctionDeviation = 0.01;  // mm
 /// Curvature is averaged over this much path.
 constexpr double kWindow = 0.5;  // mm
-/// What turns by less is straight, and as fast as any.
+/// Less of a turn is none, and as fast as any.
 constexpr double kStraight = 1e-300;
 /// Arcs are cut into pieces of at most this length, or a 32nd of the radius if that is longer.
 constexpr double kLongest = 0.25;  // mm
@@ -54,7 +54,6 @@ std::vector<Piece> pieces_of(const std::vector<Move>& moves, const SimulateOptio
     if (!(whole > 0)) continue;
     for (const Stroke& s : strokes) {
       const double share = flat > 0 ? verify::length(s) / flat : 1;
-      if (!(share > 0)) continue;
       const Place in = flat > 0 ? heading(s, s.from) : Place{}, out = flat > 0 ? heading(s, s.to) : Place{};
       const double level = flat / whole, up = rise / whole;
       // Across the axis of a helix of slope up / level the acceleration is (v level)^2 / radius.

@@ -142,7 +142,7 @@ class FrameReader {
   void take(const NcLine& line) {
     const auto [before, words] = divided(line.text);
     NcBlock block;
-    // What is not understood is so in the rest as well.
+    // The rest is read again, and says so.
     if (!lines_.read(before, line.in_subprogram, block)) return;
     if (const words::Word* code = block.code(Group::unit)) unit_ = code->tenths == 200 ? 25.4 : 1;
     if (const words::Word* code = block.code(Group::plane)) level_ = code->tenths == 170;

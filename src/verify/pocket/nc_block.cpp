@@ -150,7 +150,7 @@ bool NcLines::take_word(std::string_view text, std::size_t& at, NcBlock& block) 
   ++at;
   while (at < text.size() && is_blank(text[at])) ++at;
   const std::size_t begin = at;
-  const bool signed_one = at + 1 < text.size() && (text[at] == '-' || text[at] == '+');
+  const bool signed_one = at < text.size() && (text[at] == '-' || text[at] == '+');
   const std::size_t opens = signed_one ? text.find_first_not_of(" \t", at + 1) : at;
   if (opens < text.size() && (text[opens] == '#' || text[opens] == '[')) {
     const std::optional<double> value = computed(text, at, variables_, in_subprogram_, complaint_);
@@ -177,7 +177,7 @@ bool NcLines::take_name(char letter, std::string_view digits, NcBlock& block) {
   if (letter == 'N' && digits.size() > kMostDigitsOfN)
     return complain(fmt::format("N has more than {} digits", kMostDigitsOfN));
   if (letter == 'O' && any_words_) return complain("subprograms are not understood");
-  block.words[static_cast<std::size_t>(letter - 'A')] = 0;
+  block.words[static_cast<std::size_t>(letter - 'A')].emplace();
   return true;
 }
 
@@ -189,9 +189,9 @@ bool NcLines::keep(char letter, double value, NcBlock& block) {
   }
   if (letter == 'G' || letter == 'M') {
     const double tenths = std::round(10 * value);
-    const words::Word* code = value >= 0 && value < 1000 && tenths / 10 == value
-                                  ? words::word_at(letter, static_cast<int>(tenths), control_)
-                                  : nullptr;
+    // No code is below 0 or from 1000 on, and an int holds the bounds.
+    const auto code_tenths = static_cast<int>(std::clamp(tenths, -1.0, 1e4));
+    const words::Word* code = tenths / 10 == value ? words::word_at(letter, code_tenths, control_) : nullptr;
     if (code == nullptr) return complain(fmt::format("{}{:g} is not understood here", letter, value));
     if (const words::Word* other = block.code(code->group);
         other != nullptr && other->group != Group::auxiliary)

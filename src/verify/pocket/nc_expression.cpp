@@ -69,7 +69,7 @@ class Reader {
     return name;
   }
 
-  /// What stands behind the variable that is set.
+  /// The value behind the variable that is set.
   double assigned() {
     constexpr const char* kNotAlone = "a variable that is neither set alone nor used as a number";
     const double value = takes('=') ? sum() : complain(kNotAlone);
