@@ -189,8 +189,8 @@ bool NcLines::keep(char letter, double value, NcBlock& block) {
   }
   if (letter == 'G' || letter == 'M') {
     const double tenths = std::round(10 * value);
-    // No code is below 0 or from 1000 on, and an int holds the bounds.
-    const auto code_tenths = static_cast<int>(std::clamp(tenths, -1.0, 1e4));
+    // No code is below 0 or from 1000 on.
+    const int code_tenths = std::abs(tenths) < 1e4 ? static_cast<int>(tenths) : -1;
     const words::Word* code = tenths / 10 == value ? words::word_at(letter, code_tenths, control_) : nullptr;
     if (code == nullptr) return complain(fmt::format("{}{:g} is not understood here", letter, value));
     if (const words::Word* other = block.code(code->group);
