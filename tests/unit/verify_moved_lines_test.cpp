@@ -190,9 +190,9 @@ TEST(VerifyMovedLines, AnArcThatWasTurnedOutOfItsPlaneIsItsChords) {
   EXPECT_NE(made(replaced(lines, "\n", "\nM8\n")), "confirmed");
   EXPECT_NE(made(replaced(lines, "F100\n", "F100 G55\n")), "confirmed");
   EXPECT_NE(made(replaced(lines, "\nG1 X10", "\nG3 R5 X10")), "confirmed");
-  const auto last = [](const std::string& made, const char* rounding = "0.001") {
-    return said({replaced(kUpright, "G17 G0 X5\n", ""), kFirst + made, "coordinates", kRight, 1, "10", "20",
-                 rounding});
+  const auto last = [](const std::string& in_lines, const char* rounding = "0.001") {
+    return said({replaced(kUpright, "G17 G0 X5\n", ""), kFirst + in_lines, "coordinates", kRight, 1, "10",
+                 "20", rounding});
   };
   EXPECT_EQ(last(lines), "confirmed");
   EXPECT_EQ(last(replaced(lines, "F100\n", "F100 G55\n"), "0.1"), "its line 3 is no chord of an arc");
@@ -415,9 +415,10 @@ TEST(VerifyMovedLines, AFrameIsInTheUnitAndPlaneThatAreInForce) {
     const std::string written =
         fmt::format("{}\nG52 X10 Y20\nG68 X0 Y0 R90\n{}{}G69\nG52 X0 Y0\nM30\n", head, kHead, kBody);
     EXPECT_NE(said({kPlain, written, "g68", kRight}), "confirmed") << head;
-    if (std::string_view(head) == "G90 G17")
+    if (std::string_view(head) == "G90 G17") {
       EXPECT_EQ(said({kPlain, written, "g68", kRight}),
                 "its line 2 sets a frame beside other words, or where unit, plane or G90 are not said");
+    }
   }
 }
 
