@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <iterator>
 
 #include "cut_path.hpp"
 #include "lekalo/base/stop.hpp"
@@ -54,6 +53,7 @@ std::vector<Piece> pieces_of(const std::vector<Move>& moves, const SimulateOptio
     if (!(whole > 0)) continue;
     for (const Stroke& s : strokes) {
       const double share = flat > 0 ? verify::length(s) / flat : 1;
+      if (!(share > 0)) continue;
       const Place in = flat > 0 ? heading(s, s.from) : Place{}, out = flat > 0 ? heading(s, s.to) : Place{};
       const double level = flat / whole, up = rise / whole;
       // Across the axis of a helix of slope up / level the acceleration is (v level)^2 / radius.
