@@ -103,7 +103,7 @@ TEST(VerifyShapes, NumbersOfAnySizeAreToldApart) {
 TEST(VerifyShapes, AnIntervalOfAnyWidthIsBoundedByTheLargestValueInIt) {
   const Case c = examples()[3];
   const std::vector<Line> blank_lines = lines_of(c.blank);
-  Random random(3);
+  verify_cases::Random random(3);
   for (int i = 0; i < 300; ++i) {
     const double from = random.uniform(-7, 7), to = from + random.uniform(0, i % 3 == 0 ? 0.1 : 9.5);
     const Basis basis = best_basis(blank_lines, c.part, random.uniform(from, to));

@@ -53,14 +53,12 @@ bool same_marks(const Part& a, const Part& b, GridPoint shift) {
                     });
 }
 
-/// The largest difference of two parts that are one outline; nothing for others.
-std::optional<double> same_part(const Part& a, const Part& b) {
+/// The largest difference of two parts that are one outline, the second moved by `shift`; nothing for others.
+std::optional<double> same_part(const Part& a, const Part& b, GridPoint shift) {
   const GridRegion &p = a.outline.polygon, &q = b.outline.polygon;
   if (p.points.size() != q.points.size() || p.loop_starts != q.loop_starts ||
       a.marks.size() != b.marks.size() || a.outline.curves.size() != b.outline.curves.size())
     return std::nullopt;
-  // The lower left corners of both boxes come to lie on each other.
-  const GridPoint shift = geom::bounds(p).low - geom::bounds(q).low;
   const std::int64_t most = geom::grid_from_mm(kSameOutline);
   for (std::uint32_t offset = 0; offset < p.loop_starts[1]; ++offset) {
     const GridPoint apart = q.points[offset] + shift - p.points[0];
@@ -78,6 +76,7 @@ double merge_equal(std::vector<Part>& parts) {
   using Key = std::array<std::int64_t, 5>;
   constexpr std::int64_t kCell = 1024;  // grid steps, a multiple of what equal outlines may differ by
   std::vector<Part> kept;
+  std::vector<GridPoint> corners;  // of the boxes of those that are kept, lower left
   std::map<Key, std::vector<std::size_t>> alike;
   double largest = 0;
   for (Part& part : parts) {
@@ -94,7 +93,8 @@ double merge_equal(std::vector<Part>& parts) {
       if (found == alike.end()) continue;
       for (const std::size_t k : found->second) {
         ask(polygon.points.size());
-        const auto difference = same_part(kept[k], part);
+        // The corners of both boxes come to lie on each other.
+        const auto difference = same_part(kept[k], part, corners[k] - box.low);
         if (!difference) continue;
         largest = std::max(largest, *difference);
         same = k;
@@ -107,6 +107,7 @@ double merge_equal(std::vector<Part>& parts) {
     }
     alike[key].push_back(kept.size());
     kept.push_back(std::move(part));
+    corners.push_back(box.low);
   }
   parts = std::move(kept);
   return largest;
