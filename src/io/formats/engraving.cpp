@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lekalo/base/stop.hpp"
+#include "lekalo/geom/box_tree.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -80,12 +81,20 @@ class Rules {
     };
     std::stable_sort(holes.begin(), holes.end(),
                      [&](std::size_t a, std::size_t b) { return size(a) < size(b); });
+    std::vector<Box> boxes;
+    for (const std::size_t hole : holes) boxes.push_back(loops_[hole].box);
+    const geom::BoxTree tree(std::move(boxes));
     std::vector<std::optional<geom::RegionIndex>> index(loops_.size());
+    std::vector<std::uint32_t> about;
     for (const std::size_t outer : outer_of_) {
-      ask(1 + holes.size());
       const Point p = loops_[outer].contour->front().from;
-      for (const std::size_t hole : holes) {
-        if (loops_[hole].region == loops_[outer].region || !holds(loops_[hole].box, p)) continue;
+      about.clear();
+      tree.visit_meeting({p, p}, [&](std::uint32_t k) { about.push_back(k); });
+      ask(1 + about.size());
+      std::sort(about.begin(), about.end());
+      for (const std::uint32_t k : about) {
+        const std::size_t hole = holes[k];
+        if (loops_[hole].region == loops_[outer].region) continue;
         if (!index[hole])
           index[hole].emplace(std::vector<Region>{{geom::reversed(*loops_[hole].contour), {}}});
         if (!index[hole]->contains(p)) continue;

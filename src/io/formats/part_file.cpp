@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "io/layout/layout_outline.hpp"
 #include "io/text/decimal.hpp"
 #include "io/text/json_tree.hpp"
+#include "lekalo/base/parallel.hpp"
 #include "lekalo/io/formats/drawing_formats.hpp"
 #include "lekalo/io/layout/layout_export.hpp"
 #include "lekalo/io/shape/region_json.hpp"
@@ -285,14 +287,24 @@ Result<PartsFile> read_parts(std::string_view bytes, const std::string& name, co
   }
   std::size_t points = 0, lines = 0;
   double worst = 0;  // loss of those that became lines
-  for (DrawnPart& one : drawn->parts) {
+  // Some outlines are made side by side, and looked at in order before the next are made.
+  constexpr std::size_t kAtATime = 256;
+  const double most_loss = options.drawing.strict ? 0 : options.drawing.repair;
+  std::vector<std::optional<Result<PartOutline>>> found(kAtATime);
+  const auto find_outlines = [&](std::size_t first) {
+    share_out(std::min(kAtATime, drawn->parts.size() - first), kUsualThreads, [&](std::size_t k) {
+      found[k] = outline_of_part(drawn->parts[first + k].region, options.chord_tolerance, most_loss);
+    });
+  };
+  for (std::size_t i = 0; i < drawn->parts.size(); ++i) {
+    DrawnPart& one = drawn->parts[i];
     layout::Part part;
     part.id = one.id.empty() ? id_of_file(name) : plain(one.id);
     part.name = plain(one.name);
     part.demand = 1;
     part.marks = std::move(one.marks);
-    const double most_loss = options.drawing.strict ? 0 : options.drawing.repair;
-    auto outline = outline_of_part(one.region, options.chord_tolerance, most_loss);
+    if (i % kAtATime == 0) find_outlines(i);
+    Result<PartOutline> outline = *std::move(found[i % kAtATime]);
     if (!outline && !options.drawing.strict) {
       drop_specks(one.region, name, options.chord_tolerance, drawn->set_aside);
       outline = outline_of_part(one.region, options.chord_tolerance, most_loss);
