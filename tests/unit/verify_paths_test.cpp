@@ -408,6 +408,7 @@ TEST(VerifyCutPath, ACutThatRunsWhereAWiderOneRanAsDeepIsRepeated) {
   EXPECT_EQ(again({cut(there, -1, 3), cut(there, -2, 3), cut(there, -2, 3), cut(there, -1, 3)}), "--rr");
   EXPECT_EQ(again({cut(there, -1, 3), cut(there, -2, 4), cut(there, -1.5, 3.5)}), "--r");
   EXPECT_EQ(again({cut(there, -1, 3), cut(there, -1, 4), cut(there, -1, 4)}), "--r");
+  EXPECT_EQ(again({cut(there, -1, 3), cut(there, -0.5, 4), cut(there, -1, 3)}), "--r");
   EXPECT_EQ(again({cut(there, -1, 3), cut(there, -2, 2), cut(there, -1, 3), cut(there, -2, 2)}), "--r-");
   // Arcs have a centre; two lines have none.
   EXPECT_EQ(again({cut(kQuarter, -1, 3), cut(kQuarter, -1, 3)}), "-r");

@@ -379,6 +379,12 @@ TEST(VerifySmallCuts, AtTheBounds) {
        .left = "0 0 1.8867962 0 1.5463446 1.5463446 1.5463446; 17 52.628906 31.480469 116.98137; 4 9.6041667 "
                "6.9583333 0.90597385 0.14149306",
        .cut = "0 0 0 0 0.9 0.01 0 0.9 0 0 0.3874988 0; 24 77.25 0.42166667 16200 8100 90"},
+      {.name = "far and back",
+       .pocket = kBox,
+       .program =
+           kDown + "G1 X0.5 F600\nG0 Z1\nG0 X1.3\nG1 Z-0.1\nX1.2\nG0 Z1\nG0 X0.3\nG1 Z-0.1\nX0.5\nG0 Z1\n",
+       .left = "",
+       .cut = ""},
       {.name = "back over one stroke of a ramp",
        .pocket = kBox,
        .program = "G0 X0.5 Y0.3 Z1\nG1 Z0 F300\nX0.6 Z-0.1 F600\nZ-0.05\nX0.3\nG0 Z1\n",
@@ -501,7 +507,8 @@ TEST(VerifySmallCuts, AThousandSpotsAreTold) {
 TEST(VerifySmallCuts, SomeLinesAloneGiveTheSameSamples) {
   SimulateOptions options;
   options.tool_diameter = 0.5, options.threads = 1;
-  const std::string text = "G21 G90 G17\n" + kDown + "G1 X0.6 F600\nY0.6\nX1.1\nY0.3\nX0.6\nG0 Z1\n",
+  const std::string text = "G21 G90 G17\n" +
+                           "G0 X0.3 Y0.3 Z1\nG1 Z0 F600\nG1 X0.6 Z-0.1\nY0.6\nX1.1\nY0.3\nX0.6\nG0 Z1\n",
                     before = "G0 X0.4 Y0.4 Z1\nG1 Z-0.1 F300\nX0.45\nX0.5\nX0.9\nX1.2\nG0 Z1\n";
   const Document program{"p", text}, box{"pocket.json", kBox};
   const std::vector<EarlierProgram> earlier{{{"earlier", before}, 0.2}};
@@ -536,21 +543,23 @@ TEST(VerifySmallCuts, SomeLinesAloneGiveTheSameSamples) {
 
 /// Half a million samples, and 64 more for each line that cuts.
 TEST(VerifySmallCuts, AFarWayHasAsManySamplesAsItMayHave) {
-  constexpr double kWay = 100014;  // a few lines more or less would make one sample more or less
-  CutPath path;
-  for (const auto& [from, to, number] :
-       {std::tuple{0.0, 5e6, 1}, {5e6, 1e7, 1}, {1e7, 1e7 + kWay, 2}, {1e7 + kWay, 1e7 + 2 * kWay, 2}}) {
-    Cut one;
-    one.stroke.from = {from, 0}, one.stroke.to = {to, 0};
-    one.from_z = one.to_z = -1, one.radius = 1, one.line = static_cast<std::size_t>(number);
-    path.cuts.push_back(one);
+  // One line more would make a sample more of the first way, and one less a sample less of the second.
+  for (const double way : {100014.0, 100000.0}) {
+    CutPath path;
+    for (const auto& [from, to, number] :
+         {std::tuple{0.0, 5e6, 1}, {5e6, 1e7, 1}, {1e7, 1e7 + way, 2}, {1e7 + way, 1e7 + 2 * way, 2}}) {
+      Cut one;
+      one.stroke.from = {from, 0}, one.stroke.to = {to, 0};
+      one.from_z = one.to_z = -1, one.radius = 1, one.line = static_cast<std::size_t>(number);
+      path.cuts.push_back(one);
+    }
+    SimulateOptions options;
+    options.tool_diameter = 2;
+    SimulateReport report;
+    measure_engagement_on(path, Air(), options, {{2, 2}}, report);
+    const double spacing = (1e7 + 2 * way) / (5e5 + 64 * 2);
+    EXPECT_EQ(report.samples.size(), 2 * static_cast<std::size_t>(std::ceil(way / spacing)));
   }
-  SimulateOptions options;
-  options.tool_diameter = 2;
-  SimulateReport report;
-  measure_engagement_on(path, Air(), options, {{2, 2}}, report);
-  const double spacing = (1e7 + 2 * kWay) / (5e5 + 64 * 2);
-  EXPECT_EQ(report.samples.size(), 2 * static_cast<std::size_t>(std::ceil(kWay / spacing)));
 }
 
 TEST(VerifySmallCuts, CornersAreLookedForInAtMostTwoThousandRows) {
@@ -563,6 +572,7 @@ TEST(VerifySmallCuts, CornersAreLookedForInAtMostTwoThousandRows) {
     return report.unreachable.size();
   };
   EXPECT_EQ(found(20), 4U);
+  EXPECT_EQ(found(1000), 4U);  // of one place each
   EXPECT_EQ(found(2000), 0U);
 }
 

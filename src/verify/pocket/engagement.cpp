@@ -215,7 +215,7 @@ class Engagement {
     }
     for (const std::uint32_t i : near_) {
       const Cut& earlier = cuts_[i];
-      if (earlier.entry == cut.entry && bottoms_[i] <= z + kSameLevel &&
+      if (!earlier.level() && earlier.entry == cut.entry && bottoms_[i] <= z + kSameLevel &&
           std::min(earlier.from_z, earlier.to_z) >= z - kSameLevel)
         rim_.add(earlier.stroke, earlier.radius);
     }
