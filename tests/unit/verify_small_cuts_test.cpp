@@ -383,8 +383,9 @@ TEST(VerifySmallCuts, AtTheBounds) {
        .pocket = kBox,
        .program =
            kDown + "G1 X0.5 F600\nG0 Z1\nG0 X1.3\nG1 Z-0.1\nX1.2\nG0 Z1\nG0 X0.3\nG1 Z-0.1\nX0.5\nG0 Z1\n",
-       .left = "",
-       .cut = ""},
+       .left = "35.095605 34.067316 1.0599475 0 1.5463446 1.0036456 1.5463446; 18 48.611328 37.435547 "
+               "27.110802; 4 9.6041667 6.9583333 0.90597385 0.14149306",
+       .cut = "180 180 180 40 0.2 0 0 0.5 6.2831853 2 0.92577879 0.075; 13 36.516667 -4.4 5220 2610 0"},
       {.name = "back over one stroke of a ramp",
        .pocket = kBox,
        .program = "G0 X0.5 Y0.3 Z1\nG1 Z0 F300\nX0.6 Z-0.1 F600\nZ-0.05\nX0.3\nG0 Z1\n",
@@ -507,9 +508,9 @@ TEST(VerifySmallCuts, AThousandSpotsAreTold) {
 TEST(VerifySmallCuts, SomeLinesAloneGiveTheSameSamples) {
   SimulateOptions options;
   options.tool_diameter = 0.5, options.threads = 1;
-  const std::string text = "G21 G90 G17\n" +
-                           "G0 X0.3 Y0.3 Z1\nG1 Z0 F600\nG1 X0.6 Z-0.1\nY0.6\nX1.1\nY0.3\nX0.6\nG0 Z1\n",
-                    before = "G0 X0.4 Y0.4 Z1\nG1 Z-0.1 F300\nX0.45\nX0.5\nX0.9\nX1.2\nG0 Z1\n";
+  const std::string
+      text = "G21 G90 G17\nG0 X0.3 Y0.3 Z1\nG1 Z0 F600\nG1 X0.6 Z-0.1\nY0.6\nX1.1\nY0.3\nX0.6\nG0 Z1\n",
+      before = "G0 X0.4 Y0.4 Z1\nG1 Z-0.1 F300\nX0.45\nX0.5\nX0.9\nX1.2\nG0 Z1\n";
   const Document program{"p", text}, box{"pocket.json", kBox};
   const std::vector<EarlierProgram> earlier{{{"earlier", before}, 0.2}};
   std::vector<Progress> told;
