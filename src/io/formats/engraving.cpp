@@ -85,21 +85,25 @@ class Rules {
     for (const std::size_t hole : holes) boxes.push_back(loops_[hole].box);
     const geom::BoxTree tree(std::move(boxes));
     std::vector<std::optional<geom::RegionIndex>> index(loops_.size());
-    std::vector<std::uint32_t> about;
+    const auto is_around = [&](std::uint32_t k, Point p) {
+      const std::size_t hole = holes[k];
+      if (!index[hole]) index[hole].emplace(std::vector<Region>{{geom::reversed(*loops_[hole].contour), {}}});
+      return index[hole]->contains(p);
+    };
     for (const std::size_t outer : outer_of_) {
       const Point p = loops_[outer].contour->front().from;
-      about.clear();
-      tree.visit_meeting({p, p}, [&](std::uint32_t k) { about.push_back(k); });
-      ask(1 + about.size());
-      std::sort(about.begin(), about.end());
-      for (const std::uint32_t k : about) {
-        const std::size_t hole = holes[k];
-        if (loops_[hole].region == loops_[outer].region) continue;
-        if (!index[hole])
-          index[hole].emplace(std::vector<Region>{{geom::reversed(*loops_[hole].contour), {}}});
-        if (!index[hole]->contains(p)) continue;
-        loops_[outer].around = static_cast<std::ptrdiff_t>(hole);
-        break;
+      // The smallest hole whose box holds the point is nearly always the one; if not, the next are asked.
+      for (std::uint32_t from = 0; from < holes.size();) {
+        auto least = static_cast<std::uint32_t>(holes.size());
+        tree.visit_meeting({p, p}, [&](std::uint32_t k) {
+          if (k >= from && loops_[holes[k]].region != loops_[outer].region) least = std::min(least, k);
+        });
+        ask(1 + holes.size() / 16);
+        if (least < holes.size() && is_around(least, p)) {
+          loops_[outer].around = static_cast<std::ptrdiff_t>(holes[least]);
+          break;
+        }
+        from = std::min(least, static_cast<std::uint32_t>(holes.size() - 1)) + 1;
       }
     }
     for (std::size_t i = 0; i < loops_.size(); ++i) from_outside_.push_back(i);
