@@ -319,29 +319,6 @@ TEST(DrawingRegions, LayersAreTakenAndLeft) {
             "sketch.dxf: no curve is on a layer 'hole'; there are 'CUT', 'Frame', 'HOLES'");
 }
 
-TEST(DrawingRegions, PartsInHolesAreToldWhereThoseMayOnlyBeEngraved) {
-  // A plate with a square to be engraved around a round hole: by the lines alone the square is a hole, and
-  // the circle a disc in it.
-  const auto plate = [](const std::string& square_on) {
-    Sketch sketch;
-    sketch.layer("CUT").polyline({{0, 0}, {30, 0}, {30, 30}, {0, 30}}).circle({15, 15}, 2);
-    return sketch.layer(square_on).polyline({{10, 10}, {20, 10}, {20, 20}, {10, 20}});
-  };
-  const auto told = made(plate("ENGRAVE"));
-  EXPECT_EQ(told.regions.size(), 2u);
-  ASSERT_EQ(told.notices.size(), 1u);
-  EXPECT_EQ(
-      told.notices[0],
-      "1 part lies in a hole drawn in 'ENGRAVE', the first is the CIRCLE at line 50, layer 'CUT'; if that is "
-      "only engraved, name the others as the layers to take");
-  DrawingOptions options;
-  options.take = {"CUT"};
-  const auto taken = made(plate("ENGRAVE"), options);
-  ASSERT_EQ(taken.regions.size(), 1u);
-  EXPECT_EQ(taken.regions[0].holes.size(), 1u);
-  EXPECT_EQ(made(plate("CUT")).notices, std::vector<std::string>());
-}
-
 TEST(DrawingRegions, SaysWhatWasNotRead) {
   Sketch sketch;
   sketch.circle({0, 0}, 1).drawing().unread = {{"HATCH", 2, 77}, {"TEXT", 3, 99}};

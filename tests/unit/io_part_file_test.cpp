@@ -103,6 +103,25 @@ TEST(PartFile, WhatIsFilledBesideLinesThatAreNotIsEngraving) {
   EXPECT_EQ(read(square(0, 0, 9, filled) + square(20, 5, 8, filled)).parts.size(), 2u);
 }
 
+TEST(PartFile, PartsInHolesOfAnotherColourAreTold) {
+  // A square to be engraved around a round hole: by the lines alone the square is a hole, and the circle a
+  // disc in it.
+  const auto plate = [](const std::string& colour) {
+    return square(0, 0, 30) + square(10, 10, 10, "stroke='" + colour + "'") +
+           R"(<circle cx="15" cy="15" r="2"/>)";
+  };
+  const PartsFile doubted = read(plate("lime"));
+  EXPECT_EQ(told(doubted), "side_panel=1 \"cut\" 1 holes 0 marks, side_panel-2=1 \"cut\" 0 holes 0 marks, ");
+  EXPECT_EQ(
+      told_notices(doubted),
+      "side_panel.svg: 1 part lies in a hole drawn in '#00ff00', the first is the circle at line 1, layer "
+      "'cut'; if that is only engraved, name the others as the layers to take\n");
+  PartOptions options;
+  options.drawing.take = {"#ff0000"};
+  EXPECT_EQ(told(read(plate("lime"), options)), "side_panel=1 \"cut\" 1 holes 0 marks, ");
+  EXPECT_EQ(told_notices(read(plate("red"))), "");
+}
+
 TEST(PartFile, RowsOfLettersAreEngraving) {
   const std::string plate = square(0, 0, 100), o = square(10, 10, 5) + square(12, 12, 1);
   const std::string two = square(17, 10, 5) + square(24, 11, 4);

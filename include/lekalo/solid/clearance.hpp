@@ -50,8 +50,8 @@ struct Clearance {
 };
 
 /// Measures points against a body at one pose after another. It holds the bounds that the poses so far asked
-/// for, so the second pose near the first takes a small part of the first one's time: about 10 ns a point and
-/// thread.
+/// for, so the second pose near the first takes a small part of the first one's time
+/// (bench/clearance.cpp).
 ///
 /// The answer depends on mesh, points and motion alone, within the rounding of its bounds: not on threads,
 /// nor on what was asked before. Of several points at the same distance within rounding any may be named.

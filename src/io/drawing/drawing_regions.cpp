@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -30,7 +29,6 @@
 #include "lekalo/geom/curve_faces.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "lekalo/geom/region_check.hpp"
-#include "lekalo/geom/region_index.hpp"
 #include "near_edges.hpp"
 #include "touching_ends.hpp"
 
@@ -49,8 +47,6 @@ constexpr int kMostRounds = 8;
 constexpr std::size_t kMostNamed = 4;
 /// The most kinds of curves, and shapes that were set aside, that are told one by one.
 constexpr std::size_t kMostKinds = 8;
-/// Boxes of holes that outlines are compared with, for a sentence.
-constexpr std::size_t kMostLooked = 1'000'000;
 /// A chain whose ends are this near, mm, and far nearer than it is large, was meant to close.
 constexpr double kWidestGap = 2;
 
@@ -1153,62 +1149,6 @@ class Assembly {
     return listed.empty() ? "" : "; not read: " + listed;
   }
 
-  /// The colour of a curve, or its layer where it has none.
-  [[nodiscard]] const std::string& look(std::uint32_t curve) const {
-    const Layer& layer = drawing_.layers[drawing_.curves[curve].layer];
-    return layer.colour.empty() ? layer.name : layer.colour;
-  }
-
-  /// A sentence where outlines lie in holes that are drawn in another colour or on another layer: a figure
-  /// that is only engraved becomes a hole, and what lies in it a part.
-  void tell_parts_in_holes() {
-    struct Loop {
-      const geom::Contour* contour;
-      std::uint32_t curve;
-    };
-    std::vector<Loop> outers, holes;
-    auto curve = result_.curve_of_edge.begin();
-    const auto take = [&](const geom::Contour& contour, std::vector<Loop>& loops) {
-      loops.push_back({&contour, *curve});
-      curve += static_cast<std::ptrdiff_t>(contour.size());
-    };
-    for (const geom::Region& region : result_.regions) {
-      take(region.outer, outers);
-      for (const geom::Contour& hole : region.holes) take(hole, holes);
-    }
-    std::vector<geom::Box> boxes;
-    for (const Loop& hole : holes) boxes.push_back(geom::bounds(*hole.contour));
-    const geom::BoxTree tree(boxes);
-    std::vector<std::uint32_t> found;
-    std::set<std::string> looks;
-    std::size_t looked = 0;
-    for (const Loop& outer : outers) {
-      const geom::Box box = geom::bounds(*outer.contour);
-      std::vector<std::uint32_t> around;
-      const bool all = tree.visit_meeting_while(box, [&](std::uint32_t h) {
-        if (boxes[h].low.x <= box.low.x && boxes[h].low.y <= box.low.y && boxes[h].high.x >= box.high.x &&
-            boxes[h].high.y >= box.high.y)
-          around.push_back(h);
-        return ++looked < kMostLooked;
-      });
-      if (!all) break;  // what is told so far has to do
-      std::sort(around.begin(), around.end(),
-                [&](std::uint32_t a, std::uint32_t b) { return boxes[a].low.x > boxes[b].low.x; });
-      const auto hole = std::find_if(around.begin(), around.end(), [&](std::uint32_t h) {
-        return geom::RegionIndex({geom::Region{*holes[h].contour, {}}}).contains(outer.contour->front().from);
-      });
-      if (hole == around.end() || look(holes[*hole].curve) == look(outer.curve)) continue;
-      found.push_back(outer.curve);
-      looks.insert(look(holes[*hole].curve));
-    }
-    if (found.empty()) return;
-    std::string words;
-    for (const std::string& one : looks) words += (words.empty() ? "" : ", ") + excerpt(one);
-    result_.notices.push_back(fmt::format(
-        "{} drawn in {}, the first is {}; if that is only engraved, name the others as the layers to take",
-        counted(found.size(), "part lies in a hole", "parts lie in holes"), words, name(found.front())));
-  }
-
   void report() {
     std::sort(result_.duplicates.begin(), result_.duplicates.end());
     result_.duplicates.erase(std::unique(result_.duplicates.begin(), result_.duplicates.end()),
@@ -1252,7 +1192,6 @@ class Assembly {
     if (result_.doubtful.size() > kMostKinds)
       notices.push_back(counted(result_.doubtful.size() - kMostKinds, "contour more crosses a far larger one",
                                 "contours more cross far larger ones"));
-    tell_parts_in_holes();
     if (!drawing_.unread.empty()) notices.push_back(unread_sentence().substr(2));
   }
 

@@ -1,12 +1,18 @@
 #include "engraving.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
+#include "io/drawing/layers.hpp"
+#include "io/text/decimal.hpp"
+#include "lekalo/base/counted.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/box_tree.hpp"
 
@@ -41,7 +47,7 @@ struct Loop {
 
 class Rules {
  public:
-  Rules(const Drawing& drawing, const DrawnRegions& drawn) : drawn_(drawn) {
+  Rules(const Drawing& drawing, const DrawnRegions& drawn) : drawing_(drawing), drawn_(drawn) {
     std::size_t edge = 0;
     for (std::uint32_t r = 0; r < drawn.regions.size(); ++r) {
       const auto add = [&](const Contour& contour, bool is_hole) {
@@ -90,21 +96,21 @@ class Rules {
       if (!index[hole]) index[hole].emplace(std::vector<Region>{{geom::reversed(*loops_[hole].contour), {}}});
       return index[hole]->contains(p);
     };
+    std::vector<std::uint32_t> about;
     for (const std::size_t outer : outer_of_) {
       const Point p = loops_[outer].contour->front().from;
-      // The smallest hole whose box holds the point is nearly always the one; if not, the next are asked.
-      for (std::uint32_t from = 0; from < holes.size();) {
-        auto least = static_cast<std::uint32_t>(holes.size());
-        tree.visit_meeting({p, p}, [&](std::uint32_t k) {
-          if (k >= from && loops_[holes[k]].region != loops_[outer].region) least = std::min(least, k);
-        });
-        ask(1 + holes.size() / 16);
-        if (least < holes.size() && is_around(least, p)) {
-          loops_[outer].around = static_cast<std::ptrdiff_t>(holes[least]);
-          break;
-        }
-        from = std::min(least, static_cast<std::uint32_t>(holes.size() - 1)) + 1;
+      about.clear();
+      tree.visit_meeting({p, p}, [&](std::uint32_t k) {
+        if (loops_[holes[k]].region != loops_[outer].region) about.push_back(k);
+      });
+      ask(1 + about.size());
+      // Nearly always it is the smallest whose box holds the point, and the others need no order.
+      auto around = std::min_element(about.begin(), about.end());
+      if (around != about.end() && !is_around(*around, p)) {
+        std::sort(about.begin(), about.end());
+        around = std::find_if(about.begin(), about.end(), [&](std::uint32_t k) { return is_around(k, p); });
       }
+      if (around != about.end()) loops_[outer].around = static_cast<std::ptrdiff_t>(holes[*around]);
     }
     for (std::size_t i = 0; i < loops_.size(); ++i) from_outside_.push_back(i);
     std::stable_sort(from_outside_.begin(), from_outside_.end(),
@@ -166,8 +172,34 @@ class Rules {
     }
   }
 
+  /// The colour of a loop, or its layer where it has none.
+  [[nodiscard]] const std::string& look(const Loop& loop) const {
+    const Layer& layer = drawing_.layers[drawing_.curves[loop.curve].layer];
+    return layer.colour.empty() ? layer.name : layer.colour;
+  }
+
+  [[nodiscard]] std::string doubt() const {
+    std::vector<std::uint32_t> parts;  // their first curves
+    std::set<std::string> looks;       // of the holes around them
+    for (const std::size_t outer : outer_of_) {
+      const Loop& part = loops_[outer];
+      if (part.engraved || part.around < 0) continue;
+      const std::string& hole = look(loops_[static_cast<std::size_t>(part.around)]);
+      if (hole != look(part)) parts.push_back(part.curve), looks.insert(hole);
+    }
+    if (parts.empty()) return "";
+    std::string words;
+    for (const std::string& one : looks) words += (words.empty() ? "" : ", ") + excerpt(one);
+    return fmt::format(
+        "{}: {} drawn in {}, the first is {}; if that is only engraved, name the others as the layers to "
+        "take",
+        drawing_.name, counted(parts.size(), "part lies in a hole", "parts lie in holes"), words,
+        curve_name(drawing_, parts.front()));
+  }
+
   Engraved sorted_out() {
     Engraved out;
+    out.doubt = doubt();
     std::size_t edge = 0, loop = 0;
     for (const Region& region : drawn_.regions) {
       const bool stays = !loops_[loop].engraved;
@@ -189,6 +221,7 @@ class Rules {
     return out;
   }
 
+  const Drawing& drawing_;
   const DrawnRegions& drawn_;
   std::vector<Loop> loops_;
   std::vector<std::size_t> outer_of_, from_outside_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "lekalo/geom/polygon.hpp"
@@ -23,6 +24,9 @@ struct Engraved {
   std::vector<std::uint32_t> curve_of_edge;
   /// For every region of before: its number now, or kNoRegion.
   std::vector<std::uint32_t> new_number;
+  /// A sentence where parts lie in holes of another colour or layer, which may be engraving that no rule
+  /// sees; else empty.
+  std::string doubt;
 };
 inline constexpr std::uint32_t kNoRegion = 0xffffffff;
 

@@ -140,6 +140,7 @@ void take_parts(const Drawing& drawing, const DrawingFormat& format, DrawnRegion
   if (!engraved.lines.empty())
     made.notices.push_back(fmt::format("{}: {} closed lines are engraving, filled or in rows of letters",
                                        drawing.name, engraved.lines.size()));
+  if (!engraved.doubt.empty()) made.notices.push_back(engraved.doubt);
   if (on_parts > 0)
     made.notices.push_back(fmt::format("{}: {} lines that bound no area are kept as marks on their parts",
                                        drawing.name, on_parts));
