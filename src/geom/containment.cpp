@@ -1,4 +1,4 @@
-#include "containment.hpp"
+#include "lekalo/geom/containment.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -8,7 +8,8 @@
 #include "lekalo/geom/predicates.hpp"
 #include "monotone.hpp"
 
-namespace lekalo::geom::detail {
+namespace lekalo::geom {
+namespace detail {
 namespace {
 
 /// A monotone part of a contour, upright.
@@ -125,9 +126,10 @@ class Sweep {
 };
 
 }  // namespace
+}  // namespace detail
 
 std::vector<Enclosed> enclosed_contours(const std::vector<const Contour*>& contours) {
-  return Sweep(contours).run();
+  return detail::Sweep(contours).run();
 }
 
-}  // namespace lekalo::geom::detail
+}  // namespace lekalo::geom

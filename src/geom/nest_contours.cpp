@@ -3,8 +3,8 @@
 
 #include <fmt/core.h>
 
-#include "containment.hpp"
 #include "lekalo/geom/boolean.hpp"
+#include "lekalo/geom/containment.hpp"
 #include "lekalo/geom/region_check.hpp"
 
 namespace lekalo::geom {
@@ -21,7 +21,7 @@ Result<std::vector<Region>> nest_contours(std::vector<Contour> contours) {
   }
   std::vector<const Contour*> all;
   for (const Contour& contour : contours) all.push_back(&contour);
-  const std::vector<detail::Enclosed> enclosed = detail::enclosed_contours(all);
+  const std::vector<Enclosed> enclosed = enclosed_contours(all);
   std::vector<std::size_t> region_of(contours.size(), 0);
   std::vector<Region> regions;
   for (std::size_t i = 0; i < contours.size(); ++i) {

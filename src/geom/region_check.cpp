@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "containment.hpp"
 #include "lekalo/base/limits.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/box_tree.hpp"
+#include "lekalo/geom/containment.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "lekalo/geom/predicates.hpp"
 
@@ -218,27 +218,27 @@ class Checker {
       outer.push_back(piece_of.size());
       piece_of.insert(piece_of.end(), regions_[p].holes.size() + 1, p);
     }
-    const std::vector<detail::Enclosed> enclosed = detail::enclosed_contours(contours_);
+    const std::vector<Enclosed> enclosed = enclosed_contours(contours_);
     for (std::size_t c = 0; c < contours_.size(); ++c) {
       const std::size_t p = piece_of[c], by = enclosed[c].by;
       const Point at = contours_[c]->front().from;
       const std::string of = regions_.size() > 1 ? fmt::format(" of piece {}", p) : "";
       if (c == outer[p]) {
-        const bool in_material = by != detail::kNoContour && by == outer[piece_of[by]];
+        const bool in_material = by != kNoContour && by == outer[piece_of[by]];
         if (in_material)
           return fmt::format("piece {} lies in the material of piece {}, at ({}, {}) mm", p, piece_of[by],
                              at.x, at.y);
         continue;
       }
       if (by == outer[p]) continue;
-      std::size_t other_hole = detail::kNoContour;
+      std::size_t other_hole = kNoContour;
       std::size_t around = by;
-      for (; around != detail::kNoContour && around != outer[p]; around = enclosed[around].by)
+      for (; around != kNoContour && around != outer[p]; around = enclosed[around].by)
         if (piece_of[around] == p) other_hole = std::min(other_hole, around);
-      if (around == detail::kNoContour)
+      if (around == kNoContour)
         return fmt::format("hole {}{} lies outside the outer contour, at ({}, {}) mm", c - outer[p] - 1, of,
                            at.x, at.y);
-      if (other_hole != detail::kNoContour)
+      if (other_hole != kNoContour)
         return fmt::format("hole {}{} lies inside hole {}, at ({}, {}) mm", c - outer[p] - 1, of,
                            other_hole - outer[p] - 1, at.x, at.y);
     }

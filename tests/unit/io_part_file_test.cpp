@@ -112,10 +112,10 @@ TEST(PartFile, PartsInHolesOfAnotherColourAreTold) {
   };
   const PartsFile doubted = read(plate("lime"));
   EXPECT_EQ(told(doubted), "side_panel=1 \"cut\" 1 holes 0 marks, side_panel-2=1 \"cut\" 0 holes 0 marks, ");
-  EXPECT_EQ(
-      told_notices(doubted),
-      "side_panel.svg: 1 part lies in a hole drawn in '#00ff00', the first is the circle at line 1, layer "
-      "'cut'; if that is only engraved, name the others as the layers to take\n");
+  EXPECT_EQ(told_notices(doubted),
+            "folder/side_panel.svg: 1 part lies in a hole drawn in '#00ff00', the first is the circle at "
+            "line 1, layer "
+            "'cut'; if that is only engraved, name the others as the layers to take\n");
   PartOptions options;
   options.drawing.take = {"#ff0000"};
   EXPECT_EQ(told(read(plate("lime"), options)), "side_panel=1 \"cut\" 1 holes 0 marks, ");

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -14,7 +13,7 @@
 #include "io/text/decimal.hpp"
 #include "lekalo/base/counted.hpp"
 #include "lekalo/base/stop.hpp"
-#include "lekalo/geom/box_tree.hpp"
+#include "lekalo/geom/containment.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -74,44 +73,23 @@ class Rules {
   }
 
  private:
-  /// A hole lies in the outer contour of its region; an outer contour in the smallest hole that holds it.
+  /// A hole lies in the outer contour of its region; an outer contour in the innermost hole around it.
+  /// Contours that meet may seem to lie in each other, so other outer contours are passed on the way.
   void find_surroundings() {
-    std::vector<std::size_t> holes;
+    std::vector<const Contour*> contours;
+    for (const Loop& loop : loops_) contours.push_back(loop.contour);
+    const std::vector<geom::Enclosed> enclosed = geom::enclosed_contours(contours);
     for (std::size_t i = 0; i < loops_.size(); ++i) {
-      if (loops_[i].is_hole)
-        holes.push_back(i), loops_[i].around = static_cast<std::ptrdiff_t>(outer_of_[loops_[i].region]);
+      Loop& loop = loops_[i];
+      std::size_t around = loop.is_hole ? outer_of_[loop.region] : enclosed[i].by;
+      while (!loop.is_hole && around != geom::kNoContour && !loops_[around].is_hole)
+        around = enclosed[around].by;
+      if (around != geom::kNoContour) loop.around = static_cast<std::ptrdiff_t>(around);
     }
     const auto size = [&](std::size_t i) {
       const Point d = loops_[i].box.high - loops_[i].box.low;
       return d.x * d.y;
     };
-    std::stable_sort(holes.begin(), holes.end(),
-                     [&](std::size_t a, std::size_t b) { return size(a) < size(b); });
-    std::vector<Box> boxes;
-    for (const std::size_t hole : holes) boxes.push_back(loops_[hole].box);
-    const geom::BoxTree tree(std::move(boxes));
-    std::vector<std::optional<geom::RegionIndex>> index(loops_.size());
-    const auto is_around = [&](std::uint32_t k, Point p) {
-      const std::size_t hole = holes[k];
-      if (!index[hole]) index[hole].emplace(std::vector<Region>{{geom::reversed(*loops_[hole].contour), {}}});
-      return index[hole]->contains(p);
-    };
-    std::vector<std::uint32_t> about;
-    for (const std::size_t outer : outer_of_) {
-      const Point p = loops_[outer].contour->front().from;
-      about.clear();
-      tree.visit_meeting({p, p}, [&](std::uint32_t k) {
-        if (loops_[holes[k]].region != loops_[outer].region) about.push_back(k);
-      });
-      ask(1 + about.size());
-      // Nearly always it is the smallest whose box holds the point, and the others need no order.
-      auto around = std::min_element(about.begin(), about.end());
-      if (around != about.end() && !is_around(*around, p)) {
-        std::sort(about.begin(), about.end());
-        around = std::find_if(about.begin(), about.end(), [&](std::uint32_t k) { return is_around(k, p); });
-      }
-      if (around != about.end()) loops_[outer].around = static_cast<std::ptrdiff_t>(holes[*around]);
-    }
     for (std::size_t i = 0; i < loops_.size(); ++i) from_outside_.push_back(i);
     std::stable_sort(from_outside_.begin(), from_outside_.end(),
                      [&](std::size_t a, std::size_t b) { return size(a) > size(b); });

@@ -30,8 +30,8 @@ struct Engraved {
 };
 inline constexpr std::uint32_t kNoRegion = 0xffffffff;
 
-/// Takes the engraving out of the regions of a drawing. Cost: O(n log n), and regions times holes around
-/// them.
+/// Takes the engraving out of the regions of a drawing. Cost: O(n log n), and the cut-outs of a
+/// plate that may be letters times those that are.
 [[nodiscard]] Engraved without_engraving(const Drawing& drawing, const DrawnRegions& drawn);
 
 /// Numbers the innermost region within whose outer contour a point lies, kNoRegion where there is none.

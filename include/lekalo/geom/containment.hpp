@@ -6,7 +6,7 @@
 
 #include "lekalo/geom/region.hpp"
 
-namespace lekalo::geom::detail {
+namespace lekalo::geom {
 
 inline constexpr std::size_t kNoContour = std::numeric_limits<std::size_t>::max();
 
@@ -20,4 +20,4 @@ struct Enclosed {
 /// seem to lie in each other in any way, though never in a circle. O(n log n) for n edges.
 [[nodiscard]] std::vector<Enclosed> enclosed_contours(const std::vector<const Contour*>& contours);
 
-}  // namespace lekalo::geom::detail
+}  // namespace lekalo::geom
