@@ -13,6 +13,7 @@
 #include "io/text/decimal.hpp"
 #include "lekalo/base/counted.hpp"
 #include "lekalo/base/stop.hpp"
+#include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/containment.hpp"
 
 namespace lekalo::io {
@@ -73,12 +74,27 @@ class Rules {
   }
 
  private:
+  /// Says if an outer contour begins in the box of another, as most do not.
+  [[nodiscard]] bool may_lie_in_others() const {
+    std::vector<Box> boxes;
+    for (const std::size_t outer : outer_of_) boxes.push_back(loops_[outer].box);
+    const geom::BoxTree tree(std::move(boxes));
+    for (std::uint32_t r = 0; r < outer_of_.size(); ++r) {
+      const Point p = loops_[outer_of_[r]].contour->front().from;
+      if (!tree.visit_meeting_while({p, p}, [&](std::uint32_t other) { return other == r; })) return true;
+    }
+    return false;
+  }
+
   /// A hole lies in the outer contour of its region; an outer contour in the innermost hole around it.
   /// Contours that meet may seem to lie in each other, so other outer contours are passed on the way.
   void find_surroundings() {
-    std::vector<const Contour*> contours;
-    for (const Loop& loop : loops_) contours.push_back(loop.contour);
-    const std::vector<geom::Enclosed> enclosed = geom::enclosed_contours(contours);
+    std::vector<geom::Enclosed> enclosed(loops_.size());
+    if (may_lie_in_others()) {
+      std::vector<const Contour*> contours;
+      for (const Loop& loop : loops_) contours.push_back(loop.contour);
+      enclosed = geom::enclosed_contours(contours);
+    }
     for (std::size_t i = 0; i < loops_.size(); ++i) {
       Loop& loop = loops_[i];
       std::size_t around = loop.is_hole ? outer_of_[loop.region] : enclosed[i].by;
