@@ -26,8 +26,9 @@ if [ -n "${LEKALO_SHARED_DATA:-}" ]; then
   echo
   build/bench/bench/bench_scene
   build/bench/bench/bench_scene --scale
-  build/bench/bench/bench_clearance
 fi
+echo
+build/bench/bench/bench_clearance
 if [ "${targets[-1]}" = bench_boolean ]; then
   echo
   build/bench/bench/bench_boolean
