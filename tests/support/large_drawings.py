@@ -20,7 +20,7 @@ def dxf(plates):
             entities.append(f'0\nLINE\n8\nCUT\n10\n{a[0]}\n20\n{a[1]}\n11\n{b[0]}\n21\n{b[1]}\n')
         for k in range(20):
             entities.append(f'0\nCIRCLE\n8\nCUT\n10\n{x + 10 + (k % 5) * 22.5}\n20\n{y + 12 + (k // 5) * 25}\n'
-                            f'40\n{3 + i * 0.001:.4f}\n')
+                            f'40\n{3 + i % 5000 * 0.001:.4f}\n')
     random.Random(1).shuffle(entities)
     return HEAD + ''.join(entities) + '0\nENDSEC\n0\nEOF\n'
 

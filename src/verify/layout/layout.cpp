@@ -117,8 +117,8 @@ class SheetChecker {
     std::ranges::sort(pieces, {}, [](const Placed& p) {
       return std::pair{p.outline.box.low_x, p.piece->id};
     });
-    const std::int64_t largest =
-        std::ranges::max(pieces | std::views::transform([](const Placed& piece) { return piece.part->gap; }));
+    const auto gap = [](const Placed& piece) { return piece.part->gap; };
+    const std::int64_t largest = gap(*std::ranges::max_element(pieces, {}, gap));
     std::vector<const Placed*> active;
     for (const Placed& piece : pieces) {
       ask(1 + active.size());
