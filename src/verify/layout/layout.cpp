@@ -131,7 +131,8 @@ class SheetChecker {
   }
 
   void check_pair(const Placed& p, const Placed& q) {
-    const auto [a, b] = std::ranges::minmax({&p, &q}, {}, [](const Placed* one) { return one->piece->id; });
+    const auto [a, b] = std::minmax(
+        {&p, &q}, [](const Placed* one, const Placed* other) { return one->piece->id < other->piece->id; });
     if (have_common_disc({&a->outline, &b->outline}, {}))
       add(*a, LayoutRule::overlap, b->piece->id);
     else if (edges_nearer_than(a->outline, b->outline, std::max(a->part->gap, b->part->gap)))
