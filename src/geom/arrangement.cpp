@@ -51,7 +51,7 @@ class Arranger {
 
     std::vector<Box> boxes;
     for (const Piece& piece : made_.pieces) boxes.push_back(grown(box_of(piece), made_.snap));
-    const BoxTree tree(std::move(boxes));
+    const BoxTree tree(boxes);
     const std::size_t most = limits::most_meeting_pieces(made_.pieces.size());
     std::size_t seen = 0, met = 0;
     const bool all = tree.visit_pairs_while([&](std::uint32_t i, std::uint32_t j) {

@@ -91,7 +91,7 @@ Result<void> check_meetings(const GridRegion& region) {
     }
   }
   std::optional<std::pair<std::uint32_t, std::uint32_t>> first;
-  BoxTree(std::move(boxes)).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
+  BoxTree(boxes).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
     if (first && *first <= std::pair{i, j}) return;
     const Segment &a = edges[i], &b = edges[j];
     const bool a_then_b = a.to == b.from, b_then_a = b.to == a.from;
@@ -165,7 +165,7 @@ Result<void> check_nesting(const GridRegion& region) {
       return failure(ErrorCode::bad_input, fmt::format("{}: it lies outside the outline, at {} mm",
                                                        loop_name(h), place(*loop_begin(region, h))));
   std::optional<std::pair<std::size_t, std::size_t>> nested;
-  BoxTree(std::move(boxes)).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
+  BoxTree(boxes).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
     if (i == 0 || (nested && std::pair<std::size_t, std::size_t>{i, j} > *nested)) return;
     if (inside(i, j)) nested = {i, j};
     if (inside(j, i)) nested = {j, i};

@@ -183,7 +183,7 @@ void PlanarMap::find_components() {
       boxes.push_back(box_of(a_.vertices[start_of(a_, 2 * e)], a_.vertices[end_of(a_, 2 * e)]));
     Box& whole = wholes.emplace_back(boxes.front());
     for (const Box& box : boxes) whole = joined(whole, box);
-    edges_of_.push_back({std::move(of_one), BoxTree(std::move(boxes))});
+    edges_of_.push_back({std::move(of_one), BoxTree(boxes)});
   }
   wholes_.emplace(std::move(wholes));
 }

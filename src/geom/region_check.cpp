@@ -174,7 +174,7 @@ class Checker {
     const double limit = kEdgeDistanceError * largest;
     const Point margin{std::max(limit, apart), std::max(limit, apart)};
     for (Box& box : boxes) box = {box.low - margin, box.high + margin};
-    BoxTree(std::move(boxes)).visit_pairs_while([&](std::uint32_t i, std::uint32_t j) {
+    BoxTree(boxes).visit_pairs_while([&](std::uint32_t i, std::uint32_t j) {
       ask();
       return visit(i, j, limit);
     });

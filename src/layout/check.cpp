@@ -78,7 +78,7 @@ struct Features {
   static geom::BoxTree boxes(const std::vector<Feature>& features) {
     std::vector<geom::Box> result;
     for (const Feature& feature : features) result.push_back(grown_box(feature.outline.polygon, 0));
-    return geom::BoxTree(std::move(result));
+    return geom::BoxTree(result);
   }
 };
 
@@ -111,7 +111,7 @@ void add_pair_violations(const Document& document, const std::vector<Placed>& pl
   // Each box grows by its own gap, because the larger of two gaps, which counts, is no more than their sum.
   for (const Placed& one : placed)
     boxes.push_back(grown_box(one.outline, own_gap(document, part_of(document, *one.placement))));
-  geom::BoxTree(std::move(boxes)).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
+  geom::BoxTree(boxes).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
     const bool in_order = placed[i].placement->id < placed[j].placement->id;
     const Placed &a = placed[in_order ? i : j], &b = placed[in_order ? j : i];
     if (const auto violation = pair_violation(document, *a.placement, a.outline, *b.placement, b.outline))
@@ -297,7 +297,7 @@ std::vector<Violation> check_some(const Document& document, std::span<const Plac
   };
   std::vector<geom::Box> boxes;
   for (const Placed& one : placed) boxes.push_back(reach(one));
-  const geom::BoxTree all(std::move(boxes));
+  const geom::BoxTree all(boxes);
   std::map<std::uint32_t, Features> features;  // by stock
   for (std::size_t i = 0; i < of.size(); ++i) {
     const std::uint32_t stock = of[i].stock;

@@ -17,7 +17,7 @@ namespace lekalo::geom {
 /// Building: O(n log n).
 class BoxTree {
  public:
-  explicit BoxTree(std::vector<Box> boxes);
+  explicit BoxTree(const std::vector<Box>& boxes);
 
   /// Calls visit(i) for every box i that meets `box`, touching included.
   template <class Visit>
@@ -50,7 +50,7 @@ class BoxTree {
   };
   static constexpr std::uint32_t kLeaf = 4;
 
-  std::uint32_t build(std::uint32_t begin, std::uint32_t end);
+  void build(const std::vector<Box>& boxes, std::uint32_t begin, std::uint32_t end, const Box& box);
 
   template <class Visit>
   bool descend(std::uint32_t at, const Box& box, Visit& visit) const {
@@ -59,14 +59,14 @@ class BoxTree {
     if (node.right != 0) return descend(at + 1, box, visit) && descend(node.right, box, visit);
     ask();
     for (std::uint32_t i = node.begin; i < node.end; ++i)
-      if (boxes_meet(boxes_[order_[i]], box) && !visit(order_[i])) return false;
+      if (boxes_meet(boxes_[i], box) && !visit(order_[i])) return false;
     return true;
   }
 
   template <class Visit>
   bool pair(std::uint32_t i, std::uint32_t j, Visit& visit) const {
-    const std::uint32_t a = std::min(order_[i], order_[j]), b = std::max(order_[i], order_[j]);
-    return !boxes_meet(boxes_[a], boxes_[b]) || visit(a, b);
+    if (!boxes_meet(boxes_[i], boxes_[j])) return true;
+    return visit(std::min(order_[i], order_[j]), std::max(order_[i], order_[j]));
   }
 
   template <class Visit>
@@ -90,14 +90,16 @@ class BoxTree {
       return between(a + 1, b, visit) && between(left.right, b, visit);
     if (right.right != 0) return between(a, b + 1, visit) && between(a, right.right, visit);
     ask();
-    for (std::uint32_t i = left.begin; i < left.end; ++i)
+    for (std::uint32_t i = left.begin; i < left.end; ++i) {
+      if (!boxes_meet(boxes_[i], right.box)) continue;
       for (std::uint32_t j = right.begin; j < right.end; ++j)
         if (!pair(i, j, visit)) return false;
+    }
     return true;
   }
 
-  std::vector<Box> boxes_;
   std::vector<std::uint32_t> order_;
+  std::vector<Box> boxes_;   ///< in this order
   std::vector<Node> nodes_;  ///< in preorder
 };
 

@@ -55,7 +55,7 @@ std::vector<std::pair<BranchEnd, BranchEnd>> gaps_of(const std::vector<BranchCha
   }
   for (const BranchEnd& end : ends) boxes.push_back(geom::grown({end.at, end.at}, gap / 2));
   std::vector<std::pair<BranchEnd, BranchEnd>> gaps;
-  geom::BoxTree(std::move(boxes)).visit_pairs_while([&](std::uint32_t i, std::uint32_t j) {
+  geom::BoxTree(boxes).visit_pairs_while([&](std::uint32_t i, std::uint32_t j) {
     if (norm(ends[i].at - ends[j].at) <= gap) gaps.emplace_back(ends[i], ends[j]);
     // Many are a fan, and no gaps.
     return gaps.size() <= 2 * ends.size();

@@ -142,7 +142,7 @@ class Copies {
     }
     std::vector<Box> boxes;
     for (const Candidate& one : candidates) boxes.push_back(one.box);
-    const geom::BoxTree tree(std::move(boxes));
+    const geom::BoxTree tree(boxes);
     std::size_t left = limits::most_meeting_boxes(order_.size());
     for (std::uint32_t p = 0; p < order_.size(); ++p) {
       const std::uint32_t a = order_[p];

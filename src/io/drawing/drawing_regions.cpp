@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -23,6 +24,7 @@
 #include "lekalo/base/counted.hpp"
 #include "lekalo/base/disjoint_sets.hpp"
 #include "lekalo/base/limits.hpp"
+#include "lekalo/base/parallel.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/geom/box_tree.hpp"
@@ -129,11 +131,27 @@ class Assembly {
 
   [[nodiscard]] Result<void> work_curves(const std::vector<bool>& taken) {
     worked_.resize(drawing_.curves.size());
-    std::size_t edges = 0;
+    // Some curves are worked side by side, and looked at in order before the next are.
+    constexpr std::size_t kAtATime = 4096;
+    std::vector<std::optional<Result<CurveEdges>>> made_of(std::min(kAtATime, worked_.size()));
+    std::atomic<std::size_t> edges = 0;
+    const auto too_many = [&] { return edges > 2 * kMostCurves; };
+    const auto work_from = [&](std::size_t first) {
+      share_out(std::min(kAtATime, worked_.size() - first), kUsualThreads, [&](std::size_t k) {
+        const DrawnCurve& drawn = drawing_.curves[first + k];
+        if (!taken[drawn.layer] || too_many()) return;
+        made_of[k] = edges_of(drawn.shape, options_.curve_tolerance);
+        if (*made_of[k]) edges += (*made_of[k])->edges.size();
+      });
+    };
     for (std::uint32_t i = 0; i < worked_.size(); ++i) {
       const DrawnCurve& drawn = drawing_.curves[i];
+      if (i % kAtATime == 0) work_from(i);
+      if (too_many())
+        return refuse(
+            fmt::format("more than {} lines and arcs; use a larger curve tolerance", 2 * kMostCurves));
       if (!taken[drawn.layer]) continue;
-      auto made = edges_of(drawn.shape, options_.curve_tolerance);
+      Result<CurveEdges> made = *std::move(made_of[i % kAtATime]);
       if (made && (!(drawn.error >= 0) || !std::isfinite(drawn.error)))
         made = failure(ErrorCode::bad_input, "has no known error");
       if (!made && options_.strict) return refuse(fmt::format("{} {}", name(i), made.error().message));
@@ -142,10 +160,6 @@ class Assembly {
             {AsideReason::no_curve, {i}, {}, 0, {}, fmt::format("{} {}", name(i), made.error().message)});
         continue;
       }
-      edges += made->edges.size();
-      if (edges > 2 * kMostCurves)
-        return refuse(
-            fmt::format("more than {} lines and arcs; use a larger curve tolerance", 2 * kMostCurves));
       Worked& curve = worked_[i];
       curve.edges = std::move(made->edges);
       curve.curve_error = made->curve_error;
@@ -763,7 +777,7 @@ class Assembly {
       around.emplace_back(contour.edges);
       boxes.push_back(around.back().box());
     }
-    const geom::BoxTree tree(std::move(boxes));
+    const geom::BoxTree tree(boxes);
     std::vector<OpenLine> lines;
     std::vector<std::size_t> mark_of_line;
     for (std::size_t i = 0; i < result_.marks.size(); ++i) {

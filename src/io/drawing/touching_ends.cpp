@@ -54,7 +54,7 @@ std::vector<Touch> touches_of(const std::vector<OpenLine>& lines, double reach) 
       owner.emplace_back(i, k);
     }
   std::size_t left = limits::most_meeting_boxes(boxes.size());
-  const geom::BoxTree tree(std::move(boxes));
+  const geom::BoxTree tree(boxes);
   std::vector<Touch> touches;
   for (std::uint32_t i = 0; i < lines.size(); ++i)
     for (const bool last : {false, true}) {

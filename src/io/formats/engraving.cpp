@@ -78,7 +78,7 @@ class Rules {
   [[nodiscard]] bool may_lie_in_others() const {
     std::vector<Box> boxes;
     for (const std::size_t outer : outer_of_) boxes.push_back(loops_[outer].box);
-    const geom::BoxTree tree(std::move(boxes));
+    const geom::BoxTree tree(boxes);
     for (std::uint32_t r = 0; r < outer_of_.size(); ++r) {
       const Point p = loops_[outer_of_[r]].contour->front().from;
       if (!tree.visit_meeting_while({p, p}, [&](std::uint32_t other) { return other == r; })) return true;

@@ -242,7 +242,7 @@ std::vector<std::uint32_t> names_of_edges(const Evaluated& shape) {
     sources.push_back(geom::make_curve(source.edge));
     boxes.push_back(grown(geom::curve_box(sources.back()), reach));
   }
-  const geom::BoxTree tree(std::move(boxes));
+  const geom::BoxTree tree(boxes);
   std::vector<std::uint32_t> names;
   const auto look = [&](const Contour& contour) {
     for (const Edge& edge : contour) {

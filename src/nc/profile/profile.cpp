@@ -112,7 +112,7 @@ double left_over(const geom::Contour& contour, const std::vector<WrittenEdge>& p
   for (const WrittenEdge& edge : path) curves.push_back(geom::make_curve(edge_mm(edge, resolution)));
   std::vector<geom::Box> boxes;
   for (const geom::Curve& curve : curves) boxes.push_back(geom::curve_box(curve));
-  const geom::BoxTree tree(std::move(boxes));
+  const geom::BoxTree tree(boxes);
   double most = 0;
   for (const geom::Edge& edge : contour) {
     double least = std::numeric_limits<double>::infinity();

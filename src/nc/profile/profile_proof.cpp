@@ -68,7 +68,7 @@ KerfProof::KerfProof(const std::vector<ProfilePart>& parts, const ProfileOptions
     }
     part_boxes_.push_back(all);
   }
-  edge_tree_ = std::make_unique<geom::BoxTree>(std::move(boxes));
+  edge_tree_ = std::make_unique<geom::BoxTree>(boxes);
   part_tree_ = std::make_unique<geom::BoxTree>(part_boxes_);
 }
 
