@@ -28,7 +28,7 @@ def dxf(plates):
 def svg(plates):
     shapes, n = [], 60
     for i in range(plates):
-        x, y, radius = 60 + (i % 40) * 130.0, 60 + (i // 40) * 130.0, 50 + i * 0.01
+        x, y, radius = 60 + (i % 40) * 130.0, 60 + (i // 40) * 130.0, 50 + i % 800 * 0.01
         waves = [(2 * math.pi * k / n, radius * (1 + 0.08 * math.sin(10 * math.pi * k / n))) for k in range(n)]
         points = [(x + r * math.cos(a), y + r * math.sin(a)) for a, r in waves]
         path = f'M{points[0][0]:.4f},{points[0][1]:.4f}'

@@ -48,7 +48,7 @@ class BoxTree {
     /// The node of the right child, or 0 in a leaf; the left child is the next node.
     std::uint32_t right = 0;
   };
-  static constexpr std::uint32_t kLeaf = 4;
+  static constexpr std::uint32_t kLeaf = 8;
 
   void build(const std::vector<Box>& boxes, std::uint32_t begin, std::uint32_t end, const Box& box);
 
