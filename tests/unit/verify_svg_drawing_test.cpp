@@ -475,17 +475,29 @@ TEST(VerifySvgDrawing, StylesThatMoveOrShapeAreNotRead) {
   EXPECT_EQ(root("visibility='hidden'"), "!" + drawn);
 }
 
+TEST(VerifySvgDrawing, ElementsBehindAPrefixAreNotRead) {
+  for (const char* name : {"x:path", "x:g", "y:style", "x:svg", "x:use"})
+    EXPECT_EQ(on_page("<" + std::string(name) + "/>"), "not read: elements of SVG behind a prefix\n") << name;
+  for (const char* name : {"x:other", "inkscape:path-effect", "sodipodi:namedview"})
+    EXPECT_EQ(on_page("<" + std::string(name) + "/>"), "") << name;
+}
+
 TEST(VerifySvgDrawing, StyleSheetsThatHideOrMoveAreNotRead) {
   for (const char* word : {"display", "visibility", "transform"})
     EXPECT_EQ(on_page("<style>.a{" + std::string(word) + ":none}</style>"),
               "not read: style sheets that hide or move\n");
-  for (const char* rule : {"a{DISPLAY:none}", "a{ x : 5px}", "a{fill:none;r:5px}",
-                           "@media print{a{rotate:9deg}}", "a{fill:none}b{scale:2}", "a{b{fill:none}x:5px}",
-                           "a{/* b */transform:scale(2)}", "/* a */a{visibility:hidden}", "a{\\78:5px}"})
+  for (const char* rule :
+       {"a{DISPLAY:none}", "a{ x : 5px}", "a{fill:none;r:5px}", "@media print{a{rotate:9deg}}",
+        "a{fill:none}b{scale:2}", "a{b{fill:none}x:5px}", "a{/* b */transform:scale(2)}",
+        "/* a */a{visibility:hidden}", "a{\\78:5px}", "a{/* b */r:5px}", "a{fill:none;/**/x/* c */:5px}",
+        "/**/r:5px", "a{&#114;:5px}", "@import url(other.css);"})
     EXPECT_EQ(on_page("<style>" + std::string(rule) + "</style>"),
               "not read: style sheets that hide or move\n")
         << rule;
   EXPECT_EQ(on_page("<style>/* a */ .a{fill:none;stroke:red}</style>"), "");
+  EXPECT_EQ(on_page("<style>.a{fill:none;/* r:5px; */}/* x:1px</style>"), "");
+  EXPECT_EQ(on_page("<?xml-stylesheet href='other.css'?>"), "not read: style sheets of other files\n");
+  EXPECT_EQ(on_page("<?xml-model href='other.rng'?>"), "");
   EXPECT_EQ(on_page("<style>.a{fill:none}</style>"), "");
   EXPECT_EQ(on_page("<text>display</text>"), "");
 }
@@ -564,7 +576,8 @@ TEST(VerifyXml, ElementsHaveNamesAttributesTextAndChildren) {
             "x:a b=1 c=2' 'text'(b)(c d= 'more')");
   EXPECT_EQ(parsed("<?xml version='1.0'?><!-- <x> --><!DOCTYPE svg><a>1<!-- 2 -->3<![CDATA[<4>]]></a>"),
             "a '13<4>'");
-  EXPECT_EQ(parsed("<a b='&lt;&gt;&amp;&quot;&apos;&#65;x'/>"), "a b=<>&\"'?x");
+  EXPECT_EQ(parsed("<a b='&lt;&gt;&amp;&quot;&apos;&#65;&#x7a;&#8364;x'/>"), "a b=<>&\"'Az?x");
+  EXPECT_EQ(parsed("<a>&#65;<![CDATA[&#65;]]></a>"), parsed("<a>A<![CDATA[&#65;]]></a>"));
   EXPECT_EQ(parsed("text <a/> and what follows </b>"), "a");
 }
 

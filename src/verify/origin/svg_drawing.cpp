@@ -99,6 +99,8 @@ class SvgReader {
     Around around;
     if (complaint_.empty()) read_page(root, around);
     if (!root.get("transform").empty() || shapes(root.get("style"))) not_read("pages that are moved");
+    if (document_.bytes.find("<?xml-stylesheet") != std::string_view::npos)
+      not_read("style sheets of other files");
     hide(root, around);
     for (const XmlElement& child : root.children) draw(child, around, 0);
     if (!complaint_.empty())
@@ -115,6 +117,10 @@ class SvgReader {
   void index(const XmlElement& element) {
     layers_are_marked_ = layers_are_marked_ || element.get("inkscape:groupmode") == "layer";
     if (element.name == "style" && hides_or_shapes(element.text)) not_read("style sheets that hide or move");
+    if (const std::size_t colon = element.name.find(':'); colon != std::string::npos)
+      if (const auto local = element.name.substr(colon + 1);
+          draws(local) || local == "style" || local == "svg")
+        not_read("elements of SVG behind a prefix");
     if (const std::string_view id = element.get("id"); !id.empty()) by_id_.emplace(std::string(id), &element);
     for (const XmlElement& child : element.children) index(child);
   }
@@ -210,12 +216,24 @@ class SvgReader {
     return style.find("\\") != std::string_view::npos || style.find("/*") != std::string_view::npos ||
            says_shape(style);
   }
+  static std::string without_comments(std::string_view sheet) {
+    std::string rules;
+    for (std::size_t at = 0; at < sheet.size();) {
+      const std::size_t comment = std::min(sheet.find("/*", at), sheet.size());
+      rules += sheet.substr(at, comment - at);
+      at = comment < sheet.size() ? sheet.find("*/", comment + 2) : std::string_view::npos;
+      if (at == std::string_view::npos) break;
+      at += 2;
+    }
+    return rules;
+  }
   static bool hides_or_shapes(std::string_view sheet) {
-    std::string rules = key_of(sheet);
+    std::string rules = key_of(without_comments(sheet));
     for (char& c : rules)
       if (c == '{' || c == '}') c = ';';
     const auto names = [&](std::string_view word) { return rules.find(word) != std::string::npos; };
-    return names("DISPLAY") || names("VISIBILITY") || names("TRANSFORM") || names("\\") || says_shape(rules);
+    return names("DISPLAY") || names("VISIBILITY") || names("TRANSFORM") || names("\\") || names("@IMPORT") ||
+           says_shape(rules);
   }
   /// Returns the value of a property, in capitals: the last of its style, else the attribute.
   static std::string property(const XmlElement& element, std::string_view name) {
@@ -238,20 +256,23 @@ class SvgReader {
     return text;
   }
 
+  static bool is_group(std::string_view name) { return name == "g" || name == "a"; }
+  static bool draws(std::string_view name) {
+    return is_group(name) || name == "path" || name == "line" || name == "polyline" || name == "polygon" ||
+           name == "rect" || name == "circle" || name == "ellipse" || name == "use";
+  }
+
   void draw(const XmlElement& element, Around around, int depth) {
     if (!complaint_.empty()) return;
     if (depth > kDeepestGroup) return not_read("groups nested too deep");
     if (drawing_.too_large()) return complain("it has too many curves");
     const std::string& name = element.name;
-    const bool group = name == "g" || name == "a";
     if (name == "svg" || name == "switch") return not_read(name + " within the page");
-    if (!group && name != "path" && name != "line" && name != "polyline" && name != "polygon" &&
-        name != "rect" && name != "circle" && name != "ellipse" && name != "use")
-      return;
+    if (!draws(name)) return;
     if (shapes(element.get("style"))) return not_read("styles that move or shape");
     around.map = around.map * read_transform(element.get("transform"));
     hide(element, around);
-    if (group) {
+    if (is_group(name)) {
       const std::string label(element.get("inkscape:label").empty() ? element.get("id")
                                                                     : element.get("inkscape:label"));
       const bool marked = element.get("inkscape:groupmode") == "layer";

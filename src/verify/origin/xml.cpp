@@ -3,7 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <optional>
+#include <system_error>
 
 namespace lekalo::verify {
 namespace {
@@ -23,7 +26,8 @@ class XmlReader {
     while (at_ < text_.size()) {
       if (text_[at_] != '<') {
         const std::size_t end = std::min(text_.find('<', at_), text_.size());
-        if (!open.empty()) open.back().text += text_.substr(at_, end - at_);
+        if (!open.empty()) open.back().text += resolved(text_.substr(at_, end - at_));
+        if (!good_) return std::nullopt;
         at_ = end;
       } else if (begins("<!--")) {
         skip_to("-->");
@@ -116,6 +120,18 @@ class XmlReader {
     return false;
   }
 
+  /// Returns the character that a number names, or ? for one beyond ASCII: those neither draw nor name
+  /// anything.
+  char character(std::string_view number) {
+    const bool hexadecimal = !number.empty() && number.front() == 'x';
+    if (hexadecimal) number.remove_prefix(1);
+    std::uint32_t code = 0;
+    const auto [end, error] =
+        std::from_chars(number.data(), number.data() + number.size(), code, hexadecimal ? 16 : 10);
+    good_ = good_ && !number.empty() && end == number.data() + number.size();
+    return error == std::errc() && code < 128 ? static_cast<char>(code) : '?';
+  }
+
   std::string resolved(std::string_view text) {
     std::string out;
     for (std::size_t at = 0; at < text.size();) {
@@ -132,8 +148,7 @@ class XmlReader {
       if (named != std::end(kNamed)) {
         out += named->second;
       } else if (word.substr(0, 1) == "#") {
-        // A character by its number draws nothing; only its being there counts.
-        out += '?';
+        out += character(word.substr(1));
       } else {
         good_ = false;
         return out;
