@@ -11,17 +11,14 @@
 #include "lekalo/base/counted.hpp"
 #include "lekalo/base/limits.hpp"
 #include "lekalo/base/stop.hpp"
+#include "lekalo/geom/predicates.hpp"
+#include "shells.hpp"
 
 namespace lekalo::solid {
 namespace {
 
-/// An edge of a triangle, from its lesser vertex to its greater one.
-struct Edge {
-  std::uint32_t low, high;
-  std::uint32_t triangle;
-  bool forward;  ///< the triangle passes it from low to high
-  [[nodiscard]] auto ends() const noexcept { return std::pair(low, high); }
-};
+/// Predicates are exact from here on (side_of_plane).
+constexpr double kSmallestCoordinate = 0x1p-320;
 
 std::vector<Edge> sorted_edges(const std::vector<Triangle>& triangles) {
   std::vector<Edge> edges;
@@ -75,22 +72,39 @@ std::string place(Vector p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x
 /// The edges in sum: how many have an odd number of triangles, and the first of these in the order of
 /// triangles.
 struct Rim {
-  std::size_t open = 0, against = 0;
+  std::size_t open = 0;
   Edge first{};
 };
 Rim rim_of(const std::vector<Edge>& edges) {
   Rim rim;
-  for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
-    std::size_t forward = 0;
-    for (end = begin; end < edges.size() && edges[end].ends() == edges[begin].ends(); ++end)
-      forward += edges[end].forward ? 1 : 0;
-    if ((end - begin) % 2 != 0) {
-      if (rim.open++ == 0 || edges[begin].triangle < rim.first.triangle) rim.first = edges[begin];
-    } else if (2 * forward != end - begin) {
-      ++rim.against;
-    }
-  }
+  for_each_edge(edges, [&](std::size_t begin, std::size_t end) {
+    if ((end - begin) % 2 != 0 && (rim.open++ == 0 || edges[begin].triangle < rim.first.triangle))
+      rim.first = edges[begin];
+  });
   return rim;
+}
+
+/// How many edges have triangles that are turned against each other.
+std::size_t edges_against(const std::vector<Edge>& edges, const std::vector<Triangle>& triangles) {
+  std::size_t against = 0;
+  for_each_edge(edges, [&](std::size_t begin, std::size_t end) {
+    std::size_t forward = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto& [a, b, c] = triangles[edges[k].triangle];
+      const auto& [low, high] = edges[k].ends();
+      forward += (a == low && b == high) || (b == low && c == high) || (c == low && a == high) ? 1 : 0;
+    }
+    against += 2 * forward != end - begin ? 1 : 0;
+  });
+  return against;
+}
+
+/// Says whether the corners lie on one straight line, exactly.
+bool is_flat(const Mesh& mesh, const Triangle& t) {
+  const auto &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+  return geom::orientation({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) == 0 &&
+         geom::orientation({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) == 0 &&
+         geom::orientation({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) == 0;
 }
 
 }  // namespace
@@ -109,30 +123,52 @@ Box box_of(const std::vector<Vector>& points) noexcept {
 Result<ClosedMesh> closed_mesh(Mesh mesh) {
   const auto refuse = [](std::string sentence) { return failure(ErrorCode::bad_input, std::move(sentence)); };
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const Vector p = mesh.vertices[v];
-    for (const double c : {p.x, p.y, p.z})
-      if (!(std::abs(c) <= limits::kLargestCoordinate))
+    Vector& p = mesh.vertices[v];
+    for (double* const c : {&p.x, &p.y, &p.z}) {
+      if (!(std::abs(*c) <= limits::kLargestCoordinate))
         return refuse(fmt::format("vertex {} at {} lies beyond {:g} mm; look at its units", v + 1, place(p),
                                   limits::kLargestCoordinate));
+      if (std::abs(*c) < kSmallestCoordinate) *c = 0;
+    }
   }
   ClosedMesh closed;
   const std::vector<std::uint32_t> becomes = weld(mesh.vertices);
-  std::vector<std::uint32_t> number;  // of the triangles that are kept, in the mesh that was given
   std::vector<Triangle> kept;
+  std::vector<char> flat;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     const Triangle welded{becomes[a], becomes[b], becomes[c]};
     if (welded[0] == welded[1] || welded[1] == welded[2] || welded[2] == welded[0]) continue;
     kept.push_back(welded);
-    number.push_back(t);
+    flat.push_back(is_flat(mesh, welded) ? 1 : 0);
+    closed.numbers.push_back(t);
   }
-  if (kept.empty()) return refuse("there are no triangles in it, or none with three corners");
-  if (kept.size() < mesh.triangles.size())
-    closed.notices.push_back(fmt::format("{} had two corners at one place and left out",
-                                         counted(mesh.triangles.size() - kept.size(), "triangle")));
-  mesh.triangles = std::move(kept);
+  const std::size_t given = mesh.triangles.size();
+  const auto seams = static_cast<std::size_t>(std::count(flat.begin(), flat.end(), 1));
+  if (seams == kept.size()) return refuse("there are no triangles in it, or none with an area");
 
-  const Rim rim = rim_of(sorted_edges(mesh.triangles));
+  std::vector<Edge> edges = sorted_edges(kept);
+  Rim rim = rim_of(edges);
+  if (seams > 0) {
+    std::vector<Triangle> others;
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      if (flat[k] != 0) continue;
+      others.push_back(kept[k]);
+      numbers.push_back(closed.numbers[k]);
+    }
+    std::vector<Edge> edges_of_others = sorted_edges(others);
+    if (const Rim without = rim_of(edges_of_others); without.open == 0) {
+      kept = std::move(others);
+      closed.numbers = std::move(numbers);
+      edges = std::move(edges_of_others);
+      rim = without;
+    } else if (rim.open == 0) {
+      closed.notices.push_back(fmt::format("{} no area and {}, because the surface closes along {}",
+                                           counted(seams, "triangle has", "triangles have"),
+                                           seams == 1 ? "stays" : "stay", seams == 1 ? "it" : "them"));
+    }
+  }
   if (rim.open > 0) {
     return refuse(
         fmt::format("the surface is open: {} to one triangle or an odd number of them, the first from {} to "
@@ -140,16 +176,22 @@ Result<ClosedMesh> closed_mesh(Mesh mesh) {
                     "close it in the program that the mesh comes from",
                     rim.open == 1 ? std::string("1 edge belongs") : fmt::format("{} edges belong", rim.open),
                     place(mesh.vertices[rim.first.low]), place(mesh.vertices[rim.first.high]),
-                    number[rim.first.triangle] + 1));
+                    closed.numbers[rim.first.triangle] + 1));
   }
-  if (rim.against > 0)
+  if (kept.size() < given)
+    closed.notices.push_back(fmt::format("{} no area and {} left out",
+                                         counted(given - kept.size(), "triangle has", "triangles have"),
+                                         given - kept.size() == 1 ? "is" : "are"));
+  mesh.triangles = std::move(kept);
+  closed.mesh = std::move(mesh);
+  find_shells(edges, closed);
+  if (const std::size_t against = edges_against(edges, closed.mesh.triangles); against > 0)
     closed.notices.push_back(
         fmt::format("at {} the triangles are turned against each other; inside is where a way from outside "
                     "crosses the surface "
                     "an odd number of times, however they are turned",
-                    counted(rim.against, "edge")));
-  drop_unused(mesh);
-  closed.mesh = std::move(mesh);
+                    counted(against, "edge")));
+  drop_unused(closed.mesh);
   return closed;
 }
 

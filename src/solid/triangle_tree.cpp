@@ -103,6 +103,13 @@ bool covers(const std::array<Vector, 3>& t, Vector p) {
   return inside;
 }
 
+/// Says if a way straight up from p, moved so, crosses the triangle.
+bool is_above(const std::array<Vector, 3>& t, Vector p) {
+  if (!covers(t, p)) return false;
+  const int turn = geom::orientation(from_above(t[0]), from_above(t[1]), from_above(t[2]));
+  return turn * side_of_plane(t[0], t[1], t[2], p) < 0;
+}
+
 }  // namespace
 
 TriangleTree::TriangleTree(const Mesh& mesh) {
@@ -196,13 +203,18 @@ std::optional<Nearest> TriangleTree::nearest(Vector p, double most, std::optiona
 
 bool TriangleTree::holds(Vector p) const {
   bool inside = false;
-  const auto visit = [&](const Corners& t) {
-    if (!covers(t, p)) return;
-    const int turn = geom::orientation(from_above(t[0]), from_above(t[1]), from_above(t[2]));
-    if (turn * side_of_plane(t[0], t[1], t[2], p) < 0) inside = !inside;
+  const auto visit = [&](std::uint32_t k) {
+    if (is_above(corners_[k], p)) inside = !inside;
   };
   if (!nodes_.empty()) descend(0, visit, p);
   return inside;
+}
+
+void TriangleTree::crossed_above(Vector p, std::vector<std::uint32_t>& triangles) const {
+  const auto visit = [&](std::uint32_t k) {
+    if (is_above(corners_[k], p)) triangles.push_back(order_[k]);
+  };
+  if (!nodes_.empty()) descend(0, visit, p);
 }
 
 template <class Visit>
@@ -213,7 +225,7 @@ void TriangleTree::descend(std::uint32_t at, const Visit& visit, Vector p) const
     return;
   ask();
   if (node.right == 0) {
-    for (std::uint32_t k = node.begin; k < node.end; ++k) visit(corners_[k]);
+    for (std::uint32_t k = node.begin; k < node.end; ++k) visit(k);
     return;
   }
   descend(at + 1, visit, p);
