@@ -18,7 +18,7 @@ Result<ContourFile> read_text_contour(std::string_view bytes, const std::string&
       return refuse_line(name, row.line, too_many_points());
     return {};
   };
-  LEKALO_CHECK(read_text_rows(bytes, name, unit, take, file.notices));
+  LEKALO_CHECK(read_text_rows(bytes, name, decimal_factor(unit), take, file.notices));
   if (third_numbers > 0) {
     file.notices.push_back(fmt::format("{}: the third number of {} line{} (z) is ignored", name,
                                        third_numbers, third_numbers == 1 ? "" : "s"));

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "io/contour/contour_points.hpp"
+#include "io/solid/ply.hpp"
 #include "io/text/rows.hpp"
 #include "lekalo/base/counted.hpp"
 #include "lekalo/io/text/format.hpp"
 #include "lekalo/io/text/words.hpp"
-#include "ply_points.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -35,18 +35,38 @@ class ScanReader {
       return add(row.numbers[0].value, row.numbers[1].value, z,
                  std::max(row.numbers[0].error, row.numbers[1].error), row.line, row.after_a_gap && !slice_);
     };
-    LEKALO_CHECK(read_text_rows(bytes, file_.name, file_.unit, take, file_.notices));
+    LEKALO_CHECK(read_text_rows(bytes, file_.name, decimal_factor(file_.unit), take, file_.notices));
     file_.has_order = !slice_;
     return finish();
   }
 
+  /// Other elements than the vertices are not read; what stands after these is not looked at.
   Result<ScanFile> read_ply(std::string_view bytes) {
     file_.places_are_lines = false;
     file_.has_order = false;
+    PlyFile ply(bytes, file_.name);
+    LEKALO_CHECK(ply.read_header());
+    const PlyElement* const vertices = ply.element("vertex");
+    if (vertices == nullptr) return refuse(file_.name, "there is no element vertex in this PLY");
+    for (const PlyProperty& property : vertices->properties)
+      if (property.count)
+        return refuse(file_.name, fmt::format("the vertices have a list ({}); only plain numbers can be read",
+                                              excerpt(property.name)));
+    LEKALO_TRY(const PlyFile::Axes axes, ply.axes_of(*vertices, slice_.has_value()));
+    if (vertices->rows > kMostScanPoints)
+      return refuse(file_.name,
+                    fmt::format("{} vertices; at most {} can be read", vertices->rows, kMostScanPoints));
+    for (const PlyElement& element : ply.elements()) {
+      if (&element != vertices && element.rows > 0)
+        file_.notices.push_back(fmt::format("{}: {} of the element {} are ignored", file_.name, element.rows,
+                                            excerpt(element.name)));
+    }
+    for (const PlyElement* element = ply.elements().data(); element != vertices; ++element)
+      LEKALO_CHECK(ply.skip(*element));
     const auto take = [&](const PlyPoint& p, std::size_t vertex) {
       return add(p.xyz[0], p.xyz[1], p.xyz[2], p.error, vertex, false);
     };
-    LEKALO_CHECK(read_ply_points(bytes, file_.name, file_.unit, slice_.has_value(), take, file_.notices));
+    LEKALO_CHECK(ply.read_points(*vertices, axes, decimal_factor(file_.unit), take));
     return finish();
   }
 

@@ -160,6 +160,24 @@ double nearest_double(const Decimal& decimal) {
 
 }  // namespace
 
+double value_of(DecimalFactor factor) noexcept {
+  const double power = kPowersOfTen[std::abs(factor.exponent)];
+  return factor.exponent < 0 ? factor.multiplier / power : factor.multiplier * power;
+}
+
+tl::expected<Millimetres, NumberFault> scaled_millimetres(double value, double scale) noexcept {
+  const double scaled = value * scale;
+  if (!(std::abs(scaled) <= kLargestMillimetres)) return tl::unexpected(NumberFault::too_large);
+  if (value == 0) return Millimetres{};
+  if (std::abs(scaled) < kSmallestMillimetres) return Millimetres{0, kSmallestMillimetres};
+  // The scale is within 2^-53 of its size of the double, the product rounds once more.
+  return Millimetres{scaled, scale == 1 ? 0 : std::abs(scaled) * 0x1p-51};
+}
+
+std::string beyond_millimetres(double value) {
+  return fmt::format("{} is not a finite number up to {:g} mm", value, kLargestMillimetres);
+}
+
 bool is_number(std::string_view text) { return read_decimal(text).has_value(); }
 
 std::optional<NumberFault> beyond_limits(std::string_view text) {

@@ -41,6 +41,15 @@ struct DecimalFactor {
   return unit == LengthUnit::inch ? DecimalFactor{254, -1} : DecimalFactor{};
 }
 
+/// The nearest double of a factor; \pre its exponent is at most 22 either way.
+[[nodiscard]] double value_of(DecimalFactor factor) noexcept;
+
+/// Scales a double of a binary file; one of more than kLargestMillimetres, an infinity and NaN are too large.
+/// \param scale  value_of its unit
+[[nodiscard]] tl::expected<Millimetres, NumberFault> scaled_millimetres(double value, double scale) noexcept;
+/// Returns a sentence about what is wrong with a number that scaled_millimetres does not take.
+[[nodiscard]] std::string beyond_millimetres(double value);
+
 /// Reads a number of the grammar [+-] digits [. digits] [e|E [+-] digits], with at least one digit before the
 /// exponent.
 [[nodiscard]] tl::expected<Millimetres, NumberFault> read_millimetres(std::string_view text,

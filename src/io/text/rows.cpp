@@ -79,9 +79,10 @@ bool begins_like_number(std::string_view line) {
 
 class TextReader {
  public:
-  TextReader(const std::string& name, LengthUnit unit,
-             const std::function<Result<void>(const TextRow&)>& take, std::vector<std::string>& notices)
-      : name_(name), unit_(unit), take_(take), notices_(notices) {}
+  TextReader(const std::string& name, DecimalFactor unit,
+             const std::function<Result<void>(const TextRow&)>& take, std::vector<std::string>& notices,
+             bool in_space)
+      : name_(name), unit_(unit), take_(take), notices_(notices), in_space_(in_space) {}
 
   Result<void> read(std::string_view bytes) {
     while (!bytes.empty()) {
@@ -144,7 +145,7 @@ class TextReader {
       if (mixed)
         return refuse_here(fmt::format("{} mixes separators; use one kind in a line", excerpt(line)));
       return refuse_here(
-          fmt::format("{} numbers where x and y are wanted: {}", fields_.size(), excerpt(line)));
+          fmt::format("{} numbers where {} are wanted: {}", fields_.size(), wanted(), excerpt(line)));
     }
     for (std::size_t i = 0; i < fields_.size(); ++i) {
       if (fields_[i].empty()) return refuse_here(fmt::format("a number is missing in {}", excerpt(line)));
@@ -152,18 +153,23 @@ class TextReader {
       if (!number) return refuse_here(number_sentence(number.error(), fields_[i]));
       row_.numbers[i] = *number;
     }
-    if (fields_.size() < 2)
-      return refuse_here(fmt::format("one number where x and y are wanted: {}", excerpt(line)));
+    if (fields_.size() < (in_space_ ? 3U : 2U))
+      return refuse_here(fmt::format("{} where {} are wanted: {}",
+                                     fields_.size() == 1 ? "one number" : "two numbers", wanted(),
+                                     excerpt(line)));
     row_.count = fields_.size();
     auto taken = take_(row_);
     row_.after_a_gap = false;
     return taken;
   }
 
+  [[nodiscard]] const char* wanted() const { return in_space_ ? "x, y and z" : "x and y"; }
+
   const std::string& name_;
-  LengthUnit unit_;
+  DecimalFactor unit_;
   const std::function<Result<void>(const TextRow&)>& take_;
   std::vector<std::string>& notices_;
+  bool in_space_;
   TextRow row_;
   Fields fields_;
   bool seen_content_ = false;
@@ -171,10 +177,10 @@ class TextReader {
 
 }  // namespace
 
-Result<void> read_text_rows(std::string_view bytes, const std::string& name, LengthUnit unit,
+Result<void> read_text_rows(std::string_view bytes, const std::string& name, DecimalFactor unit,
                             const std::function<Result<void>(const TextRow&)>& take,
-                            std::vector<std::string>& notices) {
-  return TextReader(name, unit, take, notices).read(bytes);
+                            std::vector<std::string>& notices, bool in_space) {
+  return TextReader(name, unit, take, notices, in_space).read(bytes);
 }
 
 }  // namespace lekalo::io

@@ -19,10 +19,11 @@ struct TextRow {
   bool after_a_gap = false;  ///< an empty line (not a comment) stands between this row and the one before
 };
 
-/// Calls take(row) for every point of the text, until it fails. Adds a notice for a header that holds digits.
-/// Fails with ErrorCode::bad_input and a sentence that names file and line.
-[[nodiscard]] Result<void> read_text_rows(std::string_view bytes, const std::string& name, LengthUnit unit,
+/// Calls take(row) for every point of the text, until it fails; in space a point has three numbers. Adds a
+/// notice for a header that holds digits. Fails with ErrorCode::bad_input and a sentence that names file and
+/// line.
+[[nodiscard]] Result<void> read_text_rows(std::string_view bytes, const std::string& name, DecimalFactor unit,
                                           const std::function<Result<void>(const TextRow&)>& take,
-                                          std::vector<std::string>& notices);
+                                          std::vector<std::string>& notices, bool in_space = false);
 
 }  // namespace lekalo::io
