@@ -52,6 +52,10 @@ std::string wrong_encoding(std::string_view bytes) {
   if (bitmap)
     return "this is a BMP image, which has no outlines; trace it (Inkscape: Path, Trace Bitmap) and save it "
            "as SVG";
+  return wrong_characters(bytes);
+}
+
+std::string wrong_characters(std::string_view bytes) {
   const bool zero_first = bytes.size() >= 4 && bytes[0] == '\0' && bytes[2] == '\0';
   const bool zero_second = bytes.size() >= 4 && bytes[1] == '\0' && bytes[3] == '\0';
   if (bytes.starts_with("\xff\xfe"sv) || bytes.starts_with("\xfe\xff"sv) || zero_first || zero_second) {

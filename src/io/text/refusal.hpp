@@ -24,6 +24,8 @@ namespace lekalo::io {
 /// Says why bytes are not text that can be read, whatever the file's name says: a binary DXF, a DWG, a PDF,
 /// an archive, a STEP model, an image, UTF-16, zero bytes; empty for anything else.
 [[nodiscard]] std::string wrong_encoding(std::string_view bytes);
+/// Says why bytes are not text whatever they are about: UTF-16, zero bytes; empty for anything else.
+[[nodiscard]] std::string wrong_characters(std::string_view bytes);
 
 /// The unit that holds when the file says one (or nothing) and the user says one (or nothing).
 [[nodiscard]] Result<LengthUnit> agree_on_unit(const std::string& name, std::optional<LengthUnit> file_says,

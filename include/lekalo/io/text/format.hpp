@@ -28,5 +28,9 @@ inline constexpr FileFormat kPointsFormat{"points", {".csv", ".txt", ".xyz"}};
 inline constexpr FileFormat kJsonFormat{"JSON", {".json"}, "{["};
 /// Measured points.
 inline constexpr FileFormat kPlyFormat{"PLY", {".ply"}};
+/// Triangles of a solid; what is in the bytes of a PLY and of points says whether they are one, too
+/// (io/solid/solid_file.hpp).
+inline constexpr FileFormat kStlFormat{"STL", {".stl"}};
+inline constexpr FileFormat kObjFormat{"OBJ", {".obj"}};
 
 }  // namespace lekalo::io

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/io/text/format.hpp"
+#include "lekalo/solid/mesh.hpp"
+
+namespace lekalo::io {
+
+/// Most vertices, and most triangles, of the file of a solid; more are refused.
+inline constexpr std::size_t kMostSolidVertices = 20'000'000, kMostSolidTriangles = 20'000'000;
+
+/// The unit of the numbers in a file of a solid; none of the formats says it.
+enum class SolidUnit : std::uint8_t { millimetre, inch, metre };
+
+struct SolidOptions {
+  /// Millimetres without, with a notice.
+  std::optional<SolidUnit> units;
+};
+
+/// The triangles of a file, or its points, as they stand there: nothing is joined, turned or left out
+/// (solid::closed_mesh does). Millimetres.
+struct SolidFile {
+  std::string name;
+  std::string_view format;  ///< "STL", "OBJ", "PLY" or "points"
+  SolidUnit unit = SolidUnit::millimetre;
+  solid::Mesh mesh;  ///< no triangles: the file holds points
+  /// The names that the file gives to parts of the surface, each once, and which of them each triangle has;
+  /// both empty where it gives none. A triangle before the first name has the name "".
+  std::vector<std::string> groups;
+  std::vector<std::uint32_t> group_of_triangle;
+  /// Every coordinate is within this of the number in the file, mm.
+  double coordinate_error = 0;
+  std::vector<std::string> notices;
+};
+
+/// The format of a solid or of points in space by what is in the bytes, however their file is called: STL,
+/// OBJ, PLY or points; nullptr for anything else. It looks at the beginning and at the number of the bytes.
+[[nodiscard]] const FileFormat* solid_format_by_content(std::string_view bytes);
+
+/// Reads STL (text and binary), OBJ, PLY (text and binary, either order) and text of points "x y z"
+/// (docs/formats.md), told apart by their content. The ending of the name says what was meant where the
+/// content fits none.
+///
+/// Fails with bad_input and one sentence that names file, line, triangle or row, what stands there and the
+/// way out. Cost: O(bytes), and for faces with dents the square of their corners, 2,000 at most. Memory: at
+/// most 100 bytes for a byte of the file.
+[[nodiscard]] Result<SolidFile> parse_solid(std::string_view bytes, const std::string& name,
+                                            const SolidOptions& options = {});
+
+}  // namespace lekalo::io

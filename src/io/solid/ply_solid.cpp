@@ -1,0 +1,124 @@
+#include <fmt/core.h>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "io/text/refusal.hpp"
+#include "lekalo/base/counted.hpp"
+#include "ply.hpp"
+#include "solid_builder.hpp"
+
+namespace lekalo::io {
+namespace {
+
+constexpr std::string_view kVertices = "vertex", kFaces = "face", kStrips = "tristrips";
+
+class PlySolid {
+ public:
+  PlySolid(std::string_view bytes, SolidBuilder& made) : ply_(bytes, made.name()), made_(made) {}
+
+  Result<void> read() {
+    LEKALO_CHECK(ply_.read_header());
+    LEKALO_TRY(axes_, read_heads());
+    for (const PlyElement& element : ply_.elements()) {
+      if (element.name == kVertices) {
+        LEKALO_CHECK(read_vertices(element));
+      } else if (element.name == kFaces) {
+        LEKALO_CHECK(read_faces(element));
+      } else {
+        LEKALO_CHECK(ply_.skip(element));
+      }
+    }
+    if (made_.vertices() == 0) return refuse(made_.name(), "there are no vertices in this PLY");
+    return cut_faces();
+  }
+
+ private:
+  [[nodiscard]] bool has(std::string_view element) const {
+    const PlyElement* const found = ply_.element(element);
+    return found != nullptr && found->rows > 0;
+  }
+
+  /// Looks whether all that is needed is there, before the rows are read.
+  Result<PlyFile::Axes> read_heads() {
+    const PlyElement* const vertices = ply_.element(kVertices);
+    if (vertices == nullptr) return refuse(made_.name(), "there is no element vertex in this PLY");
+    if (vertices->rows > kMostSolidVertices) return refuse(made_.name(), too_many_vertices());
+    if (has(kStrips) && !has(kFaces))
+      return refuse(made_.name(), "this PLY has strips of triangles, which are not read; save it with faces");
+    if (has(kFaces) && ply_.element(kFaces)->rows > kMostSolidTriangles)
+      return refuse(made_.name(), too_many_triangles());
+    for (const PlyElement& element : ply_.elements())
+      if (element.name != kVertices && element.name != kFaces && element.rows > 0)
+        made_.tell(fmt::format("{} of the element {} are ignored", element.rows, excerpt(element.name)));
+    return ply_.axes_of(*vertices, true);
+  }
+
+  Result<void> read_vertices(const PlyElement& element) {
+    made_.reserve(ply_.most_rows(element), 0);
+    return ply_.read_points(element, axes_, made_.unit(),
+                            [&](const PlyPoint& p, std::size_t) -> Result<void> {
+                              made_.add_vertex({p.xyz[0], p.xyz[1], p.xyz[2]}, p.error);
+                              return {};
+                            });
+  }
+
+  /// Gathers the corners of the faces, which may stand before the vertices.
+  Result<void> read_faces(const PlyElement& element) {
+    if (element.rows == 0) return {};
+    std::size_t list = 0;
+    while (list < element.properties.size() &&
+           !(element.properties[list].count && (element.properties[list].name == "vertex_indices" ||
+                                                element.properties[list].name == "vertex_index")))
+      ++list;
+    if (list == element.properties.size())
+      return refuse(made_.name(), "the faces of this PLY have no list vertex_indices");
+    const auto vertices = static_cast<std::int64_t>(ply_.element(kVertices)->rows);
+    return ply_.read_lists(
+        element, list, [&](const std::vector<std::int64_t>& items, std::size_t row) -> Result<void> {
+          if (items.size() < 3)
+            return ply_.refuse_row(element, row,
+                                   fmt::format("a face has three corners or more, not {}", items.size()));
+          for (const std::int64_t item : items) {
+            if (item < 0 || item >= vertices)
+              return ply_.refuse_row(
+                  element, row,
+                  fmt::format("vertex {} is not there: there {}, numbered from 0", item,
+                              counted(static_cast<std::size_t>(vertices), "vertex is", "vertices are")));
+            corners_.push_back(static_cast<std::uint32_t>(item));
+          }
+          if (corners_.size() > std::numeric_limits<std::uint32_t>::max() ||
+              corners_.size() - 2 * (ends_.size() + 1) > kMostSolidTriangles)
+            return ply_.refuse_row(element, row, too_many_triangles());
+          ends_.push_back(static_cast<std::uint32_t>(corners_.size()));
+          return {};
+        });
+  }
+
+  Result<void> cut_faces() {
+    made_.reserve(made_.vertices(), corners_.size() - 2 * ends_.size());
+    const std::span<const std::uint32_t> all(corners_);
+    for (std::size_t face = 0, begin = 0; face < ends_.size(); begin = ends_[face++]) {
+      const std::string wrong = made_.add_face(all.subspan(begin, ends_[face] - begin));
+      if (!wrong.empty()) return refuse(made_.name(), fmt::format("face {}: {}", face, wrong));
+    }
+    return {};
+  }
+
+  PlyFile ply_;
+  SolidBuilder& made_;
+  PlyFile::Axes axes_;
+  std::vector<std::uint32_t> corners_, ends_;
+};
+
+}  // namespace
+
+bool is_ply(std::string_view bytes) {
+  return bytes.starts_with("ply\n") || bytes.starts_with("ply\r") || bytes.starts_with("ply ");
+}
+
+Result<void> read_ply(std::string_view bytes, SolidBuilder& made) { return PlySolid(bytes, made).read(); }
+
+}  // namespace lekalo::io
