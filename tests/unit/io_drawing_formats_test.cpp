@@ -14,7 +14,7 @@ namespace lekalo::io::io_drawing_formats_test {
 namespace {
 
 std::vector<FileFormat> all_formats() {
-  std::vector<FileFormat> all{kPointsFormat, kJsonFormat, kPlyFormat};
+  std::vector<FileFormat> all{kPointsFormat, kJsonFormat, kPlyFormat, kStlFormat, kObjFormat};
   for (const DrawingFormat& format : drawing_formats()) all.push_back(format.file);
   return all;
 }
