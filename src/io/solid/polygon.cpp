@@ -76,7 +76,7 @@ bool PolygonCutter::cut_ears(std::vector<solid::Triangle>& triangles) {
     k = to;
   }
   triangles.push_back({corners_[before_[k]], corners_[k], corners_[next_[k]]});
-  return true;
+  return geom::orientation(seen_[before_[k]], seen_[k], seen_[next_[k]]) > 0;
 }
 
 std::string PolygonCutter::cut(const std::vector<Vector>& vertices, std::span<const std::uint32_t> corners,
