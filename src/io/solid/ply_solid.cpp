@@ -85,8 +85,8 @@ class PlySolid {
             if (item < 0 || item >= vertices)
               return ply_.refuse_row(
                   element, row,
-                  fmt::format("vertex {} is not there: there {}, numbered from 0", item,
-                              counted(static_cast<std::size_t>(vertices), "vertex is", "vertices are")));
+                  fmt::format("vertex {} is not there: the file has {}, numbered from 0", item,
+                              counted(static_cast<std::size_t>(vertices), "vertex", "vertices")));
             corners_.push_back(static_cast<std::uint32_t>(item));
           }
           if (corners_.size() > std::numeric_limits<std::uint32_t>::max() ||

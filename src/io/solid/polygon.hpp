@@ -38,7 +38,7 @@ class PolygonCutter {
 
   std::size_t faces_ = 0;
   double unevenness_ = 0;
-  // Of the face in hand: its corners, as they are seen, and the ring of those that are left.
+  // They belong to the face in hand: its corners, as they are seen, and the ring of those that are left.
   std::vector<std::uint32_t> corners_, next_, before_;
   std::vector<geom::Point> seen_;
   std::vector<char> ear_;

@@ -28,7 +28,7 @@ class SolidBuilder {
   void add_vertex(solid::Vector p, double error);
   /// The name of the triangles that follow.
   void begin_group(std::string_view name);
-  /// Of vertices that were added.
+  /// \pre its vertices were added
   void add_triangle(solid::Triangle corners);
   /// Adds a face of three corners or more as triangles. Returns what is wrong with it, or nothing.
   [[nodiscard]] std::string add_face(std::span<const std::uint32_t> corners);
@@ -47,7 +47,7 @@ class SolidBuilder {
 
 [[nodiscard]] DecimalFactor decimal_factor(SolidUnit unit) noexcept;
 
-/// What a file has too many of, with the way out.
+/// Sentences about a file that has too many, with the way out.
 [[nodiscard]] std::string too_many_vertices();
 [[nodiscard]] std::string too_many_triangles();
 

@@ -64,7 +64,7 @@ const SolidFormat* format_by_content(std::string_view bytes) {
   return nullptr;
 }
 
-/// What the sizes of a file suggest that is read as mm.
+/// Says which unit the sizes of a file suggest that is read as mm.
 std::string suggestion(const std::vector<solid::Vector>& vertices) {
   constexpr double kSheetOfFeet = 120, kSmallestOfMillimetres = 2;
   bool on_32nds = true, off_halves = false;

@@ -37,7 +37,7 @@ class TextWords {
     return word;
   }
 
-  /// What is left of this line, without the blanks around it.
+  /// Returns what is left of this line, without the blanks around it.
   std::string_view rest_of_line() {
     std::string_view words = rest_.substr(0, rest_.find('\n'));
     rest_.remove_prefix(words.size());
