@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "lekalo/base/counted.hpp"
-#include "lekalo/base/stop.hpp"
+#include "lekalo/base/limits.hpp"
 #include "lekalo/solid/triangle_tree.hpp"
 
 namespace lekalo::solid {
@@ -105,11 +105,14 @@ class ShellFinder {
         ++turned[s];
       }
     }
-    std::size_t triangles = 0, bodies = 0;
+    std::size_t triangles = 0, bodies = 0, left = 0;
     std::uint32_t first = 0;
     for (std::uint32_t s = 0; s < shells_.size(); ++s) {
       Shell& shell = shells_[s];
-      if (!can_be_turned(s)) continue;
+      if (!can_be_turned(s)) {
+        ++left;
+        continue;
+      }
       const bool is_void = *shell.depth % 2 != 0;
       shell.volume = is_void ? -std::abs(shell.volume) : std::abs(shell.volume);
       if (is_void && turned[s] == shell.triangles) {
@@ -121,6 +124,11 @@ class ShellFinder {
     if (triangles > 0)
       notices.push_back(fmt::format("{} of {} looked into the material and {} turned round", triangles,
                                     counted(turn_.size(), "triangle"), triangles == 1 ? "is" : "are"));
+    if (left > 0)
+      notices.push_back(fmt::format(
+          "{} turned as given, because surfaces meet or cross there, enclose nothing or are too many to "
+          "tell which way is outside",
+          counted(left, "shell stays", "shells stay")));
     if (bodies > 0) {
       const Vector p = mesh_.vertices[mesh_.triangles[first][0]];
       notices.push_back(fmt::format(
@@ -168,6 +176,8 @@ class ShellFinder {
     const TriangleTree tree(mesh_);
     std::vector<std::uint32_t> asked(shells_.size(), 0), seen(shells_.size(), 0), last(shells_.size(), kNone);
     std::vector<std::uint32_t> crossed;
+    // Above an ordinary place lie a few triangles; above thousands of nested shells it would be the square.
+    std::size_t looks_left = limits::most_meeting_boxes(mesh_.triangles.size());
     for (std::uint32_t t = 0; t < shell_of_.size(); ++t) {
       const std::uint32_t s = shell_of_[t];
       Shell& shell = shells_[s];
@@ -175,9 +185,12 @@ class ShellFinder {
       if (seen[s]++ % spacing != 0) continue;
       const auto [i, j, k] = mesh_.triangles[t];
       const Vector middle = (1.0 / 3) * (mesh_.vertices[i] + mesh_.vertices[j] + mesh_.vertices[k]);
+      if (looks_left == 0) {
+        last[s] = kNone;
+        continue;
+      }
       crossed.clear();
-      tree.crossed_above(middle, crossed);
-      ask(crossed.size());
+      looks_left -= std::min(looks_left, tree.crossed_above(middle, crossed));
       for (std::uint32_t& c : crossed) c = shell_of_[c];
       std::sort(crossed.begin(), crossed.end());
       std::uint32_t depth = 0;

@@ -210,11 +210,14 @@ bool TriangleTree::holds(Vector p) const {
   return inside;
 }
 
-void TriangleTree::crossed_above(Vector p, std::vector<std::uint32_t>& triangles) const {
+std::size_t TriangleTree::crossed_above(Vector p, std::vector<std::uint32_t>& triangles) const {
+  std::size_t looked = 0;
   const auto visit = [&](std::uint32_t k) {
+    ++looked;
     if (is_above(corners_[k], p)) triangles.push_back(order_[k]);
   };
   if (!nodes_.empty()) descend(0, visit, p);
+  return looked;
 }
 
 template <class Visit>

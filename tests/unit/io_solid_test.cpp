@@ -384,7 +384,7 @@ TEST(SolidGrowth, TwiceTheFileCostsTwiceTheTime) {
       {"groups", [&](std::size_t n) { return groups(100 * n); }},
       {"one wide face", [&](std::size_t n) { return wide(100 * n); }},
   };
-  constexpr std::size_t kSize = 100;
+  constexpr std::size_t kSize = 50;
   for (const auto& [title, make] : families) {
     const double first = seconds(make(kSize)), second = seconds(make(2 * kSize));
     EXPECT_LT(second, 2.5 * std::max(first, 0.02)) << title << ": " << first << " s, " << second << " s";

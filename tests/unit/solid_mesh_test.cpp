@@ -9,6 +9,7 @@
 
 #include "lekalo/solid/triangle_tree.hpp"
 #include "support/solids.hpp"
+#include "support/stopwatch.hpp"
 
 namespace lekalo::solid_mesh_test {
 namespace {
@@ -176,10 +177,28 @@ TEST(ClosedMesh, WhatCannotBeToldStaysAsItIs) {
   for (const Mesh& mesh : {edge, crossing}) {
     const auto made = closed_mesh(mesh);
     ASSERT_TRUE(made) << made.error().message;
-    ASSERT_EQ(made->notices.size(), 1u);
-    EXPECT_EQ(made->notices[0].find("at 3 edges the triangles are turned against each other"), 0u)
+    ASSERT_EQ(made->notices.size(), 2u);
+    EXPECT_NE(made->notices[0].find(" turned as given, because surfaces meet or cross there"),
+              std::string::npos)
         << made->notices[0];
+    EXPECT_EQ(made->notices[1].find("at 3 edges the triangles are turned against each other"), 0u)
+        << made->notices[1];
   }
+}
+
+TEST(ClosedMesh, ThousandsOfNestedShellsTakeNoSquareOfTime) {
+  Mesh mesh;
+  constexpr int kShells = 10'000;
+  for (int k = 1; k <= kShells; ++k) {
+    const double half = k;
+    cases::append(mesh, cases::block({-half, -half, -half}, {half, half, half}));
+  }
+  const cases::Stopwatch watch;
+  const auto made = closed_mesh(std::move(mesh));
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_LT(watch.seconds(), 5 * cases::kSlowdown);
+  EXPECT_EQ(made->shells.size(), std::size_t{kShells});
+  EXPECT_FALSE(made->notices.empty());
 }
 
 TEST(ClosedMesh, CoordinatesThatPredicatesDoNotTakeAreZero) {

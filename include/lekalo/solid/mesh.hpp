@@ -32,7 +32,8 @@ struct Box {
 struct Shell {
   std::uint32_t first = 0, triangles = 0;  ///< its first triangle, and how many it has
   /// How many other shells it lies in: an even number bounds a body, an odd one a void. Asked at
-  /// the middles of eight triangles; none if these differ, because shells cross or touch.
+  /// the middles of eight triangles; none if these differ, because shells cross or touch,
+  /// or if thousands of shells lie around each other.
   std::optional<std::uint32_t> depth;
   /// mm3, positive where the triangles look outwards; of a surface that has two sides.
   double volume = 0;

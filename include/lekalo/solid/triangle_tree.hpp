@@ -35,8 +35,8 @@ class TriangleTree {
   /// the way meets: it counts as p moved by less than every number. \pre p lies on no triangle, where either
   /// may be said, and the mesh is closed
   [[nodiscard]] bool holds(Vector p) const;
-  /// Appends the triangles that this way crosses, in any order.
-  void crossed_above(Vector p, std::vector<std::uint32_t>& triangles) const;
+  /// Appends the triangles that this way crosses, in any order, and returns how many were looked at.
+  std::size_t crossed_above(Vector p, std::vector<std::uint32_t>& triangles) const;
 
   [[nodiscard]] const Box& box() const noexcept { return box_; }
 
