@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <cstring>
-#include <optional>
 #include <string>
 
 #include "io/text/refusal.hpp"
