@@ -6,6 +6,8 @@ target_compile_options(lekalo_options INTERFACE
   $<$<BOOL:${LEKALO_WERROR}>:-Werror>
   # g++ 12 invents overlapping copies in string concatenation at -O3 (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+  # Of files that are compiled in one piece clang++ compares local names with those at file scope of the others.
+  $<$<AND:$<CXX_COMPILER_ID:Clang>,$<BOOL:${LEKALO_UNITY}>>:-Wno-shadow>
   # Results must be the same bytes for every compiler and optimisation level: no fused
   # multiply-add unless the source says so (docs/design/geometry.md).
   -ffp-contract=off)
