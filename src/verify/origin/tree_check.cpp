@@ -98,9 +98,10 @@ struct Ground {
   CurvePieces outline;
 
  private:
-  /// Half-planes become lines that are longer than everything else together.
+  /// Half-planes become lines that are longer than everything else together. A region that is larger runs
+  /// along nothing there.
   void clip_half_planes() {
-    double size = std::max({-used.low_x, -used.low_y, used.high_x, used.high_y, 0.0});
+    double size = 0;
     for (const Primitive& primitive : primitives)
       for (const Side& side : primitive.shape.sides) {
         const Box box = box_of(side);
@@ -159,12 +160,11 @@ class Walk {
   /// Returns the looks at sides that were needed so far.
   [[nodiscard]] std::size_t work() const { return work_; }
 
-  /// Beyond the window there is none of any primitive but half-planes.
+  /// Beyond the window there is none of any primitive but half-planes. What is said here is taken back where
+  /// the first part of a side is looked at.
   bool ends_in_window() {
     for (const Member& half_plane : ground_.half_planes) value_.set(half_plane.side.primitive, In::open);
-    const bool ends = value_.value() == In::no;
-    value_.take_back(0);
-    return ends;
+    return value_.value() == In::no;
   }
 
   /// Looks at an edge of the region.
@@ -259,42 +259,35 @@ class Walk {
   }
   /// A piece with what is asked of it again and again.
   struct Stretch {
-    explicit Stretch(const Side& side)
-        : piece(side), corners(corners_of(side)), middle(middle_of(side)), half(farthest(side, middle)) {}
+    explicit Stretch(const Side& side) : piece(side), corners(corners_of(side)), middle(middle_of(side)) {}
     Side piece;
     Corners corners;
     Vec middle;
-    /// Nothing of it is farther from its middle.
-    double half;
   };
   /// Says whether a piece surely does not meet a side. Its ends tell more than the line through it, which is
   /// hardly known far from a short piece.
-  /// \param endless  the side is a half-plane's
-  static bool surely_apart(const Stretch& stretch, const Side& side, bool endless) {
+  static bool surely_apart(const Stretch& stretch, const Side& side) {
     const Side& piece = stretch.piece;
     const Corners& corners = stretch.corners;
-    bool before = true, behind = true, ends_before = false, ends_behind = false;
-    Span nearest = just(kInfinity);
+    bool before = true, behind = true;
     for (std::size_t i = 0; i < corners.count; ++i) {
       const Vec& at = corners.at[i];
-      const Span away = side.arc ? length(at - side.centre) : just(0);
-      const Span height = side.arc ? away - side.radius : cross(side.to - side.from, at - side.from);
+      const Span height =
+          side.arc ? length(at - side.centre) - side.radius : cross(side.to - side.from, at - side.from);
       before = before && height.high < 0, behind = behind && height.low > 0;
-      ends_before = ends_before || (i < 2 && height.high < 0);
-      ends_behind = ends_behind || (i < 2 && height.low > 0);
-      if (i < 2 && side.arc) nearest = {std::min(nearest.low, away.low), kInfinity};
     }
     // The corners are on one side of a line, or within a circle, with all between them.
     if (before || (behind && !side.arc)) return true;
-    if (endless && ends_before && ends_behind) return false;
-    if (side.arc && behind) {
+    if (side.arc) {
       // The chord is nowhere nearer to the centre than this, and the arc nowhere farther from its chord.
       const Span half = length(corners.at[1] - corners.at[0]) * just(0.5);
-      Span least = square_root(just(nearest.low) * just(nearest.low) - half * half);
+      const double nearest =
+          std::min(length(corners.at[0] - side.centre).low, length(corners.at[1] - side.centre).low);
+      Span least = square_root(just(nearest) * just(nearest) - half * half);
       if (piece.arc) least = least - half * half / piece.radius;
       if (least.low > side.radius.high) return true;
     }
-    return (distance(stretch.middle, side) - just(stretch.half)).low > 0 || distance(piece, side).low > 0;
+    return distance(piece, side).low > 0;
   }
 
   /// Decides which of the half-planes of which the parts before did not tell hold all of a piece and of the
@@ -343,11 +336,10 @@ class Walk {
       const Side& side = primitives_[k].shape.sides[i];
       if (is_away(member, side, middle, room)) return;
       work_ += 3;
-      const bool endless = primitives_[k].half_plane;
-      const bool meets_left = !surely_apart(left, side, endless);
+      const bool meets_left = !surely_apart(left, side);
       given_up = apart && meets_left;
       if (given_up) return;
-      near_.push_back({k, meets_left, !surely_apart(right, side, endless)});
+      near_.push_back({k, meets_left, !surely_apart(right, side)});
       const bool meets = meets_left || near_.back().meets_right;
       given_up = apart && meets;
       if (!meets && !is_away(member, side, middle, reach_) && farthest(piece, corners, side) <= reach_)
@@ -385,8 +377,6 @@ class Walk {
     return known;
   }
 
-  static bool is_wide(const Side& piece) { return piece.arc && piece.sweep != Sweep::less; }
-
   /// Returns a side in parts that turn by less than a half, cut at those of its places that are nearest to
   /// the corners.
   static std::vector<Part> cut_at_corners(const Side& whole, const std::vector<Vec>& corners) {
@@ -395,7 +385,7 @@ class Walk {
     while (!open.empty()) {
       Part part = open.back();
       open.pop_back();
-      if (is_wide(part.piece)) {
+      if (part.piece.sweep != Sweep::less) {
         const std::array<Side, 2> two = halves(part.piece);
         open.push_back({two[1], false, part.ends_at_corner});
         open.push_back({two[0], part.begins_at_corner, false});
@@ -407,8 +397,7 @@ class Walk {
           part.piece.arc ? part.piece.centre + part.piece.first * part.piece.radius : part.piece.from;
       for (const Vec& corner : corners)
         if (cut_beside(part.piece, corner)) in_order.emplace_back(length(corner - begin).high, corner);
-      std::sort(in_order.begin(), in_order.end(),
-                [](const auto& a, const auto& b) { return a.first < b.first; });
+      std::ranges::sort(in_order, {}, [](const auto& one) { return one.first; });
       for (const auto& [away, corner] : in_order) {
         const auto two = cut_beside(part.piece, corner);
         if (!two) continue;
@@ -440,7 +429,6 @@ class Walk {
   bool halve(const Side& whole, const std::vector<Vec>& meetings, Settled settled) {
     undecided_.resize(ground_.half_planes.size());
     std::iota(undecided_.begin(), undecided_.end(), std::size_t{0});
-    value_.take_back(0);
     std::vector<Part> open = cut_at_corners(whole, meetings);
     for (Part& part : open) part.undecided_end = undecided_.size();
     int short_ones = 0;
