@@ -385,6 +385,69 @@ TEST(Touching, AnOwnOutlineMovedOrMirroredIsAnother) {
   expect_less(with_arc, with_arc, 0, 0, true);
 }
 
+TEST(Touching, ASpikeThatOnlyItsTipTellsOf) {
+  // The middles of all its sides lie in the blank. Beside the tip at the top the blank's arc is beyond one of
+  // its ends' directions and before the other.
+  const std::string more = region("[" + arc("-3, -4", "-3, 4", "0, 0") + ", " + line("-3, 4", "-9, 4") +
+                                  ", " + line("-9, 4", "-9, -4") + ", " + line("-9, -4", "-3, -4") + "]");
+  expect_less(region(polygon({"0, 5.1", "-1, 0", "1, 0"})), more);
+  expect_less(region(polygon({"0, -5.1", "1, 0", "-1, 0"})), more);
+  expect_touches(region(polygon({"0, 5", "-1, 0", "1, 0"})), more);
+  // Of both places where the carriers meet, only the first is on both sides, or only the second: the way out
+  // is a line, and the way back an arc.
+  const std::string disc = region(circle(0, 0, 5));
+  expect_less(region("[" + line("-1, 0", "0, 5.12") + ", " + arc("0, 5.12", "2.56, 0", "-3.84, 0", false) +
+                     ", " + line("2.56, 0", "-1, 0") + "]"),
+              disc);
+  expect_less(region("[" + arc("-2.56, 0", "0, 5.12", "3.84, 0", false) + ", " + line("0, 5.12", "1, 0") +
+                     ", " + line("1, 0", "-2.56, 0") + "]"),
+              disc);
+}
+
+TEST(Touching, CirclesOfOneRadiusOrOneCentreAreNotOneCircle) {
+  expect_less(region(circle(0, 0, 5)), region(circle(-0.5, 0, 5)));
+  // The farthest points of both from their ends lie well, and centres are 1 apart.
+  expect_less(region(circle(0, 0, 3)), region(circle(-1, 0, 3.5)));
+  // Two about one centre that are nearer to each other than enclosures tell: nothing is claimed.
+  const auto ring = [](const std::string& x) { return "[" + arc(x + ", 0", x + ", 0", "0, 0") + "]"; };
+  const std::string two = ring("2"), more = ring("2.00000000000000000000000000001");
+  EXPECT_LE(clearance(region(two), region(more)).low, 0);
+  expect_less(region(more), region(two));
+}
+
+TEST(Touching, LinesThatAreParallelOrMeetInAnEndAreNotOneLine) {
+  // A hole under the part, whose sides' middles lie in the boxes of the part's sides and beside these.
+  const std::string diamond = region(polygon({"10, 0", "0, 10", "-10, 0", "0, -10"}));
+  const auto blank = [](const std::vector<std::string>& hole) {
+    return region(box("-10", "-10", "10", "10"), {polygon(hole)});
+  };
+  expect_less(diamond, blank({"5, 0", "0, 5", "-5, 0", "0, -5"}));
+  // Each side of the hole runs towards a corner of the part.
+  expect_less(diamond, blank({"4, 2", "-2, 4", "-4, -2", "2, -4"}));
+}
+
+TEST(Touching, AnEndOnTheCircleBesideTheArcDoesNotCutIt) {
+  const std::string blank = region("[" + arc("0, -5", "0, 5", "0, 0") + ", " + line("0, 5", "-9, 5") + ", " +
+                                   line("-9, 5", "-9, -5") + ", " + line("-9, -5", "0, -5") + "]");
+  expect_touches(region(polygon({"3, 4", "0, 4.9", "-3, 4.9", "-3, 4"})), blank);
+}
+
+TEST(Touching, AnArcOfTheBlankWhoseEndsLieOnTwoCirclesClaimsNothing) {
+  expect_less(region(circle(3, 0, 2)),
+              region("[" + arc("3, -4", "3, 3.9999999", "0, 0") + ", " + line("3, 3.9999999", "-9, 4") +
+                     ", " + line("-9, 4", "-9, -4") + ", " + line("-9, -4", "3, -4") + "]"));
+}
+
+TEST(Touching, ThePointsBesideASharedArcAreWithinWhatIsThin) {
+  // Thinner than a quarter of its radius: what fills a hole is not in the blank.
+  const std::string lens = "[" + arc("5, 0", "-5, 0", "0, -12") + ", " + arc("-5, 0", "5, 0", "0, 12") + "]";
+  expect_less(region(lens), region(box("-9", "-9", "9", "9"), {lens}));
+  expect_touches(region(lens),
+                 region("[" + arc("6, 0", "-4, 0", "1, -12") + ", " + arc("-4, 0", "6, 0", "1, 12") + "]"), 1,
+                 0);
+  expect_touches(region(circle(0, 0, 3)), region(circle(1, 0, 3)), 1, 0);
+}
+
 TEST(Touching, WhatCannotBeToldEnclosesTheTruth) {
   // 1e-18 from the blank's side, turned by next to nothing.
   const Enclosure found =

@@ -49,7 +49,7 @@ Span clearance(const Shape& part, const Shape& placed_part, const Shape& blank,
   const Span apart = distance(placed_part, blank);
   const std::optional<bool> inside = apart.low > 0 ? lies_within(placed_part, blank) : std::nullopt;
   if (inside && *inside) return apart;
-  if (!(apart.low > 0) && shift) {
+  if (!inside && shift) {
     const Touch touch = touches_from_inside(part, blank, *shift);
     if (touch.inside) return {0, touch.touches ? 0 : apart.high};
   }

@@ -1,7 +1,6 @@
 #include "touching.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include "lekalo/base/stop.hpp"
@@ -212,7 +211,7 @@ class Touching {
     return all(of_part_, part_,
                [&](std::size_t i, const Middle& m) { return part_stretch_is_inside(i, m); }) &&
            all(of_blank_, blank_, [&](std::size_t j, const Middle& m) {
-             return shared_by(of_part_, of_blank_[j], part_, m) != kNoSide || holds(part_, m.at) == false;
+             return is_shared(of_part_, of_blank_[j], part_, m) || holds(part_, m.at) == false;
            });
   }
 
@@ -244,26 +243,24 @@ class Touching {
     return true;
   }
 
-  /// Returns the side of `others` that a stretch of `side` lies on.
-  static std::size_t shared_by(const std::vector<ExactSide>& others, const ExactSide& side,
-                               const Shape& shape, const Middle& middle) {
+  /// Says whether a stretch of `side` lies on one of `others`.
+  static bool is_shared(const std::vector<ExactSide>& others, const ExactSide& side, const Shape& shape,
+                        const Middle& middle) {
     for (const std::size_t j : sides_meeting(shape, box_of(middle.at))) {
       ask();
       if (!side.known || !others[j].known || !same_carrier(side, others[j])) continue;
-      if (surely_beside(shape.sides[j], middle.at)) return j;
+      if (surely_beside(shape.sides[j], middle.at)) return true;
     }
-    return kNoSide;
+    return false;
   }
 
   [[nodiscard]] bool part_stretch_is_inside(std::size_t i, const Middle& middle) const {
-    const std::size_t j = shared_by(of_blank_, of_part_[i], blank_, middle);
-    if (j == kNoSide) return holds(blank_, middle.at) == true;
-    // The points to its left and right are taken nearer than any other side. Where the part has material at
-    // such a point, the blank must have it too.
-    double near = std::min(distance(middle.at, part_, i).low, distance(middle.at, blank_, j).low);
+    if (!is_shared(of_blank_, of_part_[i], blank_, middle)) return holds(blank_, middle.at) == true;
+    // The points to its left and right are taken nearer than any other side of the part. Where the part has
+    // material at such a point, the blank must have it too. A side of the blank between would lie in the
+    // part.
+    double near = distance(middle.at, part_, i).low;
     if (of_part_[i].arc) near = std::min(near, part_.sides[i].radius.low);
-    const Span& x = part_.sides[i].from.x;
-    if (!(near < std::numeric_limits<double>::infinity())) near = std::max(1.0, std::abs(x.high));
     for (const double step : {near / 4, -near / 4}) {
       const Vec beside = middle.at + middle.across * just(step);
       if (holds(part_, beside) != false && holds(blank_, beside) != true) return false;
