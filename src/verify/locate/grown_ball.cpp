@@ -36,7 +36,7 @@ Side half_circle(const Vec& centre, const Vec& first, double radius) {
 /// Returns an arc's parallel on a circle of another radius.
 Side with_radius(const Side& arc, Span radius) {
   Side other = arc;
-  other.radius = {std::max(0.0, radius.low), radius.high};
+  other.radius = radius;
   other.ccw = true, other.off = 0;
   other.from = arc.centre + arc.first * other.radius, other.to = arc.centre + arc.last * other.radius;
   return other;
@@ -48,7 +48,7 @@ Vec nearest_point(const Side& piece, const Vec& c) {
     const Vec enclosed = c - piece.centre;
     // About the arc's centre every direction will do, and the enclosed one may be any.
     const Vec out{just(middle_of(enclosed.x)), just(middle_of(enclosed.y))};
-    if (length(out).low > 0 && surely_faces(piece, out)) return piece.centre + unit(out) * piece.radius;
+    if (surely_faces(piece, out)) return piece.centre + unit(out) * piece.radius;
     return length(piece.from - c).high < length(piece.to - c).high ? piece.from : piece.to;
   }
   const Vec along = piece.to - piece.from;
@@ -69,10 +69,10 @@ class GrownBall {
       const double by = rim ? (just(-growth[k]) + just(side.off)).high : growth[k];
       if (rim) rims_.push_back({k, by});
       if ((just(apart) - just(by)).low >= wanted) continue;
-      if (!(by > side.off)) add(side, Kind::side);
+      if (!(by > side.off)) add(side);
       if (!(by > 0)) continue;
       if (!rim) grown_.push_back({k, by});
-      add_parallels(side, by, rim ? Kind::rim : Kind::growth);
+      add_parallels(side, by);
     }
   }
 
@@ -91,16 +91,14 @@ class GrownBall {
       if (covered == Covered::no || looked == kMostPieces ||
           (!turns_far && !(length(piece.side.to - piece.side.from).high > shortest)))
         return piece.apart;
-      for (const Side& half : halves(piece.side)) add(half, piece.kind, piece.apart);
+      for (const Side& half : halves(piece.side)) add(half, piece.apart);
     }
     return wanted_;
   }
 
  private:
-  enum class Kind { side, growth, rim };
   struct Piece {
     Side side;
-    Kind kind = Kind::side;
     double apart = {};  ///< from c, at least
   };
   /// A side and the width of what it grows to, or of its rim.
@@ -111,33 +109,33 @@ class GrownBall {
   enum class Covered { no, partly, wholly };
 
   /// \param least  a distance that the piece is known not to fall below
-  void add(const Side& side, Kind kind, double least = 0) {
+  void add(const Side& side, double least = 0) {
     double apart = std::max(least, distance(c_, side).low);
     // Rounding hides the direction of a short line, and with it the distance from it.
     if (side.sweep == Sweep::less)
       apart = std::max(apart, (length(side.from - c_) - length(side.to - side.from) - just(side.off)).low);
     if (apart >= wanted_) return;
-    open_.push_back({side, kind, apart});
+    open_.push_back({side, apart});
     std::ranges::push_heap(open_, std::greater(), &Piece::apart);
   }
 
   /// Adds what holds all points whose distance from the side is `by`. A point of them whose nearest point is
   /// an end of the side lies behind that end. A point further in than an arc's centre is nearest to an end.
-  void add_parallels(const Side& side, double by, Kind kind) {
+  void add_parallels(const Side& side, double by) {
     if (side.arc) {
-      add(with_radius(side, side.radius + just(by)), kind);
-      if (const Span inner = side.radius - just(by); inner.high >= 0) add(with_radius(side, inner), kind);
+      add(with_radius(side, side.radius + just(by)));
+      if (const Span inner = side.radius - just(by); inner.high >= 0) add(with_radius(side, inner));
       if (side.sweep == Sweep::full) return;
-      add(half_circle(side.centre + side.first * side.radius, -side.first, by), kind);
-      add(half_circle(side.centre + side.last * side.radius, side.last, by), kind);
+      add(half_circle(side.centre + side.first * side.radius, -side.first, by));
+      add(half_circle(side.centre + side.last * side.radius, side.last, by));
       return;
     }
     const Vec along = side.to - side.from;
     const Vec left = unit(Vec{-along.y, along.x});
-    add(side_between(side.from + left * just(by), side.to + left * just(by)), kind);
-    add(side_between(side.from - left * just(by), side.to - left * just(by)), kind);
-    add(half_circle(side.from, left, by), kind);
-    add(half_circle(side.to, -left, by), kind);
+    add(side_between(side.from + left * just(by), side.to + left * just(by)));
+    add(side_between(side.from - left * just(by), side.to - left * just(by)));
+    add(half_circle(side.from, left, by));
+    add(half_circle(side.to, -left, by));
   }
 
   [[nodiscard]] bool may_reach(const Strip& strip, const Vec& p) const {
@@ -173,24 +171,20 @@ class GrownBall {
     const Corners corners = corners_of(piece.side);
     const Vec nearest = nearest_point(piece.side, c_);
     bool here = false;
-    for (std::vector<Strip>* strips : {&grown_, &rims_}) {
-      // A rim ends where it meets another one, and covers nothing else.
-      if (strips == &rims_ && piece.kind != Kind::rim) continue;
-      for (std::size_t k = 0; k < strips->size(); ++k) {
-        if (!may_reach((*strips)[k], nearest)) continue;
-        here = true;
-        if (!reaches((*strips)[k], piece.side, corners)) continue;
-        // The next piece is often covered by the same strip, which is asked first then.
-        std::swap((*strips)[0], (*strips)[k]);
-        return Covered::wholly;
-      }
+    for (Strip& strip : grown_) {
+      if (!may_reach(strip, nearest)) continue;
+      here = true;
+      if (!reaches(strip, piece.side, corners)) continue;
+      // The next piece is often covered by the same strip, which is asked first then.
+      std::swap(grown_.front(), strip);
+      return Covered::wholly;
     }
-    const std::optional<bool> in = piece.kind == Kind::side ? std::nullopt : holds(part_, nearest);
-    // The outline of a rim is only that of the grown part where the rim is taken off material.
-    if (in && *in == (piece.kind == Kind::growth)) {
-      here = here || *in == false || off_rims(nearest);
-      if ((*in == false || off_rims(piece.side)) && distance(piece.side, part_).low > 0)
-        return Covered::wholly;
+    // This covers the outline of what a side grows to alone: no side is apart from the part's outline, and no
+    // outline of a rim is off the rims. What of these is not in the grown part lies behind its outline, which
+    // is nearer.
+    if (holds(part_, nearest) == true) {
+      here = here || off_rims(nearest);
+      if (off_rims(piece.side) && distance(piece.side, part_).low > 0) return Covered::wholly;
     }
     return here ? Covered::partly : Covered::no;
   }
@@ -202,10 +196,10 @@ class GrownBall {
   std::vector<Piece> open_;  ///< a heap, the nearest first
 };
 
-/// A line through (x, y) in the unit direction (dx, dy), or a circle about (x, y): in doubles, because what
-/// is derived from it is looked at again.
+/// A circle about (x, y), or without a radius a line through it in the unit direction (dx, dy): in doubles,
+/// because what is derived from it is looked at again.
 struct Carrier {
-  double x = 0, y = 0, dx = 0, dy = 0, radius = 0;
+  double x = {}, y = {}, radius = {}, dx = {}, dy = {};
 };
 struct Place {
   double x = {}, y = {};
@@ -216,29 +210,28 @@ Place middle_of(const Vec& p) { return {middle_of(p.x), middle_of(p.y)}; }
 /// Returns the lines and circles that bound a rim.
 std::vector<Carrier> bounds_of_rim(const Side& side, double by) {
   const Place from = middle_of(side.from), to = middle_of(side.to);
-  std::vector<Carrier> bounds{{from.x, from.y, 0, 0, by}, {to.x, to.y, 0, 0, by}};
+  std::vector<Carrier> bounds{{from.x, from.y, by}, {to.x, to.y, by}};
   if (side.arc) {
     const Place centre = middle_of(side.centre);
     for (const double radius : {middle_of(side.radius) - by, middle_of(side.radius) + by})
-      if (radius > 0) bounds.push_back({centre.x, centre.y, 0, 0, radius});
+      if (radius > 0) bounds.push_back({centre.x, centre.y, radius});
     return bounds;
   }
   const double length = std::hypot(to.x - from.x, to.y - from.y);
   if (!(length > 0)) return bounds;
   const double dx = (to.x - from.x) / length, dy = (to.y - from.y) / length;
   for (const double side_by : {-by, by})
-    bounds.push_back({from.x - side_by * dy, from.y + side_by * dx, dx, dy, 0});
+    bounds.push_back({from.x - side_by * dy, from.y + side_by * dx, {}, dx, dy});
   return bounds;
 }
 
-/// Returns the point of a line or circle that is nearest to p.
+/// Returns the point of a line or circle that is nearest to p: no number where that is its centre.
 Place foot_on(const Carrier& a, const Place& p) {
   if (a.radius == 0) {
     const double along = (p.x - a.x) * a.dx + (p.y - a.y) * a.dy;
     return {a.x + along * a.dx, a.y + along * a.dy};
   }
   const double far = std::hypot(p.x - a.x, p.y - a.y);
-  if (!(far > 0)) return {a.x + a.radius, a.y};
   return {a.x + a.radius / far * (p.x - a.x), a.y + a.radius / far * (p.y - a.y)};
 }
 
@@ -294,10 +287,11 @@ double off_rims(const Shape& part, const std::vector<double>& growth, const Vec&
     bounds.push_back(bounds_of_rim(part.sides[k], -growth[k] * (1 + kPast) + past));
     for (const Carrier& bound : bounds.back()) try_at(foot_on(bound, at));
   }
-  // The nearest point may lie where two rims meet, both of which are no further from p then.
+  // The nearest point may lie where two rims meet, both of which are no further from p then, or the ends of
+  // one.
   for (std::size_t i = 0; i < rims.size(); ++i) {
     if (distance(p, part.sides[rims[i]]).low + growth[rims[i]] > off) continue;
-    for (std::size_t j = 0; j < i; ++j)
+    for (std::size_t j = 0; j <= i; ++j)
       for (const Carrier& a : bounds[i])
         for (const Carrier& b : bounds[j])
           for (const Place& q : meetings(a, b)) try_at(q);
