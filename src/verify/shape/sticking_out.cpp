@@ -74,9 +74,10 @@ class Search {
     return most;
   }
 
-  void add(const Side& piece, double at_most, int cuts) {
-    if (cuts != 0) {
-      for (const Side& half : halves(piece)) add(half, at_most, cuts - 1);
+  void add(const Side& piece, double at_most) {
+    // Only an arc of less than half a turn has corners.
+    if (piece.sweep != Sweep::less) {
+      for (const Side& half : halves(piece)) add(half, at_most);
       return;
     }
     reached_at(piece.from, piece.off);
@@ -84,9 +85,8 @@ class Search {
   }
 
   void along_the_outline() {
-    // Arcs are cut into eighths of a turn or less.
     for (const Side& side : part_.sides) {
-      add(side, kInfinity, !side.arc ? 0 : side.sweep == Sweep::less ? 2 : 3);
+      add(side, kInfinity);
       if (decided()) return;
     }
     for (std::size_t looked = 0; !open_.empty(); ++looked) {
@@ -94,7 +94,7 @@ class Search {
       const Stretch top = open_.top();
       if (top.high <= goal() || looked == most_pieces_ || decided()) break;
       open_.pop();
-      for (const Side& half : halves(top.piece)) add(half, top.high, 0);
+      for (const Side& half : halves(top.piece)) add(half, top.high);
     }
     high_ = open_.empty() ? kInfinity : std::max(low_, open_.top().high);
   }
@@ -113,11 +113,10 @@ class Search {
     Vec away;
     /// n . (x - y) may be less than n . from by this much.
     double blur = 0;
-    /// The curvature of the distance from y's side.
+    /// The curvature of the distance from y's side, and infinite where that is not known.
     Span curve;
-    bool bounds = false;
   };
-  static void add_nearest(const Side& side, const Vec& centre, double radius, Span out, Span reach,
+  static void add_nearest(const Side& side, const Vec& centre, double radius, Span reach,
                           std::vector<Nearest>& near);
   /// Returns a bound for the distance from the blank where it has a local maximum in the disc, or nothing if
   /// it has none. `out` is the distance of the disc's centre, and nothing above `known` is looked for.
@@ -184,19 +183,18 @@ class Search {
 std::optional<double> Search::maximum_in(const Vec& centre, double radius, Span out, double known) const {
   std::vector<Nearest> near;
   const Span reach = out + just(2 * radius);
-  std::size_t sides = 0;
-  bool bounds_fail = false;
+  std::vector<std::size_t> sides;
   blank_.tree->visit_near(box_of(centre), reach.high, [&](std::size_t k) {
-    const Side& side = blank_.sides[k];
-    if (bounds_fail || distance(centre, side).low > reach.high) return;
-    ++sides;
-    // The bounds below fail near the centre of an arc.
-    bounds_fail = side.arc && !(length(centre - side.centre).low > 2 * radius);
-    if (!bounds_fail) add_nearest(side, centre, radius, out, reach, near);
+    if (!(distance(centre, blank_.sides[k]).low > reach.high)) sides.push_back(k);
   });
-  if (bounds_fail) return kInfinity;
+  for (const std::size_t k : sides) {
+    const Side& side = blank_.sides[k];
+    // The bounds below fail near the centre of an arc.
+    if (side.arc && !(length(centre - side.centre).low > 2 * radius)) return kInfinity;
+    add_nearest(side, centre, radius, reach, near);
+  }
   // The distance from one line has no maximum, and that from one arc has it in the centre.
-  if (sides == 1) return std::nullopt;
+  if (sides.size() == 1) return std::nullopt;
   for (Nearest& one : near) {
     one.apart = length(one.from);
     if (!surely_not_zero(one.from)) return kInfinity;
@@ -216,15 +214,13 @@ std::optional<double> Search::maximum_in(const Vec& centre, double radius, Span 
     if (all) return std::nullopt;
   }
   // Half the sum is no less than half of the two distances, so that pairs are left where those are too far.
-  std::erase_if(near, [](const Nearest& one) { return !one.bounds; });
   const Span r = just(radius);
   double least = known;
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    for (std::size_t j = i; j < near.size(); ++j) {
-      const Nearest &a = near[i], &b = near[j];
-      if (!(0.5 * (a.apart.low + b.apart.low) < least)) break;
+  for (auto a = near.begin(); a != near.end(); ++a) {
+    for (auto b = a; b != near.end(); ++b) {
+      if (!(0.5 * (a->apart.low + b->apart.low) < least)) break;
       const Span sum =
-          a.apart + b.apart + length(a.away + b.away) * r + just(0.5) * (a.curve + b.curve) * r * r;
+          a->apart + b->apart + length(a->away + b->away) * r + just(0.5) * (a->curve + b->curve) * r * r;
       least = std::min(least, (just(0.5) * sum).high);
     }
   }
@@ -232,15 +228,12 @@ std::optional<double> Search::maximum_in(const Vec& centre, double radius, Span 
 }
 
 /// Adds the points of a side that may be nearest to a point of the disc.
-void Search::add_nearest(const Side& side, const Vec& centre, double radius, Span out, Span reach,
+void Search::add_nearest(const Side& side, const Vec& centre, double radius, Span reach,
                          std::vector<Nearest>& near) {
-  // Returns the curvature of a distance from something convex.
-  const auto curve_at = [&](Span apart) {
-    const Span left = apart - just(radius);
-    return left.low > 0 ? just(1) / left : just(kInfinity);
-  };
+  // Returns the curvature of a distance from something convex, which is not known where that is not apart.
+  const auto curve_at = [&](Span apart) { return just(1) / (apart - just(radius)); };
   const auto add = [&](const Vec& from, double blur, Span curve) {
-    near.push_back({from, {}, {}, blur, curve, curve.high < kInfinity});
+    near.push_back({from, {}, {}, blur, curve});
   };
   if (!side.arc) {
     const Vec along = side.to - side.from;
@@ -255,15 +248,14 @@ void Search::add_nearest(const Side& side, const Vec& centre, double radius, Spa
   const Vec w = centre - side.centre;
   const Span far = length(w), apart = absolute(far - side.radius);
   const double factor = (side.radius / (far - just(radius))).high, blur = (1 + factor) * radius;
-  if (!(apart.high + blur < out.low) && !(apart.low - blur > reach.high)) {
-    const bool after = cross(side.first, w).low > radius, before = cross(w, side.last).low > radius;
-    const bool facing =
-        side.sweep == Sweep::full || (side.sweep == Sweep::more ? after || before : after && before);
-    const bool one_side = apart.low > radius;
-    // Inside a circle the distance from it is concave.
-    const Span curve = far.low > side.radius.high ? curve_at(far) : just(0);
-    add(w - unit(w) * side.radius, blur, facing && one_side ? curve : just(kInfinity));
-  }
+  // The disc lies on one side of the circle, and where the arc faces: between the directions of its ends,
+  // or beyond one of them when that is more than half a turn.
+  const double after = cross(side.first, w).low, before = cross(w, side.last).low;
+  const double faced = side.sweep == Sweep::more ? std::max(after, before) : std::min(after, before);
+  const bool beside = apart.low > radius && (side.sweep == Sweep::full || faced > radius);
+  // Inside a circle the distance from it is concave.
+  const Span curve = far.low > side.radius.high ? curve_at(far) : just(0);
+  add(w - unit(w) * side.radius, blur, beside ? curve : just(kInfinity));
   for (const Vec* end : {&side.from, &side.to})
     if (!(length(centre - *end).low - side.off > reach.high))
       add(centre - *end, radius + side.off, curve_at(length(centre - *end)));
