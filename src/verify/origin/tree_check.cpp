@@ -15,6 +15,7 @@
 #include "near.hpp"
 #include "tree_value.hpp"
 #include "verify/number/span.hpp"
+#include "verify/shape/contour_tree.hpp"
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
 #include "verify/shape/stretch.hpp"
@@ -266,7 +267,7 @@ class Walk {
   };
   /// Says whether a piece surely does not meet a side. Its ends tell more than the line through it, which is
   /// hardly known far from a short piece.
-  static bool surely_apart(const Stretch& stretch, const Side& side) {
+  static bool stays_apart(const Stretch& stretch, const Side& side) {
     const Side& piece = stretch.piece;
     const Corners& corners = stretch.corners;
     bool before = true, behind = true;
@@ -336,13 +337,12 @@ class Walk {
       const Side& side = primitives_[k].shape.sides[i];
       if (is_away(member, side, middle, room)) return;
       work_ += 3;
-      const bool meets_left = !surely_apart(left, side);
+      const bool meets_left = !stays_apart(left, side);
       given_up = apart && meets_left;
       if (given_up) return;
-      near_.push_back({k, meets_left, !surely_apart(right, side)});
-      const bool meets = meets_left || near_.back().meets_right;
-      given_up = apart && meets;
-      if (!meets && !is_away(member, side, middle, reach_) && farthest(piece, corners, side) <= reach_)
+      near_.push_back({k, meets_left, !stays_apart(right, side)});
+      given_up = apart && near_.back().meets_right;
+      if (!is_away(member, side, middle, reach_) && farthest(piece, corners, side) <= reach_)
         known.along.push_back({k, i});
     };
     double limit = 2 * aside;
@@ -353,10 +353,7 @@ class Walk {
     for (std::size_t u = part_.undecided_begin; u < part_.undecided_end && !given_up; ++u)
       look_at(ground_.half_planes[undecided_[u]]);
     if (given_up) return known;
-    const auto may_hold = [&](const Box& box) {
-      return !(at_left.x.high < box.low_x || at_left.x.low > box.high_x || at_left.y.high < box.low_y ||
-               at_left.y.low > box.high_y);
-    };
+    const auto may_hold = [place = box_of(at_left)](const Box& box) { return !surely_apart(box, place); };
     const auto look_within = [&](std::size_t k) {
       ++work_;
       value_.set(k, in_primitive(primitives_[k], at_left));
