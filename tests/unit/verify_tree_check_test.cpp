@@ -132,6 +132,13 @@ TEST(VerifyTreeCheck, ASideIsCutWhereEdgesMeetIt) {
             "its material about (3, 0) is not that of the tree");
 }
 
+/// The stretches beside the place where they touch are told from the circle by their ends, because the line
+/// through them is hardly known at its centre.
+TEST(VerifyTreeCheck, ACircleMayTouchALine) {
+  EXPECT_EQ(told(less({rectangle(-10, -8, 10, -3), disc(0, 0, 3)}), box(-10, -8, 10, -3), "", 1e-8),
+            " 0.0 | 0.1 | 0.2 | 0.3");
+}
+
 TEST(VerifyTreeCheck, MaterialOnTheWrongHandIsToldByTheFirstEdgeThatHasIt) {
   const auto about = [](const char* place) {
     return fmt::format("its material about {} is not that of the tree", place);
@@ -150,6 +157,9 @@ TEST(VerifyTreeCheck, MaterialOnTheWrongHandIsToldByTheFirstEdgeThatHasIt) {
   EXPECT_EQ(told(unite({kSquare, disc(10, 8, 1)}), kSquareBox), about("(10, 0)"));
   EXPECT_EQ(told(intersect({kSquare, half_plane(6, 0, 6, 10), half_plane(0, -0.5, 10, -0.5)}), kSquareBox),
             about("(0, 0)"));
+  // The end of an edge in a half-plane does not tell of all of it.
+  EXPECT_EQ(told(intersect({kSquare, half_plane(4, 20, 4, 0)}), kSquareBox), about("(0, 0)"));
+  EXPECT_EQ(told(intersect({kSquare, half_plane(4, 0, 4, 20)}), kSquareBox), about("(0, 0)"));
   EXPECT_EQ(told(unite({disc(0, 0, 5), rectangle(-5, 5, 5, 7)}), box(-5, 5, 5, 7)), about("(-5, 5)"));
 }
 
@@ -161,6 +171,11 @@ TEST(VerifyTreeCheck, WhatTheRegionLacksIsToldByTheFirstSideOfIt) {
                             half_plane(26, 0, 26, 20)}),
                  kSquareBox),
             "it lacks the outline of the tree about (20, 5)");
+  // What is behind the half-plane is looked at later, and changes nothing.
+  EXPECT_EQ(told(intersect({unite({rectangle(40, 0, 50, 10), rectangle(20, 0, 30, 10)}),
+                            half_plane(24, 20, 24, 0)}),
+                 box(40, 0, 50, 10)),
+            "it lacks the outline of the tree about (20, 0)");
   EXPECT_EQ(told(unite({kSquare, disc(20, 5, 1)}), kSquareBox).substr(0, 32),
             "it lacks the outline of the tree");
   EXPECT_EQ(told(less({disc(0, 0, 5), disc(0, 0, 3)}), circle(0, 0, 5)).substr(0, 32),
@@ -170,9 +185,13 @@ TEST(VerifyTreeCheck, WhatTheRegionLacksIsToldByTheFirstSideOfIt) {
 TEST(VerifyTreeCheck, AnOutlineOffItsSideIsOpenAndFarOffIsNone) {
   const auto off = [](double by) { return told(kSquare, box(0, 0, 10 + by, 10), "", 0.001).substr(0, 24); };
   EXPECT_EQ(off(0.0009), " 0.0 | 0.1 | 0.2 | 0.3");
+  EXPECT_EQ(off(0.0015), "open: its outline about ");
   EXPECT_EQ(off(0.005), "open: its outline about ");
   EXPECT_EQ(off(0.007), "open: its outline about ");
   EXPECT_EQ(off(0.009), "its outline at (10.00899");
+  // The first of two is told.
+  EXPECT_EQ(told(kSquare, box(0, 0, 10.005, 10.005), "", 0.001).substr(0, 31),
+            "open: its outline about (10.004");
 }
 
 TEST(VerifyTreeCheck, AnOutlineBesideAnotherAtTheDistanceThatIsAskedAboutIsNone) {

@@ -507,8 +507,7 @@ class TreeCheck {
         [&](std::size_t e, const Finding& found) {
           // A line that joins an arc to its end may be too short to run along anything.
           if (edges[e].written) {
-            if (found.along.empty() && verdict_.open.empty())
-              verdict_.open = found.open.empty() ? found.alone : found.open;
+            if (verdict_.open.empty()) verdict_.open = found.open.empty() ? found.alone : found.open;
             verdict_.along.push_back(found.along);
           }
           for (const SideOfTree& one : found.along) {
