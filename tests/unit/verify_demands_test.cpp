@@ -246,6 +246,32 @@ TEST(VerifyDemands, RimsThatAreFinishedMayStickOutAndNothingElse) {
   EXPECT_EQ(placement(finished(4.1), square(-3, 103), 1), "");
   EXPECT_EQ(placement(finished(4.1), square(3, 97), 1), "");
   EXPECT_NE(placement(finished(3.9), square(3, 97), 1), "");
+  // Edges of the blank that begin and end far outside the part run 3 mm into it beside edge 1.
+  const std::string dented =
+      R"({"outer": [{"line": {"from": [0, 0], "to": [100, 0]}}, {"line": {"from": [100, 0], "to": [100, 10]}},
+       {"line": {"from": [100, 10], "to": [95, 50]}}, {"line": {"from": [95, 50], "to": [100, 90]}},
+       {"line": {"from": [100, 90], "to": [100, 100]}}, {"line": {"from": [100, 100], "to": [0, 100]}},
+       {"line": {"from": [0, 100], "to": [0, 0]}}]})";
+  Tree right = demands();
+  right["features"].push_back(feature("[1]", R"({"finished": 3.5})"));
+  EXPECT_EQ(placement(right, rectangle(10, 20, 98, 80), 0, dented), "");
+  right["features"] = Tree::parse("[]");
+  right["features"].push_back(feature("[1]", R"({"finished": 2.5})"));
+  EXPECT_EQ(placement(right, rectangle(10, 20, 98, 80), 0, dented),
+            "the outline of the blank runs through the part's material beside its finished features\n");
+  // A corner of the part sticks out of a blank whose edge there begins and ends beside the part.
+  const std::string chamfered =
+      R"({"outer": [{"line": {"from": [0, 19], "to": [89, 19]}}, {"line": {"from": [89, 19], "to": [99, 29]}},
+       {"line": {"from": [99, 29], "to": [99, 100]}}, {"line": {"from": [99, 100], "to": [0, 100]}},
+       {"line": {"from": [0, 100], "to": [0, 19]}}]})";
+  const auto corner = [&](const char* within) {
+    Tree one = demands();
+    one["features"].push_back(feature("[0, 1]", within));
+    return placement(one, rectangle(10, 20, 98, 80), 0, chamfered);
+  };
+  EXPECT_EQ(corner(R"({"finished": 4.5})"), "");
+  EXPECT_EQ(corner(R"({"finished": 3.5})"),
+            "the outline of the blank runs through the part's material beside its finished features\n");
   // One edge is not finished, and has its minimum.
   Tree three = finished(5);
   three.at("/features/0/edges").erase(3);
@@ -439,18 +465,20 @@ TEST(VerifyDemands, ACornerSticksOutBetweenEdgesWithTheirMiddleInside) {
 
 /// A part of 2 by 40 whose right edge demands 20, and a hole or a notch of the blank beside its upper end.
 TEST(VerifyDemands, WhatIsDemandedIsLookedAtInSquares) {
-  const auto beside = [](double radius, double margin) {
+  const auto beside = [](double radius, double margin, double x = 0) {
     const std::string hole = fmt::format(
-        R"({{"outer": [{{"line": {{"from": [0, 0], "to": [200, 0]}}}}, {{"line": {{"from": [200, 0], "to": [200, 300]}}}},
-        {{"line": {{"from": [200, 300], "to": [0, 300]}}}}, {{"line": {{"from": [0, 300], "to": [0, 0]}}}}],
-        "holes": [[{{"arc": {{"from": [{}, 205], "to": [{}, 205], "centre": [115, 205], "ccw": false}}}}]]}})",
-        115 + radius, 115 + radius);
+        R"({{"outer": [{{"line": {{"from": [{0}, 0], "to": [{1}, 0]}}}}, {{"line": {{"from": [{1}, 0], "to": [{1}, 300]}}}},
+        {{"line": {{"from": [{1}, 300], "to": [{0}, 300]}}}}, {{"line": {{"from": [{0}, 300], "to": [{0}, 0]}}}}],
+        "holes": [[{{"arc": {{"from": [{2}, 205], "to": [{2}, 205], "centre": [{3}, 205], "ccw": false}}}}]]}})",
+        x, x + 200, x + 115 + radius, x + 115);
     Tree one = lacking(0, margin);
     one["features"].push_back(feature("[1]", R"({"minimum": 30})"));
-    return missing(one, rectangle(98, 50, 100, 210), 0, hole);
+    return missing(one, rectangle(x + 98, 50, x + 100, 210), 0, hole);
   };
   EXPECT_EQ(beside(6, -12), "shown");
   EXPECT_EQ(beside(9, -4), "open");
+  EXPECT_EQ(beside(6, -12, 1000), "shown");
+  EXPECT_EQ(beside(9, -4, 1000), "open");
 }
 
 // ---- the criteria -----------------------------------------------------------------------------------------

@@ -189,6 +189,9 @@ TEST(VerifyTreeCheck, AnOutlineOffItsSideIsOpenAndFarOffIsNone) {
   EXPECT_EQ(off(0.005), "open: its outline about ");
   EXPECT_EQ(off(0.007), "open: its outline about ");
   EXPECT_EQ(off(0.009), "its outline at (10.00899");
+  // An edge may leave its side on the way.
+  EXPECT_EQ(told(kSquare, polygon({{0, 0}, {10, 0}, {10.0015, 10}, {0, 10}}), "", 0.001).substr(0, 29),
+            "open: its outline about (10.0");
   // The first of two is told.
   EXPECT_EQ(told(kSquare, box(0, 0, 10.005, 10.005), "", 0.001).substr(0, 31),
             "open: its outline about (10.004");
