@@ -11,7 +11,7 @@
 #include "support/json.hpp"
 #include "support/places.hpp"
 
-/// What the verdict on a result with demands rests on.
+/// The verdict on a result with demands rests on its certificates, its status, and on all that is rechecked.
 namespace lekalo::verify::verify_pose_check_test {
 namespace {
 
@@ -71,7 +71,7 @@ TEST(VerifyPoseCheck, AStatusFollowsFromTheBoundOfTheMargin) {
             "than 0.05");
   const std::string optimal = "status is optimal, but margin_bound is below 0";
   for (const auto& [bound, is] : {std::pair{-1e-9, true}, {0.0, false}, {0.5, false}})
-    EXPECT_EQ(largest([&, bound = bound](Json& r) { r["demands"]["margin_bound"] = bound; }).find(optimal) !=
+    EXPECT_EQ(largest([to = bound](Json& r) { r["demands"]["margin_bound"] = to; }).find(optimal) !=
                   std::string::npos,
               is)
         << bound;

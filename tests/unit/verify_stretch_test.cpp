@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-/// How arcs are cut that are hardly longer than their rounding.
+/// Arcs that are hardly longer than their rounding are cut, too.
 namespace lekalo::verify::verify_stretch_test {
 namespace {
 

@@ -13,8 +13,7 @@
 #include "verify/origin/tree.hpp"
 #include "verify/read/json.hpp"
 
-/// How the outline of a region is held against a tree: along which sides it runs, and the sentence where it
-/// does not.
+/// The outline of a region is held against a tree: it runs along sides of primitives, or there is a sentence.
 namespace lekalo::verify::verify_tree_check_test {
 namespace {
 
@@ -25,7 +24,7 @@ std::string rectangle(double x0, double y0, double x1, double y1) {
 std::string disc(double x, double y, double radius) {
   return fmt::format(R"({{"circle": {{"centre": [{}, {}], "radius": {}}}}})", x, y, radius);
 }
-/// What lies to the left of a line.
+/// The half-plane is to the left of the line.
 std::string half_plane(double x0, double y0, double x1, double y1) {
   return fmt::format(R"({{"half_plane": {{"from": [{}, {}], "to": [{}, {}]}}}})", x0, y0, x1, y1);
 }
@@ -143,10 +142,10 @@ TEST(VerifyTreeCheck, MaterialOnTheWrongHandIsToldByTheFirstEdgeThatHasIt) {
   const auto about = [](const char* place) {
     return fmt::format("its material about {} is not that of the tree", place);
   };
-  // Outside the edge at 10, beside its first or its second half.
+  // It is outside the edge at 10, beside its first or its second half.
   EXPECT_EQ(told(unite({kSquare, rectangle(10, 0, 15, 5)}), kSquareBox), about("(10, 0)"));
   EXPECT_EQ(told(unite({kSquare, rectangle(10, 5, 15, 10)}), kSquareBox), about("(10, 0)"));
-  // Within it.
+  // It is missing within that edge.
   EXPECT_EQ(told(less({kSquare, rectangle(5, 0, 10, 5)}), kSquareBox), about("(0, 0)"));
   EXPECT_EQ(told(less({kSquare, rectangle(5, 5, 10, 10)}), kSquareBox), about("(10, 0)"));
   EXPECT_EQ(told(less({unite({kSquare, rectangle(10, 0, 15, 10)}), rectangle(5, 0, 10, 10)}), kSquareBox),
@@ -171,7 +170,7 @@ TEST(VerifyTreeCheck, WhatTheRegionLacksIsToldByTheFirstSideOfIt) {
                             half_plane(26, 0, 26, 20)}),
                  kSquareBox),
             "it lacks the outline of the tree about (20, 5)");
-  // What is behind the half-plane is looked at later, and changes nothing.
+  // The stretch behind the half-plane is looked at later, and changes nothing.
   EXPECT_EQ(told(intersect({unite({rectangle(40, 0, 50, 10), rectangle(20, 0, 30, 10)}),
                             half_plane(24, 20, 24, 0)}),
                  box(40, 0, 50, 10)),
