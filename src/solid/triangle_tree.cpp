@@ -6,16 +6,14 @@
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/solid/predicates.hpp"
+#include "triangle.hpp"
 
 namespace lekalo::solid {
 namespace {
 
-constexpr std::uint32_t kLeaf = 4;
 /// Positions, differences, and products of two with a unit vector are rounded some twenty times on the way to
 /// a distance, each time by 2^-53 of the largest coordinate at most.
 constexpr double kRounding = 0x1p-48;
-
-double largest_coordinate(Vector p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
 /// The square of the distance from p to a box, within a few roundings of itself.
 double squared_gap(const Box& box, Vector p) {
@@ -25,47 +23,9 @@ double squared_gap(const Box& box, Vector p) {
   return x * x + y * y + z * z;
 }
 
-/// The point of a triangle that is nearest to p, in so far as rounding lets it be found: of a thin triangle
-/// it may be another point of it. Source: the Voronoi regions of a triangle, Ericson 2005, section 5.1.5; the
-/// code is our own.
-Vector nearest_point(const std::array<Vector, 3>& t, Vector p) {
-  const Vector ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0];
-  const double ab_ap = dot(ab, ap), ac_ap = dot(ac, ap);
-  if (ab_ap <= 0 && ac_ap <= 0) return t[0];
-  const Vector bp = p - t[1];
-  const double ab_bp = dot(ab, bp), ac_bp = dot(ac, bp);
-  if (ab_bp >= 0 && ac_bp <= ab_bp) return t[1];
-  const Vector cp = p - t[2];
-  const double ab_cp = dot(ab, cp), ac_cp = dot(ac, cp);
-  if (ac_cp >= 0 && ab_cp <= ac_cp) return t[2];
-  const double beside_ab = ab_ap * ac_bp - ab_bp * ac_ap;
-  if (beside_ab <= 0 && ab_ap >= 0 && ab_bp <= 0) return t[0] + ab_ap / (ab_ap - ab_bp) * ab;
-  const double beside_ac = ab_cp * ac_ap - ab_ap * ac_cp;
-  if (beside_ac <= 0 && ac_ap >= 0 && ac_cp <= 0) return t[0] + ac_ap / (ac_ap - ac_cp) * ac;
-  const double beside_bc = ab_bp * ac_cp - ab_cp * ac_bp, towards_c = ac_bp - ab_bp,
-               towards_b = ab_cp - ac_cp;
-  if (beside_bc <= 0 && towards_c >= 0 && towards_b >= 0)
-    return t[1] + towards_c / (towards_c + towards_b) * (t[2] - t[1]);
-  const double whole = beside_ab + beside_ac + beside_bc;
-  return t[0] + beside_ac / whole * ab + beside_ab / whole * ac;
-}
-
-/// The point of its edges that is nearest to p, which no thinness disturbs.
-Vector nearest_on_edges(const std::array<Vector, 3>& t, Vector p) {
-  Vector nearest = t[0];
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector from = t[k], along = t[(k + 1) % 3] - from;
-    const double square = dot(along, along);
-    const double share = square > 0 ? std::clamp(dot(along, p - from) / square, 0.0, 1.0) : 0;
-    const Vector q = from + share * along;
-    if (dot(p - q, p - q) < dot(p - nearest, p - nearest)) nearest = q;
-  }
-  return nearest;
-}
-
 /// No point of the triangle is nearer to p than this, whatever point q of it is: all lie behind the plane
 /// across the way from p to q through the foremost corner.
-double least_distance(const std::array<Vector, 3>& t, Vector p, Vector q) {
+double least_distance(const Corners& t, Vector p, Vector q) {
   const Vector way = p - q;
   const double length = norm(way);
   if (!(length > 0)) return 0;
@@ -77,7 +37,7 @@ struct Found {
   Vector place;
   double squared, low;
 };
-Found find(const std::array<Vector, 3>& t, Vector p, double rounding) {
+Found find(const Corners& t, Vector p, double rounding) {
   const auto found = [&](Vector q) { return Found{q, dot(p - q, p - q), least_distance(t, p, q)}; };
   const Found first = found(nearest_point(t, p));
   if (first.low >= std::sqrt(first.squared) - rounding) return first;
@@ -90,7 +50,7 @@ Found find(const std::array<Vector, 3>& t, Vector p, double rounding) {
 geom::Point from_above(Vector p) { return {p.x, p.y}; }
 
 /// Says if the triangle, seen from above, covers p moved a little along y and by far less along x.
-bool covers(const std::array<Vector, 3>& t, Vector p) {
+bool covers(const Corners& t, Vector p) {
   bool inside = false;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector &from = t[k], &to = t[(k + 1) % 3];
@@ -112,7 +72,7 @@ bool is_above(const std::array<Vector, 3>& t, Vector p) {
 
 }  // namespace
 
-TriangleTree::TriangleTree(const Mesh& mesh) {
+TriangleTree::TriangleTree(const Mesh& mesh, std::uint32_t leaf) {
   std::vector<Corners> all;
   all.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles)
@@ -121,7 +81,7 @@ TriangleTree::TriangleTree(const Mesh& mesh) {
   for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
   if (all.empty()) return;
   nodes_.reserve(all.size());
-  build(0, static_cast<std::uint32_t>(all.size()), all);
+  build(0, static_cast<std::uint32_t>(all.size()), leaf, all);
   box_ = nodes_[0].box;
   largest_ = std::max(largest_coordinate(box_.low), largest_coordinate(box_.high));
   corners_.reserve(all.size());
@@ -132,7 +92,8 @@ TriangleTree::TriangleTree(const Mesh& mesh) {
   }
 }
 
-std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end, const std::vector<Corners>& all) {
+std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end, std::uint32_t leaf,
+                                  const std::vector<Corners>& all) {
   ask(end - begin);
   const auto at = static_cast<std::uint32_t>(nodes_.size());
   Box box, middles;
@@ -142,7 +103,7 @@ std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end, const 
     middles.hold(middle(order_[k]));
   }
   nodes_.push_back({box, begin, end, 0});
-  if (end - begin <= kLeaf) return at;
+  if (end - begin <= leaf) return at;
   const Vector spread = middles.high - middles.low;
   const double Vector::*const axis = spread.x >= spread.y && spread.x >= spread.z ? &Vector::x
                                      : spread.y >= spread.z                       ? &Vector::y
@@ -152,8 +113,8 @@ std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end, const 
                    [&](std::uint32_t a, std::uint32_t b) {
                      return std::pair(middle(a).*axis, a) < std::pair(middle(b).*axis, b);
                    });
-  build(begin, half, all);
-  const std::uint32_t right = build(half, end, all);
+  build(begin, half, leaf, all);
+  const std::uint32_t right = build(half, end, leaf, all);
   nodes_[at].right = right;
   return at;
 }

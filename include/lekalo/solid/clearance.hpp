@@ -6,18 +6,9 @@
 #include <vector>
 
 #include "lekalo/solid/distance_field.hpp"
+#include "lekalo/solid/motion.hpp"
 
 namespace lekalo::solid {
-
-/// A rigid motion as doubles: p goes to `rotation` p + `shift`. The rows of the rotation may be off by
-/// rounding.
-struct Motion {
-  std::array<Vector, 3> rotation{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  Vector shift;
-  [[nodiscard]] Vector operator()(Vector p) const noexcept {
-    return Vector{dot(rotation[0], p), dot(rotation[1], p), dot(rotation[2], p)} + shift;
-  }
-};
 
 /// Measured points, sorted so that neighbours are near each other in memory.
 class PointCloud {

@@ -17,11 +17,15 @@ struct Nearest {
   Vector place;  ///< on the triangle, within high - low
 };
 
+/// The corners of a triangle by their places.
+using Corners = std::array<Vector, 3>;
+
 /// A balanced tree over the triangles of a mesh. It asks for distances and for inside and outside; what it
 /// answers does not depend on anything but its arguments. Building: O(n log n); 150 bytes a triangle.
 class TriangleTree {
  public:
-  explicit TriangleTree(const Mesh& mesh);
+  /// \param leaf  the most triangles that a leaf has
+  explicit TriangleTree(const Mesh& mesh, std::uint32_t leaf = 4);
 
   /// The distance from p to the nearest triangle, or none if all are farther away than `most`, mm. A triangle
   /// that is near p, as that of a neighbouring point, makes it quicker. The bounds are within 2^-47 of the
@@ -40,22 +44,31 @@ class TriangleTree {
 
   [[nodiscard]] const Box& box() const noexcept { return box_; }
 
- private:
   struct Node {
     Box box;
     std::uint32_t begin = 0, end = 0;  ///< in leaf order
     /// The right child, 0 in a leaf; the left child is the next node.
     std::uint32_t right = 0;
   };
-  using Corners = std::array<Vector, 3>;
+  /// For whoever walks the tree: its nodes in preorder, and the triangles in leaf order.
+  [[nodiscard]] const std::vector<Node>& nodes() const noexcept { return nodes_; }
+  [[nodiscard]] const Corners& corners(std::uint32_t in_order) const noexcept { return corners_[in_order]; }
+  [[nodiscard]] std::uint32_t triangle(std::uint32_t in_order) const noexcept { return order_[in_order]; }
+  [[nodiscard]] std::uint32_t place_in_order(std::uint32_t triangle) const noexcept {
+    return place_in_order_[triangle];
+  }
+  /// No coordinate of the mesh is larger, mm.
+  [[nodiscard]] double largest() const noexcept { return largest_; }
 
-  std::uint32_t build(std::uint32_t begin, std::uint32_t end, const std::vector<Corners>& all);
+ private:
+  std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::uint32_t leaf,
+                      const std::vector<Corners>& all);
   template <class Visit>
   void descend(std::uint32_t at, const Visit& visit, Vector p) const;
 
-  std::vector<Node> nodes_;  ///< in preorder
+  std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_, place_in_order_;
-  std::vector<Corners> corners_;  ///< in leaf order
+  std::vector<Corners> corners_;
   Box box_;
   double largest_ = 0;
 };

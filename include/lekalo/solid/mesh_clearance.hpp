@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "lekalo/solid/motion.hpp"
+#include "lekalo/solid/triangle_tree.hpp"
+
+namespace lekalo::solid {
+
+/// A triangle of the part and one of the blank, and where they are nearest to each other.
+struct NearPair {
+  std::uint32_t part_triangle = 0, blank_triangle = 0;
+  Vector part, blank;  ///< the two points, both in the blank's frame
+  /// Bounds of their distance less the width of the blank's triangle, mm.
+  double low = 0, high = 0;
+};
+
+/// The allowance of a part in a blank, both closed meshes, at one pose after another: the least distance of
+/// their surfaces, where the part lies inside the blank. A triangle of the blank may have a width, which is
+/// how far the true surface may lie inside it.
+///
+/// What it answers depends on its arguments alone. docs/design/solid.md has the bounds.
+class MeshClearance {
+ public:
+  /// \param widths  of the blank's triangles, mm, >= 0; none of a blank taken as drawn
+  MeshClearance(const Mesh& part, const Mesh& blank, const std::vector<double>& widths = {});
+
+  [[nodiscard]] const TriangleTree& part() const noexcept { return part_; }
+  [[nodiscard]] const TriangleTree& blank() const noexcept { return blank_; }
+
+  /// The nearest pair, or none if all are `most` apart or more; `low` holds for all pairs. It is within 2^-45
+  /// of the largest coordinate of `high` unless a triangle is very thin; where surfaces cross it is not above
+  /// 0. A pair that is near, as that of a neighbouring pose, makes it quicker.
+  [[nodiscard]] std::optional<NearPair> nearest(const Motion& blank_from_part,
+                                                double most = std::numeric_limits<double>::infinity(),
+                                                const NearPair* near = nullptr) const;
+
+  /// The nearest pair of each piece of the part that has one less than `most` apart. The pieces are some tens
+  /// of patches of like size, in one order.
+  void nearest_by_piece(const Motion& blank_from_part, double most, std::vector<NearPair>& found) const;
+
+  /// Says if the part lies inside the blank where their surfaces are apart: a point of each surface of the
+  /// part is in the blank, and a point of each of the blank is not in the part. Where they cross it may say
+  /// either.
+  [[nodiscard]] bool inside(const Motion& blank_from_part) const;
+
+ private:
+  struct Walk;
+
+  TriangleTree part_, blank_;
+  /// Of the blank's triangles in leaf order, and the widest of each of its nodes; both empty without widths.
+  std::vector<double> width_, widest_;
+  /// The roots of the pieces.
+  std::vector<std::uint32_t> pieces_;
+  /// A vertex of each surface that hangs together.
+  std::vector<Vector> of_part_, of_blank_;
+};
+
+/// A vertex of each piece of the surface that hangs together by its vertices.
+[[nodiscard]] std::vector<Vector> surface_points(const Mesh& mesh);
+
+}  // namespace lekalo::solid

@@ -1,0 +1,209 @@
+#include "lekalo/solid/mesh_clearance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lekalo/base/disjoint_sets.hpp"
+#include "lekalo/base/stop.hpp"
+#include "triangle_pair.hpp"
+
+namespace lekalo::solid {
+namespace {
+
+/// What moving a point, differences and products with a unit vector are off, some forty roundings of 2^-53 of
+/// the coordinates.
+constexpr double kRounding = 0x1p-47;
+/// The part is cut into this many pieces, if it has as many triangles.
+constexpr std::size_t kPieces = 64;
+
+Vector absolute(Vector p) { return {std::abs(p.x), std::abs(p.y), std::abs(p.z)}; }
+
+/// A box along the axes by its middle and half widths.
+struct MiddleBox {
+  Vector middle, half;
+};
+
+MiddleBox moved(const Motion& motion, const Box& box) {
+  const Vector half = 0.5 * (box.high - box.low);
+  const auto& r = motion.rotation;
+  return {motion(0.5 * (box.low + box.high)),
+          {dot(absolute(r[0]), half), dot(absolute(r[1]), half), dot(absolute(r[2]), half)}};
+}
+
+double squared_gap(const MiddleBox& a, const Box& b) {
+  const double x = std::max({0.0, b.low.x - a.middle.x - a.half.x, a.middle.x - a.half.x - b.high.x});
+  const double y = std::max({0.0, b.low.y - a.middle.y - a.half.y, a.middle.y - a.half.y - b.high.y});
+  const double z = std::max({0.0, b.low.z - a.middle.z - a.half.z, a.middle.z - a.half.z - b.high.z});
+  return x * x + y * y + z * z;
+}
+
+double size(Vector half) { return half.x + half.y + half.z; }
+
+/// The tree's nodes whose triangles are some `count` patches: the largest one is cut until there are as many.
+std::vector<std::uint32_t> cut_in_pieces(const TriangleTree& tree, std::size_t count) {
+  const auto& nodes = tree.nodes();
+  const auto width = [&](std::uint32_t at) { return size(nodes[at].box.high - nodes[at].box.low); };
+  std::vector<std::uint32_t> pieces;
+  if (!nodes.empty()) pieces.push_back(0);
+  while (pieces.size() < count) {
+    std::size_t largest = pieces.size();
+    for (std::size_t k = 0; k < pieces.size(); ++k)
+      if (nodes[pieces[k]].right != 0 &&
+          (largest == pieces.size() || width(pieces[k]) > width(pieces[largest])))
+        largest = k;
+    if (largest == pieces.size()) break;
+    const std::uint32_t at = pieces[largest];
+    pieces[largest] = at + 1;
+    pieces.push_back(nodes[at].right);
+  }
+  std::sort(pieces.begin(), pieces.end());
+  return pieces;
+}
+
+}  // namespace
+
+std::vector<Vector> surface_points(const Mesh& mesh) {
+  DisjointSets sets(mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles) sets.join(t[0], t[1]), sets.join(t[0], t[2]);
+  std::vector<Vector> points;
+  std::vector<bool> used(mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles) {
+    const std::uint32_t of = sets.of(t[0]);
+    if (!used[of]) points.push_back(mesh.vertices[of]);
+    used[of] = true;
+  }
+  return points;
+}
+
+MeshClearance::MeshClearance(const Mesh& part, const Mesh& blank, const std::vector<double>& widths)
+    : part_(part, 1),
+      blank_(blank, 1),
+      pieces_(cut_in_pieces(part_, kPieces)),
+      of_part_(surface_points(part)),
+      of_blank_(surface_points(blank)) {
+  if (widths.empty()) return;
+  for (std::uint32_t k = 0; k < widths.size(); ++k) width_.push_back(widths[blank_.triangle(k)]);
+  const auto& nodes = blank_.nodes();
+  widest_.resize(nodes.size());
+  for (std::size_t at = nodes.size(); at-- > 0;)
+    widest_[at] =
+        nodes[at].right == 0 ? width_[nodes[at].begin] : std::max(widest_[at + 1], widest_[nodes[at].right]);
+}
+
+/// Walks both trees at one pose.
+struct MeshClearance::Walk {
+  Walk(const MeshClearance& from, const Motion& pose) : meter(from), motion(pose) {
+    const double far = std::sqrt(3.0) * meter.part_.largest() + largest_coordinate(motion.shift);
+    rounding = kRounding * (far + meter.blank_.largest());
+  }
+
+  void start(double most) {
+    limit = most;
+    best.low = best.high = std::numeric_limits<double>::infinity();
+    found = false;
+  }
+
+  void look(std::uint32_t of_part, std::uint32_t of_blank) {
+    const Corners& t = meter.part_.corners(of_part);
+    const PairFound here =
+        nearest_points({motion(t[0]), motion(t[1]), motion(t[2])}, meter.blank_.corners(of_blank));
+    const double width = meter.width_.empty() ? 0 : meter.width_[of_blank];
+    const double distance = std::sqrt(here.squared);
+    best.low = std::min(best.low, std::min(here.low, distance) - width);
+    if (!(distance - width < limit)) return;
+    limit = best.high = distance - width;
+    best.part_triangle = meter.part_.triangle(of_part);
+    best.blank_triangle = meter.blank_.triangle(of_blank);
+    best.part = here.a, best.blank = here.b;
+    found = true;
+  }
+
+  /// Says if two boxes are so far apart that no pair in them is nearer than what is known.
+  [[nodiscard]] bool apart(double gap, std::uint32_t of_blank) const {
+    const double most = limit + rounding + (meter.widest_.empty() ? 0 : meter.widest_[of_blank]);
+    return !(most > 0) || gap >= most * most;
+  }
+
+  void walk(std::uint32_t of_part, std::uint32_t of_blank) {
+    struct Open {
+      double gap;
+      std::uint32_t part, blank;
+    };
+    // Each step leaves one pair behind and takes one, so there are as many as both trees are high.
+    std::array<Open, 128> stack;
+    std::size_t count = 0;
+    const auto& of_parts = meter.part_.nodes();
+    const auto& of_blanks = meter.blank_.nodes();
+    const auto gap = [&](std::uint32_t p, std::uint32_t b) {
+      return squared_gap(moved(motion, of_parts[p].box), of_blanks[b].box);
+    };
+    stack[count++] = {gap(of_part, of_blank), of_part, of_blank};
+    while (count > 0) {
+      const Open open = stack[--count];
+      if (apart(open.gap, open.blank)) continue;
+      ask();
+      const TriangleTree::Node &p = of_parts[open.part], &b = of_blanks[open.blank];
+      if (p.right == 0 && b.right == 0) {
+        look(p.begin, b.begin);
+        continue;
+      }
+      const bool cut_part =
+          b.right == 0 || (p.right != 0 && size(p.box.high - p.box.low) > size(b.box.high - b.box.low));
+      Open one = open, other = open;
+      if (cut_part) {
+        one.part = open.part + 1, other.part = p.right;
+      } else {
+        one.blank = open.blank + 1, other.blank = b.right;
+      }
+      one.gap = gap(one.part, one.blank), other.gap = gap(other.part, other.blank);
+      if (other.gap < one.gap) std::swap(one, other);
+      if (!apart(other.gap, other.blank)) stack[count++] = other;
+      if (!apart(one.gap, one.blank)) stack[count++] = one;
+    }
+  }
+
+  [[nodiscard]] NearPair pair() const {
+    NearPair pair = best;
+    // The pairs that were passed over are farther apart than the nearest, but for the rounding of the boxes.
+    pair.low = std::min(best.low, best.high) - rounding;
+    pair.high = best.high + rounding;
+    return pair;
+  }
+
+  const MeshClearance& meter;
+  const Motion& motion;
+  double rounding, limit = 0;
+  NearPair best;
+  bool found = false;
+};
+
+std::optional<NearPair> MeshClearance::nearest(const Motion& blank_from_part, double most,
+                                               const NearPair* near) const {
+  Walk walk(*this, blank_from_part);
+  walk.start(most);
+  if (near != nullptr)
+    walk.look(part_.place_in_order(near->part_triangle), blank_.place_in_order(near->blank_triangle));
+  if (!part_.nodes().empty() && !blank_.nodes().empty()) walk.walk(0, 0);
+  if (!walk.found) return std::nullopt;
+  return walk.pair();
+}
+
+void MeshClearance::nearest_by_piece(const Motion& blank_from_part, double most,
+                                     std::vector<NearPair>& found) const {
+  found.clear();
+  Walk walk(*this, blank_from_part);
+  for (const std::uint32_t piece : pieces_) {
+    walk.start(most);
+    walk.walk(piece, 0);
+    if (walk.found) found.push_back(walk.pair());
+  }
+}
+
+bool MeshClearance::inside(const Motion& blank_from_part) const {
+  return std::all_of(of_part_.begin(), of_part_.end(),
+                     [&](Vector p) { return blank_.holds(blank_from_part(p)); }) &&
+         std::none_of(of_blank_.begin(), of_blank_.end(),
+                      [&](Vector q) { return part_.holds(blank_from_part.back(q)); });
+}
+
+}  // namespace lekalo::solid

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "triangle.hpp"
+
+namespace lekalo::solid {
+
+/// A point of each of two triangles that are nearest to each other, in so far as rounding lets them be found,
+/// and a bound below which the triangles are not near.
+struct PairFound {
+  Vector a, b;
+  double squared = 0;
+  double low = 0;  ///< negative where nothing was found that separates them
+};
+[[nodiscard]] PairFound nearest_points(const Corners& a, const Corners& b) noexcept;
+
+}  // namespace lekalo::solid
