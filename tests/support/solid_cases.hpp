@@ -135,18 +135,21 @@ inline solid::Mesh block_with_holes(solid::Vector low, solid::Vector high, const
       const double z = top ? high.z : low.z;
       for (std::uint32_t k = 0; k < around; ++k) {
         const double t = static_cast<double>(k % per_side) / per_side;
+        // Where the halves meet, both have the same points.
+        const double along =
+            std::lerp(low.y, high.y, static_cast<double>(per_side - k % per_side) / per_side);
         switch (k / per_side) {
           case 0:
-            mesh.vertices.push_back({from + t * (to - from), low.y, z});
+            mesh.vertices.push_back({std::lerp(from, to, t), low.y, z});
             break;
           case 1:
-            mesh.vertices.push_back({to, low.y + t * (high.y - low.y), z});
+            mesh.vertices.push_back({to, std::lerp(low.y, high.y, t), z});
             break;
           case 2:
-            mesh.vertices.push_back({to + t * (from - to), high.y, z});
+            mesh.vertices.push_back({std::lerp(to, from, t), high.y, z});
             break;
           default:
-            mesh.vertices.push_back({from, high.y + t * (low.y - high.y), z});
+            mesh.vertices.push_back({from, along, z});
             break;
         }
       }
@@ -171,7 +174,7 @@ inline solid::Mesh block_with_holes(solid::Vector low, solid::Vector high, const
     strip(2, 3, false);
     strip(3, 1, false);
   }
-  return mesh;
+  return closed_mesh(std::move(mesh)).value().mesh;
 }
 
 inline SolidCase cored_block(Random& random, std::uint32_t per_side = 6) {
