@@ -139,6 +139,11 @@ struct MeshClearance::Walk {
     };
     stack[count++] = {gap(of_part, of_blank), of_part, of_blank};
     while (count > 0) {
+      if (limit <= rounding) {
+        // They cross, and no other pair is needed to know that.
+        best.low = std::min(best.low, meter.widest_.empty() ? 0.0 : -meter.widest_[0]);
+        return;
+      }
       const Open open = stack[--count];
       if (apart(open.gap, open.blank)) continue;
       ask();
@@ -185,6 +190,14 @@ std::optional<NearPair> MeshClearance::nearest(const Motion& blank_from_part, do
     walk.look(part_.place_in_order(near->part_triangle), blank_.place_in_order(near->blank_triangle));
   if (!part_.nodes().empty() && !blank_.nodes().empty()) walk.walk(0, 0);
   if (!walk.found) return std::nullopt;
+  return walk.pair();
+}
+
+NearPair MeshClearance::pair(const Motion& blank_from_part, std::uint32_t part_triangle,
+                             std::uint32_t blank_triangle) const {
+  Walk walk(*this, blank_from_part);
+  walk.start(std::numeric_limits<double>::infinity());
+  walk.look(part_.place_in_order(part_triangle), blank_.place_in_order(blank_triangle));
   return walk.pair();
 }
 

@@ -49,6 +49,18 @@ inline solid::Motion small_motion(Random& random, double angle, double shift) {
   return motion;
 }
 
+/// A pose that is off another by a small motion.
+inline solid::Motion near(const solid::Motion& there, Random& random, double angle, double shift) {
+  const solid::Motion off = small_motion(random, angle, shift);
+  solid::Motion both;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const solid::Vector row = off.rotation[k];
+    both.rotation[k] = row.x * there.rotation[0] + (row.y * there.rotation[1] + row.z * there.rotation[2]);
+  }
+  both.shift = off(there.shift);
+  return both;
+}
+
 /// A half-space n . p <= most, n a unit vector.
 struct HalfSpace {
   solid::Vector n;

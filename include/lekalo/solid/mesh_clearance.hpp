@@ -25,7 +25,7 @@ struct NearPair {
 /// What it answers depends on its arguments alone. docs/design/solid.md has the bounds.
 class MeshClearance {
  public:
-  /// \param widths  of the blank's triangles, mm, >= 0; none of a blank taken as drawn
+  /// \param widths  of the blank's triangles, mm, >= 0; or none, of a blank taken as drawn
   MeshClearance(const Mesh& part, const Mesh& blank, const std::vector<double>& widths = {});
 
   [[nodiscard]] const TriangleTree& part() const noexcept { return part_; }
@@ -33,12 +33,18 @@ class MeshClearance {
 
   /// The nearest pair, or none if all are `most` apart or more; `low` holds for all pairs. It is within 2^-45
   /// of the largest coordinate of `high` unless a triangle is very thin; where surfaces cross it is not above
-  /// 0. A pair that is near, as that of a neighbouring pose, makes it quicker.
+  /// 0, and the pair is one of those that do. A pair that is near, as that of a neighbouring pose, makes it
+  /// quicker.
   [[nodiscard]] std::optional<NearPair> nearest(const Motion& blank_from_part,
                                                 double most = std::numeric_limits<double>::infinity(),
                                                 const NearPair* near = nullptr) const;
 
-  /// The nearest pair of each piece of the part that has one less than `most` apart. The pieces are some tens
+  /// One pair, as the numbers of its triangles say.
+  [[nodiscard]] NearPair pair(const Motion& blank_from_part, std::uint32_t part_triangle,
+                              std::uint32_t blank_triangle) const;
+
+  /// The nearest pair of each piece of the part that has one less than `most` apart, or some pair of it that
+  /// crosses. The pieces are some tens
   /// of patches of like size, in one order.
   void nearest_by_piece(const Motion& blank_from_part, double most, std::vector<NearPair>& found) const;
 

@@ -5,11 +5,11 @@
 #include <limits>
 #include <vector>
 
-#include "cell_program.hpp"
 #include "distance_grid.hpp"
 #include "lekalo/base/run_control.hpp"
 #include "lekalo/locate/region.hpp"
 #include "lekalo/phi/region.hpp"
+#include "locate/search/cell_program.hpp"
 #include "locate/search/sinusoid.hpp"
 #include "tangent_balls.hpp"
 

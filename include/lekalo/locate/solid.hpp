@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/base/parallel.hpp"
+#include "lekalo/base/run_control.hpp"
+#include "lekalo/locate/placement.hpp"
+#include "lekalo/solid/mesh.hpp"
+#include "lekalo/solid/motion.hpp"
+
+namespace lekalo::locate {
+
+/// Localisation of a solid part in a solid blank, both closed meshes taken as drawn:
+///   maximise the least signed distance of the placed part's material from the blank's surface
+/// over the rigid motions in a window about a start. docs/design/locate-solid.md has the method, its bounds
+/// and what failed.
+
+/// The place of the part: p goes to R p + shift in the blank's frame, where R is the rotation of the
+/// quaternion w + x i + y j + z k, whatever its length.
+struct SolidPose {
+  std::array<double, 4> quaternion{1, 0, 0, 0};  ///< w, x, y, z; not all 0
+  solid::Vector shift;                           ///< mm
+};
+[[nodiscard]] solid::Motion motion_of(const SolidPose& pose) noexcept;
+
+/// What may move: the part's place; also its turn about the z axis of the blank's frame; or all six.
+enum class SolidFreedom { xyz, c_xyz, six };
+
+struct SolidProblem {
+  solid::Mesh part, blank;  ///< closed (solid::closed_mesh)
+  SolidPose start;
+  SolidFreedom freedom = SolidFreedom::six;
+  /// The middle of the part's box may move by this along each axis, mm.
+  double shift = 5;
+  /// With `six` the window has every rotation by up to this from the start, and some by more: those with each
+  /// part of tan(angle / 2) times the axis up to tan(turn / 2). With `c_xyz` it has the turns about z by up
+  /// to this. rad, at most a quarter turn.
+  double turn = 0.0872664625997165;
+};
+
+struct SolidOptions {
+  /// The search stops when upper bound - clearance is this small, mm, > 0.
+  double gap = 1e-2;
+  /// The status is infeasible when this is provably not reachable, mm.
+  double min_allowance = 0;
+  /// They change the time and nothing else.
+  unsigned threads = kUsualThreads;
+  /// One unit of work is one box bounded, one program solved or one pose measured.
+  RunControl run;
+};
+
+/// A place that holds a placement: where the part is nearest to the blank's surface.
+struct SolidTouch {
+  std::uint32_t part_triangle = 0, blank_triangle = 0;
+  solid::Vector part, blank;  ///< the two points, each in its own frame, mm
+  double distance = 0;        ///< mm, at the placement
+  /// The contact's share in what holds the placement; all shares sum to 1.
+  double multiplier = 0;
+};
+
+struct SolidPlacement {
+  SolidPose pose;
+  /// True if the part lies inside the blank there; else there is no clearance.
+  bool inside = false;
+  /// The least allowance at that very pose, mm, never above the exact one.
+  double clearance = 0;
+  std::vector<SolidTouch> contacts;
+  std::uint64_t work = 0;
+};
+
+/// A quick placement without a bound: climbs from the start to a place that no small motion makes better. It
+/// need not be the best one of the window. ErrorCode::usage for a window or numbers that make no sense,
+/// bad_input for meshes without triangles. Deterministic; single-threaded.
+[[nodiscard]] Result<SolidPlacement> place_solid(const SolidProblem& problem, const SolidOptions& options);
+
+}  // namespace lekalo::locate

@@ -1,0 +1,107 @@
+#include "lekalo/locate/solid.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "lekalo/base/limits.hpp"
+#include "lekalo/geom/trig.hpp"
+#include "solid_climb.hpp"
+
+namespace lekalo::locate {
+namespace {
+
+using solid::Motion;
+using solid::Vector;
+
+/// A climb goes on while it gains this much, mm.
+constexpr double kClimbGain = 1e-5;
+
+bool finite(Vector v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+Result<void> check(const SolidProblem& problem, const SolidOptions& options) {
+  if (problem.part.triangles.empty() || problem.blank.triangles.empty())
+    return failure(ErrorCode::bad_input, "part and blank must have triangles");
+  if (!(options.gap > 0) || !std::isfinite(options.gap))
+    return failure(ErrorCode::usage, fmt::format("gap {} mm must be a positive number", options.gap));
+  if (!std::isfinite(options.min_allowance))
+    return failure(ErrorCode::usage, "minimum allowance is not a finite number");
+  if (!(problem.shift >= 0) || !(problem.shift <= limits::kLargestCoordinate))
+    return failure(ErrorCode::usage,
+                   fmt::format("a window of shifts by up to {} mm must be a number from 0 to {:g}",
+                               problem.shift, limits::kLargestCoordinate));
+  if (!(problem.turn >= 0) || !(problem.turn <= 0.5 * std::numbers::pi))
+    return failure(
+        ErrorCode::usage,
+        fmt::format("a window of turns by up to {} rad must lie between 0 and a quarter turn", problem.turn));
+  double square = 0;
+  for (const double q : problem.start.quaternion) square += q * q;
+  if (!(square > 1e-6) || !(square < 1e6) || !finite(problem.start.shift) ||
+      !(norm(problem.start.shift) <= limits::kLargestCoordinate))
+    return failure(ErrorCode::usage,
+                   "the start is no pose: its quaternion must be of length 1, and its shift finite");
+  return {};
+}
+
+SolidFrame frame_of(const SolidProblem& problem) {
+  SolidFrame frame;
+  frame.start = problem.start.quaternion;
+  const solid::Box box = box_of(problem.part.vertices);
+  frame.pivot = 0.5 * (box.low + box.high);
+  for (const Vector p : problem.part.vertices) frame.reach = std::max(frame.reach, norm(p - frame.pivot));
+  frame.window.middle.at = motion_of(problem.start)(frame.pivot);
+  frame.window.half.at = {problem.shift, problem.shift, problem.shift};
+  const geom::SinCos half = geom::sincos(0.5 * problem.turn);
+  // Rounded up, so that no rotation of the window is lost.
+  const double most = half.sine / half.cosine * (1 + 0x1p-50);
+  if (problem.freedom == SolidFreedom::six) frame.window.half.x = {most, most, most};
+  if (problem.freedom == SolidFreedom::c_xyz) frame.window.half.x.z = most;
+  return frame;
+}
+
+/// The pose in its own doubles, and what it has there.
+SolidPlacement placement(const SolidMeter& meter, const FramedPose& found) {
+  SolidPlacement made;
+  made.pose.quaternion = meter.frame().quaternion(found);
+  if (!(found.x == Vector{})) {
+    double square = 0;
+    for (const double q : made.pose.quaternion) square += q * q;
+    for (double& q : made.pose.quaternion) q /= std::sqrt(square);
+  }
+  const Motion turn = motion_of({made.pose.quaternion, {}});
+  made.pose.shift = found.at - turn.turned(meter.frame().pivot);
+  const Motion motion = motion_of(made.pose);
+  const solid::NearPair near = *meter.clearance().nearest(motion);
+  made.inside = near.low > 0 && meter.clearance().inside(motion);
+  made.clearance = made.inside ? near.low : 0;
+  return made;
+}
+
+double first_trust(const SolidProblem& problem) { return 0.5 * std::max(problem.shift, 1e-3); }
+
+}  // namespace
+
+Motion motion_of(const SolidPose& pose) noexcept {
+  const auto [w, x, y, z] = pose.quaternion;
+  const double k = 2 / (w * w + x * x + y * y + z * z);
+  return {{{{1 - k * (y * y + z * z), k * (x * y - w * z), k * (x * z + w * y)},
+            {k * (x * y + w * z), 1 - k * (x * x + z * z), k * (y * z - w * x)},
+            {k * (x * z - w * y), k * (y * z + w * x), 1 - k * (x * x + y * y)}}},
+          pose.shift};
+}
+
+Result<SolidPlacement> place_solid(const SolidProblem& problem, const SolidOptions& options) {
+  LEKALO_CHECK(check(problem, options));
+  const SolidMeter meter(problem, frame_of(problem));
+  std::uint64_t work = 0;
+  const MeasuredSolid best =
+      climb(meter, meter.frame().window.middle, first_trust(problem), kClimbGain, options.run, work);
+  SolidPlacement made = placement(meter, best.pose);
+  made.contacts = holding_contacts(meter, best, options.gap);
+  made.work = work;
+  return made;
+}
+
+}  // namespace lekalo::locate

@@ -1,0 +1,104 @@
+#include "solid_climb.hpp"
+
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "locate/search/cell_program.hpp"
+
+namespace lekalo::locate {
+namespace {
+
+using solid::Motion;
+using solid::Vector;
+
+constexpr int kMostSteps = 100;
+/// A step that found new contacts is tried again with them, so many times, before it is made smaller.
+constexpr int kMostTries = 3;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+LinearBound<6> row_of(const SolidFrame& frame, const Motion& motion, const SolidContact& contact) {
+  const Vector n = contact.normal, g = 1 / frame.reach * cross(motion.turned(contact.part - frame.pivot), n);
+  return {{n.x, n.y, n.z, g.x, g.y, g.z}, contact.distance};
+}
+
+/// The pairs of triangles that were near at some pose, in the order of their numbers.
+using Pool = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+
+bool add(Pool& pool, const std::vector<SolidContact>& contacts) {
+  bool added = false;
+  for (const SolidContact& c : contacts)
+    if (c.part_triangle != kNoTriangle)
+      added = pool.insert({c.part_triangle, c.blank_triangle}).second || added;
+  return added;
+}
+
+/// The rows of all known contacts at a pose.
+std::vector<LinearBound<6>> rows_at(const SolidMeter& meter, const FramedPose& pose, const Pool& pool,
+                                    const std::vector<SolidContact>& contacts) {
+  const Motion motion = meter.frame().motion(pose);
+  std::vector<LinearBound<6>> rows;
+  for (const SolidContact& contact : contacts)
+    if (contact.part_triangle == kNoTriangle) rows.push_back(row_of(meter.frame(), motion, contact));
+  for (const auto& [part, blank] : pool) {
+    const SolidContact contact = meter.contact(motion, part, blank);
+    if (contact.distance > 0) rows.push_back(row_of(meter.frame(), motion, contact));
+  }
+  return rows;
+}
+
+}  // namespace
+
+MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trust, double enough,
+                    const RunControl& run, std::uint64_t& work) {
+  const SolidFrame& frame = meter.frame();
+  std::vector<SolidContact> here, there;
+  Pool pool;
+  MeasuredSolid best = meter.measure(from, kInfinity, here);
+  ++work;
+  add(pool, here);
+  const double widest = trust;
+  int tries = 0;
+  for (int step = 0; step < kMostSteps && !run.stop_requested(); ++step) {
+    const auto rows = rows_at(meter, best.pose, pool, here);
+    if (rows.empty()) break;
+    const LinearSolution<6> solution = solve_cell(rows, frame.trusted(trust));
+    if (!(solution.bound > best.value + enough)) break;
+    MeasuredSolid next = meter.measure(frame.moved(best.pose, solution.z, frame.window),
+                                       std::max(solution.bound, enough), there);
+    work += 2;
+    const bool added = add(pool, there);
+    if (next.value > best.value) {
+      const double gained = next.value - best.value, hoped = solution.bound - best.value;
+      best = next;
+      here = there;
+      if (gained < 0.25 * hoped && !added) trust *= 0.5;
+      if (gained > 0.75 * hoped) trust = std::min(widest, 2 * trust);
+      tries = 0;
+    } else if (!added || ++tries == kMostTries) {
+      trust *= 0.25;
+      tries = 0;
+    }
+  }
+  return best;
+}
+
+std::vector<SolidTouch> holding_contacts(const SolidMeter& meter, const MeasuredSolid& at, double within) {
+  const SolidFrame& frame = meter.frame();
+  const Motion motion = frame.motion(at.pose);
+  std::vector<SolidContact> contacts;
+  (void)meter.measure(at.pose, std::max(at.value, 0.0) + within, contacts);
+  std::vector<SolidTouch> touches;
+  if (contacts.empty()) return touches;
+  std::vector<LinearBound<6>> rows;
+  for (const SolidContact& contact : contacts) rows.push_back(row_of(frame, motion, contact));
+  const LinearSolution<6> solution = solve_cell(rows, frame.trusted(within));
+  for (std::size_t j = 0; j < solution.rows; ++j) {
+    const SolidContact& c = contacts[solution.row[j]];
+    touches.push_back(
+        {c.part_triangle, c.blank_triangle, c.part, c.blank, c.distance, solution.multiplier[j]});
+  }
+  return touches;
+}
+
+}  // namespace lekalo::locate

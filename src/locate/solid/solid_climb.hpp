@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+
+#include "solid_meter.hpp"
+
+namespace lekalo::locate {
+
+/// Climbs from a pose until no step makes it better by `enough`: the linear program of the contacts, without
+/// remainders, is solved in a box of steps up to `trust` mm, which shrinks where that does not help. What a
+/// step meets is kept, so that the next program knows of it. Adds to `work`.
+[[nodiscard]] MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trust,
+                                  double enough, const RunControl& run, std::uint64_t& work);
+
+/// The contacts that hold the part at a pose, with multipliers that balance and sum to 1.
+[[nodiscard]] std::vector<SolidTouch> holding_contacts(const SolidMeter& meter, const MeasuredSolid& at,
+                                                       double within);
+
+}  // namespace lekalo::locate

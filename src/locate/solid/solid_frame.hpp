@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lekalo/locate/solid.hpp"
+
+namespace lekalo::locate {
+
+/// A pose as the search counts it: the rotation after the start's, as x = tan(angle / 2) times its axis, and
+/// the place of the pivot, the middle of the part's box, in the blank's frame.
+struct FramedPose {
+  solid::Vector x, at;
+};
+
+/// A box of poses, by middle and half widths.
+struct SolidCell {
+  FramedPose middle, half;
+};
+
+/// The freedoms in the order of the programs' unknowns: shift along x, y, z, and turn about them, all in mm.
+using Steps = std::array<double, 6>;
+
+/// Returns q of u q, a point turned first by the rotation of q and then by that of u.
+inline std::array<double, 4> product(const std::array<double, 4>& u, const std::array<double, 4>& q) {
+  return {u[0] * q[0] - u[1] * q[1] - u[2] * q[2] - u[3] * q[3],
+          u[0] * q[1] + u[1] * q[0] + u[2] * q[3] - u[3] * q[2],
+          u[0] * q[2] - u[1] * q[3] + u[2] * q[0] + u[3] * q[1],
+          u[0] * q[3] + u[1] * q[2] - u[2] * q[1] + u[3] * q[0]};
+}
+
+/// What poses are counted from.
+struct SolidFrame {
+  std::array<double, 4> start{};
+  solid::Vector pivot;  ///< part coordinates
+  double reach = 0;     ///< no point of the part is farther from the pivot, mm
+  SolidCell window;
+
+  /// Of any length, so that a locked part of the rotation stays exactly as it is.
+  [[nodiscard]] std::array<double, 4> quaternion(const FramedPose& pose) const {
+    const solid::Vector x = pose.x;
+    return product({1, x.x, x.y, x.z}, start);
+  }
+  [[nodiscard]] solid::Motion motion(const FramedPose& pose) const {
+    solid::Motion motion = motion_of({quaternion(pose), {}});
+    motion.shift = pose.at - motion.turned(pivot);
+    return motion;
+  }
+  /// Goes from a pose by steps that a program made, and stays in the window.
+  [[nodiscard]] FramedPose moved(const FramedPose& from, const Steps& z, const SolidCell& within) const {
+    const solid::Vector y = 0.5 / reach * solid::Vector{z[3], z[4], z[5]}, x = from.x;
+    const solid::Vector to = 1 / (1 - dot(y, x)) * (x + y + cross(y, x));
+    const auto held = [](solid::Vector v, solid::Vector middle, solid::Vector half) {
+      return solid::Vector{std::clamp(v.x, middle.x - half.x, middle.x + half.x),
+                           std::clamp(v.y, middle.y - half.y, middle.y + half.y),
+                           std::clamp(v.z, middle.z - half.z, middle.z + half.z)};
+    };
+    return {held(to, within.middle.x, within.half.x),
+            held(from.at + solid::Vector{z[0], z[1], z[2]}, within.middle.at, within.half.at)};
+  }
+  /// The half widths of a box of steps that leaves what is locked as it is.
+  [[nodiscard]] Steps trusted(double half) const {
+    const auto of = [half](double width) { return width > 0 ? half : 0; };
+    const FramedPose& w = window.half;
+    return {of(w.at.x), of(w.at.y), of(w.at.z), of(w.x.x), of(w.x.y), of(w.x.z)};
+  }
+};
+
+}  // namespace lekalo::locate

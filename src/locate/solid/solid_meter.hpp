@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lekalo/solid/mesh_clearance.hpp"
+#include "solid_frame.hpp"
+
+namespace lekalo::locate {
+
+inline constexpr std::uint32_t kNoTriangle = 0xffffffff;
+
+/// A place where part and blank come close, or cross. The normal, of length 1 and in the blank's frame,
+/// points from what is not material of the blank into the part's material; the distance is negative where the
+/// part's point lies outside the blank, or the blank's in the part.
+struct SolidContact {
+  solid::Vector part, blank;  ///< each in its own frame
+  solid::Vector normal;
+  double distance = 0;
+  /// The pair of triangles, or kNoTriangle where they cross.
+  std::uint32_t part_triangle = kNoTriangle, blank_triangle = kNoTriangle;
+};
+
+/// The objective at one pose: where the part is inside, a bound from below of the clearance. Elsewhere it
+/// is how deep points stick out, which says in which direction to go and no more.
+struct MeasuredSolid {
+  FramedPose pose;
+  double value = 0;
+  bool inside = false;
+};
+
+/// Measures a part in a blank. What it says depends on its arguments alone, so threads may share it.
+class SolidMeter {
+ public:
+  SolidMeter(const SolidProblem& problem, const SolidFrame& frame);
+
+  [[nodiscard]] const SolidFrame& frame() const noexcept { return frame_; }
+  [[nodiscard]] const solid::MeshClearance& clearance() const noexcept { return clearance_; }
+  /// A length of part and blank together that rounding follows, mm.
+  [[nodiscard]] double far() const noexcept { return far_; }
+
+  /// Measures at a pose. Where the part is inside and all is `most` apart or more, the value is at least
+  /// `most`, and nothing more is known. The contacts are the nearest of each piece of the part, less than
+  /// `most` apart, and where part and blank cross the deepest points of either in the other.
+  [[nodiscard]] MeasuredSolid measure(const FramedPose& pose, double most,
+                                      std::vector<SolidContact>& contacts) const;
+  /// The contact of two triangles at a pose; its distance is 0 where they cross.
+  [[nodiscard]] SolidContact contact(const solid::Motion& motion, std::uint32_t part_triangle,
+                                     std::uint32_t blank_triangle) const;
+
+ private:
+  void add_crossings(const solid::Motion& motion, const std::vector<solid::NearPair>& pairs,
+                     std::vector<SolidContact>& contacts) const;
+  [[nodiscard]] SolidContact contact(const solid::Motion& motion, const solid::NearPair& pair) const;
+
+  SolidFrame frame_;
+  const solid::Mesh &part_, &blank_;
+  solid::MeshClearance clearance_;
+  /// Vertices spread over the surfaces.
+  std::vector<solid::Vector> of_part_, of_blank_;
+  double far_ = 0;
+};
+
+}  // namespace lekalo::locate
