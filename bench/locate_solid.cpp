@@ -28,11 +28,12 @@ cases::SolidCase make(std::string_view kind, Random& random) {
 
 }  // namespace
 
-/// bench_locate_solid [KIND|all] [CASES] [SEED]
+/// bench_locate_solid [KIND|all] [CASES] [SEED] [GAP]
 int main(int argc, char** argv) {
   const std::string_view wanted = argc > 1 ? argv[1] : "all";
   const std::uint64_t count = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 5,
                       seed = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1;
+  const double gap = argc > 4 ? std::strtod(argv[4], nullptr) : 0.01;
   for (const std::string_view kind : {"convex", "uneven", "cored", "turned", "wavy"}) {
     if (wanted != "all" && wanted != kind) continue;
     for (std::uint64_t k = 0; k < count; ++k) {
@@ -46,6 +47,15 @@ int main(int argc, char** argv) {
       fmt::print("{} {}: {} in {} triangles; drawn at {:.4f}; climbed to {:.6f} in {:.0f} ms, {} units\n",
                  kind, k, pair.part.triangles.size(), pair.blank.triangles.size(), there, placed->clearance,
                  1e3 * (seconds() - start), placed->work);
+      locate::SolidOptions options;
+      options.threads = 1;
+      options.gap = gap;
+      options.run.work_limit = 200'000;
+      start = seconds();
+      const auto found = locate::locate_solid(problem, options);
+      fmt::print("    {:.6f} of at most {:.6f} in {:.0f} ms, {} boxes, {} units{}\n", found->best.clearance,
+                 found->upper_bound, 1e3 * (seconds() - start), found->boxes, found->best.work,
+                 found->status == locate::Status::optimal ? "" : ", stopped");
     }
   }
 }

@@ -102,5 +102,125 @@ TEST(PlaceSolid, RefusesWhatMakesNoSense) {
             "the start is no pose: its quaternion must be of length 1, and its shift finite");
 }
 
+/// No pose of the window near `motion` has more than `bound`.
+void expect_bound(const cases::SolidCase& pair, const Motion& motion, double bound, Random& random) {
+  const solid::MeshClearance meter(pair.part, pair.blank);
+  for (int step = 0; step < 200; ++step) {
+    const double size = std::pow(10.0, 0.5 - step % 7 * 0.5);
+    const Motion there = cases::near(motion, random, size / 50, size);
+    EXPECT_LE(clearance(meter, there, bound + 0.1), bound) << size;
+  }
+}
+
+TEST(LocateSolid, WhatItFindsIsThereAndNoPoseHasMoreThanTheBound) {
+  Random random(cases::seed(), 63);
+  for (std::uint64_t k = 0; k < cases::case_count(5); ++k) {
+    const cases::SolidCase pair = case_of(k, random);
+    SCOPED_TRACE(pair.kind);
+    for (const SolidFreedom freedom : {SolidFreedom::six, SolidFreedom::c_xyz, SolidFreedom::xyz}) {
+      const auto found = locate::locate_solid({pair.part, pair.blank, {}, freedom}, {.gap = 0.05, .run = {}});
+      ASSERT_TRUE(found) << found.error().message;
+      const Motion motion = motion_of(found->best.pose);
+      const auto exact = static_cast<double>(brute::clearance(pair.part, pair.blank, {}, motion));
+      if (found->best.inside) {
+        EXPECT_LE(found->best.clearance, exact);
+      }
+      if (freedom != SolidFreedom::six) {
+        // The generator has turned the part, so there is less room, or none.
+        if (found->best.inside) {
+          EXPECT_LE(found->best.clearance, found->upper_bound);
+        }
+        EXPECT_LE(found->upper_bound, found->best.clearance + 0.0501);
+        continue;
+      }
+      ASSERT_EQ(found->status, locate::Status::optimal);
+      EXPECT_LE(found->upper_bound - found->best.clearance, 0.05);
+      EXPECT_GE(found->upper_bound, pair.optimum);
+      expect_bound(pair, motion, found->upper_bound, random);
+    }
+  }
+}
+
+TEST(LocateSolid, FreedomsThatAreLockedAreBoundedByWhatIsLeft) {
+  Random random(cases::seed(), 64);
+  cases::SolidCase pair = cases::cored_block(random, 4);
+  for (Vector& p : pair.part.vertices) p = pair.there(p);
+  for (const SolidFreedom freedom : {SolidFreedom::xyz, SolidFreedom::c_xyz}) {
+    const auto found = locate::locate_solid({pair.part, pair.blank, {}, freedom}, {.gap = 0.01, .run = {}});
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_EQ(found->status, locate::Status::optimal);
+    const solid::MeshClearance meter(pair.part, pair.blank);
+    const Motion best = motion_of(found->best.pose);
+    for (int step = 0; step < 200; ++step) {
+      const double size = std::pow(10.0, 0.5 - step % 7 * 0.5);
+      Motion there = best;
+      if (freedom == SolidFreedom::c_xyz) {
+        const Motion turn = cases::turn({0, 0, 1}, random.uniform(-0.01, 0.01) * size);
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Vector row = turn.rotation[k];
+          there.rotation[k] =
+              row.x * best.rotation[0] + (row.y * best.rotation[1] + row.z * best.rotation[2]);
+        }
+      }
+      there.shift = there.shift + Vector{random.uniform(-size, size), random.uniform(-size, size),
+                                         random.uniform(-size, size)};
+      EXPECT_LE(clearance(meter, there, found->upper_bound + 0.1), found->upper_bound);
+    }
+  }
+}
+
+TEST(LocateSolid, ThreadsChangeNothing) {
+  Random random(cases::seed(), 65);
+  const cases::SolidCase pair = cases::cored_block(random, 4);
+  const auto found = [&](unsigned threads) {
+    locate::SolidOptions options{.gap = 0.02, .run = {}};
+    options.threads = threads;
+    return locate::locate_solid({pair.part, pair.blank, {}}, options).value();
+  };
+  const locate::SolidResult one = found(1), three = found(3);
+  EXPECT_EQ(one.best.pose.quaternion, three.best.pose.quaternion);
+  EXPECT_EQ(one.best.pose.shift, three.best.pose.shift);
+  EXPECT_EQ(one.best.clearance, three.best.clearance);
+  EXPECT_EQ(one.upper_bound, three.upper_bound);
+  EXPECT_EQ(one.boxes, three.boxes);
+  EXPECT_EQ(one.best.work, three.best.work);
+}
+
+TEST(LocateSolid, StoppedEarlyTheBoundHolds) {
+  Random random(cases::seed(), 66);
+  const cases::SolidCase pair = cases::convex_in_convex(random, 16, 1.25);
+  locate::SolidOptions options{.gap = 1e-4, .run = {}};
+  double fraction = 0;
+  options.run.work_limit = 30;
+  options.run.progress = [&](const Progress& progress) {
+    EXPECT_GE(progress.fraction, fraction);
+    fraction = progress.fraction;
+  };
+  const auto found = locate::locate_solid({pair.part, pair.blank, {}}, options);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->status, locate::Status::stopped);
+  EXPECT_GE(found->upper_bound, 1.25);
+  options.run.work_limit = std::numeric_limits<std::uint64_t>::max();
+  const auto whole = locate::locate_solid({pair.part, pair.blank, {}}, options);
+  EXPECT_EQ(whole->status, locate::Status::optimal);
+  EXPECT_NEAR(whole->best.clearance, 1.25, 1e-4);
+  EXPECT_GE(whole->upper_bound, 1.25);
+  EXPECT_GT(fraction, 0);
+}
+
+TEST(LocateSolid, ABlankThatIsTooSmallIsProvedToBe) {
+  Random random(cases::seed(), 67);
+  const cases::SolidCase pair = cases::convex_in_convex(random, 16, 1);
+  locate::SolidOptions options{.gap = 0.01, .run = {}};
+  options.min_allowance = 1.05;
+  const auto found = locate::locate_solid({pair.part, pair.blank, {}}, options);
+  EXPECT_EQ(found->status, locate::Status::infeasible);
+  // The part is larger than the blank.
+  const auto swapped = locate::locate_solid({pair.blank, pair.part, {}}, options);
+  EXPECT_EQ(swapped->status, locate::Status::infeasible);
+  EXPECT_FALSE(swapped->best.inside);
+  EXPECT_EQ(swapped->best.clearance, 0);
+}
+
 }  // namespace
 }  // namespace lekalo::locate_solid_test

@@ -71,9 +71,20 @@ struct SolidPlacement {
   std::uint64_t work = 0;
 };
 
+struct SolidResult {
+  Status status = Status::stopped;
+  SolidPlacement best;
+  /// No placement of the window has more clearance; rounded up.
+  double upper_bound = 0;
+  std::uint64_t boxes = 0;
+};
+
 /// A quick placement without a bound: climbs from the start to a place that no small motion makes better. It
 /// need not be the best one of the window. ErrorCode::usage for a window or numbers that make no sense,
 /// bad_input for meshes without triangles. Deterministic; single-threaded.
 [[nodiscard]] Result<SolidPlacement> place_solid(const SolidProblem& problem, const SolidOptions& options);
+
+/// Searches the whole window. Refuses what place_solid refuses. The same result for any number of threads.
+[[nodiscard]] Result<SolidResult> locate_solid(const SolidProblem& problem, const SolidOptions& options);
 
 }  // namespace lekalo::locate

@@ -9,6 +9,7 @@
 #include "lekalo/base/limits.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "solid_climb.hpp"
+#include "solid_search.hpp"
 
 namespace lekalo::locate {
 namespace {
@@ -102,6 +103,23 @@ Result<SolidPlacement> place_solid(const SolidProblem& problem, const SolidOptio
   made.contacts = holding_contacts(meter, best, options.gap);
   made.work = work;
   return made;
+}
+
+Result<SolidResult> locate_solid(const SolidProblem& problem, const SolidOptions& options) {
+  LEKALO_CHECK(check(problem, options));
+  const SolidMeter meter(problem, frame_of(problem));
+  SolidSearch search(meter, options);
+  search.run();
+  SolidResult result;
+  result.best = placement(meter, search.best().pose);
+  result.best.contacts = holding_contacts(meter, search.best(), options.gap);
+  result.best.work = search.work();
+  result.boxes = search.boxes();
+  result.upper_bound = search.upper();
+  const bool closed = result.best.inside && result.upper_bound - result.best.clearance <= options.gap;
+  result.status = search.finished() && closed ? Status::optimal : Status::stopped;
+  if (result.upper_bound < options.min_allowance) result.status = Status::infeasible;
+  return result;
 }
 
 }  // namespace lekalo::locate
