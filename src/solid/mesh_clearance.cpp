@@ -105,9 +105,10 @@ struct MeshClearance::Walk {
 
   void look(std::uint32_t of_part, std::uint32_t of_blank) {
     const Corners& t = meter.part_.corners(of_part);
-    const PairFound here =
-        nearest_points({motion(t[0]), motion(t[1]), motion(t[2])}, meter.blank_.corners(of_blank));
+    const Corners a{motion(t[0]), motion(t[1]), motion(t[2])}, &b = meter.blank_.corners(of_blank);
     const double width = meter.width_.empty() ? 0 : meter.width_[of_blank];
+    if (clearly_apart(a, b, limit + width + rounding)) return;
+    const PairFound here = nearest_points(a, b);
     const double distance = std::sqrt(here.squared);
     best.low = std::min(best.low, std::min(here.low, distance) - width);
     if (!(distance - width < limit)) return;

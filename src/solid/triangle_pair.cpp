@@ -71,4 +71,16 @@ PairFound nearest_points(const Corners& a, const Corners& b) noexcept {
   return nearer.best;
 }
 
+bool clearly_apart(const Corners& a, const Corners& b, double most) noexcept {
+  const auto along = [&](Vector n) {
+    const double a0 = dot(n, a[0] - b[0]), a1 = dot(n, a[1] - b[0]), a2 = dot(n, a[2] - b[0]),
+                 b1 = dot(n, b[1] - b[0]), b2 = dot(n, b[2] - b[0]);
+    const double gap = std::max(std::min({a0, a1, a2}) - std::max({0.0, b1, b2}),
+                                std::min({0.0, b1, b2}) - std::max({a0, a1, a2}));
+    return gap > 0 && gap * gap >= most * most * dot(n, n);
+  };
+  return along(cross(b[1] - b[0], b[2] - b[0])) || along(cross(a[1] - a[0], a[2] - a[0])) ||
+         along((a[0] - b[0]) + (a[1] - b[1]) + (a[2] - b[2]));
+}
+
 }  // namespace lekalo::solid

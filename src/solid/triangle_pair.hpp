@@ -13,4 +13,8 @@ struct PairFound {
 };
 [[nodiscard]] PairFound nearest_points(const Corners& a, const Corners& b) noexcept;
 
+/// Says if two triangles are easily seen to be `most` apart or more: along a normal of one, or along the way
+/// between their middles. Nearly all pairs that two trees bring together are.
+[[nodiscard]] bool clearly_apart(const Corners& a, const Corners& b, double most) noexcept;
+
 }  // namespace lekalo::solid

@@ -2,8 +2,11 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "lekalo/solid/flat_patches.hpp"
 #include "locate/search/cell_program.hpp"
 #include "solid_meter.hpp"
 
@@ -14,12 +17,26 @@ struct SolidBall {
   double radius = 0;
 };
 
+/// A disc that lies on a surface, about the point of contact; the normal points into the part's material, or
+/// the blank's. Radius 0 where the contact is on a bend.
+struct SolidDisc {
+  solid::Vector centre, normal;
+  double radius = 0;
+};
+
+struct SolidEdge {
+  solid::Vector from, to;
+};
+
 /// A contact that was met at some pose, and what bounds the clearance by it at every pose: balls in the
 /// part's material (part coordinates), and balls and a half-space without material of the blank. The first
 /// ball of each kind is the point of contact itself. Any one of the part's with any one of the others makes a
 /// bound (docs/design/locate-solid.md); which is best depends on the box of poses.
 struct KnownSolid {
   std::vector<SolidBall> part, blank;
+  SolidDisc part_disc, blank_disc;
+  /// The edges, where both points lie within one.
+  std::optional<std::pair<SolidEdge, SolidEdge>> edges;
   /// No vertex of the blank has a smaller product with `normal`, a vector no longer than 1.
   solid::Vector normal;
   double least = 0;
@@ -59,10 +76,18 @@ class SolidBounds {
 
  private:
   [[nodiscard]] SolidRow row(const SolidBall& part, const SolidBall& blank, const CellView& cell) const;
+  [[nodiscard]] std::optional<SolidRow> row(const SolidBall& part, const SolidDisc& blank,
+                                            const CellView& cell) const;
+  [[nodiscard]] std::optional<SolidRow> row(const SolidDisc& part, const SolidBall& blank,
+                                            const CellView& cell) const;
   [[nodiscard]] SolidRow row(const SolidBall& part, solid::Vector normal, double least,
                              const CellView& cell) const;
 
+  [[nodiscard]] std::optional<SolidRow> row(const SolidEdge& part, const SolidEdge& blank,
+                                            const CellView& cell) const;
+
   const SolidMeter& meter_;
+  solid::FlatPatches of_part_, of_blank_;
   double scale_, rounding_;
 };
 

@@ -36,6 +36,8 @@ class SolidMeter {
 
   [[nodiscard]] const SolidFrame& frame() const noexcept { return frame_; }
   [[nodiscard]] const solid::MeshClearance& clearance() const noexcept { return clearance_; }
+  [[nodiscard]] const solid::Mesh& part() const noexcept { return part_; }
+  [[nodiscard]] const solid::Mesh& blank() const noexcept { return blank_; }
   /// A length of part and blank together that rounding follows, mm.
   [[nodiscard]] double far() const noexcept { return far_; }
 
