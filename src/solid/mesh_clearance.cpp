@@ -129,16 +129,18 @@ struct MeshClearance::Walk {
     struct Open {
       double gap;
       std::uint32_t part, blank;
+      MiddleBox of_part;
     };
     // Each step leaves one pair behind and takes one, so there are as many as both trees are high.
     std::array<Open, 128> stack;
     std::size_t count = 0;
     const auto& of_parts = meter.part_.nodes();
     const auto& of_blanks = meter.blank_.nodes();
-    const auto gap = [&](std::uint32_t p, std::uint32_t b) {
-      return squared_gap(moved(motion, of_parts[p].box), of_blanks[b].box);
+    const auto push = [&](const Open& open) {
+      if (!apart(open.gap, open.blank)) stack[count++] = open;
     };
-    stack[count++] = {gap(of_part, of_blank), of_part, of_blank};
+    const MiddleBox whole = moved(motion, of_parts[of_part].box);
+    push({squared_gap(whole, of_blanks[of_blank].box), of_part, of_blank, whole});
     while (count > 0) {
       if (limit <= rounding) {
         // They cross, and no other pair is needed to know that.
@@ -154,17 +156,20 @@ struct MeshClearance::Walk {
         continue;
       }
       const bool cut_part =
-          b.right == 0 || (p.right != 0 && size(p.box.high - p.box.low) > size(b.box.high - b.box.low));
+          b.right == 0 || (p.right != 0 && size(open.of_part.half) > 0.5 * size(b.box.high - b.box.low));
       Open one = open, other = open;
       if (cut_part) {
         one.part = open.part + 1, other.part = p.right;
+        one.of_part = moved(motion, of_parts[one.part].box);
+        other.of_part = moved(motion, of_parts[other.part].box);
       } else {
         one.blank = open.blank + 1, other.blank = b.right;
       }
-      one.gap = gap(one.part, one.blank), other.gap = gap(other.part, other.blank);
+      one.gap = squared_gap(one.of_part, of_blanks[one.blank].box);
+      other.gap = squared_gap(other.of_part, of_blanks[other.blank].box);
       if (other.gap < one.gap) std::swap(one, other);
-      if (!apart(other.gap, other.blank)) stack[count++] = other;
-      if (!apart(one.gap, one.blank)) stack[count++] = one;
+      push(other);
+      push(one);
     }
   }
 
@@ -202,15 +207,24 @@ NearPair MeshClearance::pair(const Motion& blank_from_part, std::uint32_t part_t
   return walk.pair();
 }
 
-void MeshClearance::nearest_by_piece(const Motion& blank_from_part, double most,
+void MeshClearance::nearest_by_piece(const Motion& blank_from_part, double most, std::size_t count,
                                      std::vector<NearPair>& found) const {
   found.clear();
   Walk walk(*this, blank_from_part);
+  const auto nearer = [](const NearPair& a, const NearPair& b) { return a.high < b.high; };
   for (const std::uint32_t piece : pieces_) {
-    walk.start(most);
+    walk.start(found.size() < count ? most : std::min(most, found.front().high));
     walk.walk(piece, 0);
-    if (walk.found) found.push_back(walk.pair());
+    if (!walk.found) continue;
+    // The heap has the farthest of them in front.
+    if (found.size() == count) {
+      std::pop_heap(found.begin(), found.end(), nearer);
+      found.pop_back();
+    }
+    found.push_back(walk.pair());
+    std::push_heap(found.begin(), found.end(), nearer);
   }
+  std::sort_heap(found.begin(), found.end(), nearer);
 }
 
 bool MeshClearance::inside(const Motion& blank_from_part) const {

@@ -58,7 +58,7 @@ TEST(SolidBounds, NoContactAllowsLessThanAPoseOfTheBoxHas) {
       const double turn = size / 100;
       const FramedPose pose{within({}, {turn, turn, turn}, random),
                             within(frame.pivot, {size, size, size}, random)};
-      (void)meter.measure(pose, 4, contacts);
+      (void)meter.measure(pose, 4, 64, contacts);
       for (std::size_t k = 0; k < contacts.size(); k += 1 + contacts.size() / 12)
         known.push_back(bounds.known(contacts[k], frame.motion(pose)));
     }
@@ -76,7 +76,7 @@ TEST(SolidBounds, NoContactAllowsLessThanAPoseOfTheBoxHas) {
                               within(cell.middle.at, cell.half.at, random)};
         const Steps z = steps(frame, cell.middle, pose);
         for (std::size_t n = 0; n < 6; ++n) EXPECT_LE(std::abs(z[n]), view.half[n] * (1 + 1e-12) + 1e-12);
-        const MeasuredSolid here = meter.measure(pose, std::numeric_limits<double>::infinity(), contacts);
+        const MeasuredSolid here = meter.measure(pose, std::numeric_limits<double>::infinity(), 64, contacts);
         const double clearance = here.inside ? here.value : 0;
         if (!here.inside) continue;
         ++inside;

@@ -68,7 +68,8 @@ TEST(MeshClearance, IsTheLeastDistanceOfAllPairsOfTriangles) {
       EXPECT_NEAR(norm(found->part - found->blank) - width, found->high, 1e-9);
       EXPECT_FALSE(meter.nearest(motion, found->low - 1e-9));
       std::vector<solid::NearPair> pieces;
-      meter.nearest_by_piece(motion, exact + 0.5, pieces);
+      meter.nearest_by_piece(motion, exact + 0.5, 10, pieces);
+      EXPECT_LE(pieces.size(), 10u);
       double least = 1e300;
       for (const solid::NearPair& piece : pieces) least = std::min(least, piece.high);
       EXPECT_NEAR(least, found->high, 1e-11);

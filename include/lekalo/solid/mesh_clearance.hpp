@@ -43,10 +43,11 @@ class MeshClearance {
   [[nodiscard]] NearPair pair(const Motion& blank_from_part, std::uint32_t part_triangle,
                               std::uint32_t blank_triangle) const;
 
-  /// The nearest pair of each piece of the part that has one less than `most` apart, or some pair of it that
-  /// crosses. The pieces are some tens
-  /// of patches of like size, in one order.
-  void nearest_by_piece(const Motion& blank_from_part, double most, std::vector<NearPair>& found) const;
+  /// The nearest pairs of those pieces of the part that have one less than `most` apart, or some pair of a
+  /// piece that crosses: at most `count` of them, nearest first. The pieces are some tens of patches of like
+  /// size. \pre count > 0
+  void nearest_by_piece(const Motion& blank_from_part, double most, std::size_t count,
+                        std::vector<NearPair>& found) const;
 
   /// Says if the part lies inside the blank where their surfaces are apart: a point of each surface of the
   /// part is in the blank, and a point of each of the blank is not in the part. Where they cross it may say

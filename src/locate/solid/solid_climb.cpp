@@ -15,6 +15,8 @@ using solid::Vector;
 constexpr int kMostSteps = 100;
 /// A step that found new contacts is tried again with them, so many times, before it is made smaller.
 constexpr int kMostTries = 3;
+/// So many contacts of one pose are looked at.
+constexpr std::size_t kContacts = 64;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 LinearBound<6> row_of(const SolidFrame& frame, const Motion& motion, const SolidContact& contact) {
@@ -54,7 +56,7 @@ MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trus
   const SolidFrame& frame = meter.frame();
   std::vector<SolidContact> here, there;
   Pool pool;
-  MeasuredSolid best = meter.measure(from, kInfinity, here);
+  MeasuredSolid best = meter.measure(from, kInfinity, kContacts, here);
   ++work;
   add(pool, here);
   const double widest = trust;
@@ -65,7 +67,7 @@ MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trus
     const LinearSolution<6> solution = solve_cell(rows, frame.trusted(trust));
     if (!(solution.bound > best.value + enough)) break;
     MeasuredSolid next = meter.measure(frame.moved(best.pose, solution.z, frame.window),
-                                       std::max(solution.bound, enough), there);
+                                       std::max(solution.bound, enough), kContacts, there);
     work += 2;
     const bool added = add(pool, there);
     if (next.value > best.value) {
@@ -87,7 +89,7 @@ std::vector<SolidTouch> holding_contacts(const SolidMeter& meter, const Measured
   const SolidFrame& frame = meter.frame();
   const Motion motion = frame.motion(at.pose);
   std::vector<SolidContact> contacts;
-  (void)meter.measure(at.pose, std::max(at.value, 0.0) + within, contacts);
+  (void)meter.measure(at.pose, std::max(at.value, 0.0) + within, kContacts, contacts);
   std::vector<SolidTouch> touches;
   if (contacts.empty()) return touches;
   std::vector<LinearBound<6>> rows;

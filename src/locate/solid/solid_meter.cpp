@@ -58,15 +58,15 @@ SolidContact SolidMeter::contact(const Motion& motion, std::uint32_t part_triang
   return contact(motion, clearance_.pair(motion, part_triangle, blank_triangle));
 }
 
-MeasuredSolid SolidMeter::measure(const FramedPose& pose, double most,
+MeasuredSolid SolidMeter::measure(const FramedPose& pose, double most, std::size_t count,
                                   std::vector<SolidContact>& contacts) const {
   const Motion motion = frame_.motion(pose);
   std::vector<NearPair> pairs;
-  clearance_.nearest_by_piece(motion, most, pairs);
+  clearance_.nearest_by_piece(motion, most, count, pairs);
   contacts.clear();
   MeasuredSolid measured{pose, most, true};
+  for (const NearPair& pair : pairs) measured.value = std::min(measured.value, pair.low);
   for (const NearPair& pair : pairs) {
-    measured.value = std::min(measured.value, pair.low);
     const SolidContact made = contact(motion, pair);
     if (made.distance > 0) contacts.push_back(made);
   }

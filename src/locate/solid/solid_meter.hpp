@@ -42,9 +42,9 @@ class SolidMeter {
   [[nodiscard]] double far() const noexcept { return far_; }
 
   /// Measures at a pose. Where the part is inside and all is `most` apart or more, the value is at least
-  /// `most`, and nothing more is known. The contacts are the nearest of each piece of the part, less than
-  /// `most` apart, and where part and blank cross the deepest points of either in the other.
-  [[nodiscard]] MeasuredSolid measure(const FramedPose& pose, double most,
+  /// `most`, and nothing more is known. The contacts are the nearest ones of `count` pieces of the part, less
+  /// than `most` apart, and where part and blank cross the deepest points of either in the other.
+  [[nodiscard]] MeasuredSolid measure(const FramedPose& pose, double most, std::size_t count,
                                       std::vector<SolidContact>& contacts) const;
   /// The contact of two triangles at a pose; its distance is 0 where they cross.
   [[nodiscard]] SolidContact contact(const solid::Motion& motion, std::uint32_t part_triangle,

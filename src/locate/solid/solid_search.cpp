@@ -15,8 +15,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kAtOnce = 4;
 /// Contacts are looked for in one box this many times before it is halved.
 constexpr int kRounds = 4;
-/// So many contacts of one pose are made known.
-constexpr std::size_t kMostNew = 12;
+/// So many contacts of one pose are looked at, and so many are made known.
+constexpr std::size_t kContacts = 24, kMostNew = 12;
 /// A box hands at most this many on to its halves.
 constexpr std::size_t kMostKnown = 64;
 /// A contact has to lower a bound by this part of the gap to be worth knowing.
@@ -76,7 +76,8 @@ void SolidSearch::bound(Node& node, Found& found) const {
       pose = frame.moved(node.cell.middle, solution.z, node.cell);
     }
     if (round == kRounds) break;
-    const MeasuredSolid here = meter_.measure(pose, std::max(solution.bound, options_.gap), contacts);
+    const MeasuredSolid here =
+        meter_.measure(pose, std::max(solution.bound, options_.gap), kContacts, contacts);
     ++found.work;
     if (here.value > found.best.value) found.best = here;
     std::stable_sort(contacts.begin(), contacts.end(),
