@@ -60,7 +60,9 @@ void try_both(const cases::SolidCase& pair, std::uint64_t number, double gap, lo
   const auto found = locate::locate_solid(problem, options);
   fmt::print("    {:.6f} of at most {:.6f} in {:.0f} ms, {} boxes, {} units{}\n", found->best.clearance,
              found->upper_bound, 1e3 * (seconds() - start), found->boxes, found->best.work,
-             found->status == locate::Status::optimal ? "" : ", not closed");
+             found->status == locate::Status::optimal      ? ""
+             : found->status == locate::Status::infeasible ? ", infeasible"
+                                                           : ", not closed");
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ cd "$root"
 cgal=OFF
 [ -d /usr/include/CGAL ] && cgal=ON
 cmake --preset bench -DLEKALO_WITH_CGAL=$cgal > /dev/null
-targets=(bench_locate bench_locate_region bench_scan bench_compare bench_compare_regions bench_scene bench_clearance bench_solid_files)
+targets=(bench_locate bench_locate_region bench_scan bench_compare bench_compare_regions bench_scene bench_clearance bench_solid_files bench_locate_solid)
 [ -f /usr/include/polyclipping/clipper.hpp ] && targets+=(bench_boolean)
 cmake --build --preset bench --target "${targets[@]}" > /dev/null
 echo "commit $(git rev-parse --short HEAD), $(c++ --version | head -1), $(grep -m1 'model name' /proc/cpuinfo | cut -d: -f2), seed ${LEKALO_SEED:-1}"
@@ -31,6 +31,8 @@ echo
 build/bench/bench/bench_clearance
 echo
 build/bench/bench/bench_solid_files
+echo
+for kind in convex uneven cored turned wavy; do build/bench/bench/bench_locate_solid $kind 10; done
 if [ "${targets[-1]}" = bench_boolean ]; then
   echo
   build/bench/bench/bench_boolean

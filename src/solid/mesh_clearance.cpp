@@ -10,8 +10,8 @@
 namespace lekalo::solid {
 namespace {
 
-/// What moving a point, differences and products with a unit vector are off, some forty roundings of 2^-53 of
-/// the coordinates.
+/// Moving a point, differences and products with a unit vector are some forty roundings of 2^-53 of the
+/// coordinates.
 constexpr double kRounding = 0x1p-47;
 /// The part is cut into this many pieces, if it has as many triangles.
 constexpr std::size_t kPieces = 64;

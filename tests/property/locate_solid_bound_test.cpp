@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "support/cases.hpp"
 #include "support/solid_cases.hpp"
@@ -77,20 +78,79 @@ TEST(SolidBounds, NoContactAllowsLessThanAPoseOfTheBoxHas) {
         const Steps z = steps(frame, cell.middle, pose);
         for (std::size_t n = 0; n < 6; ++n) EXPECT_LE(std::abs(z[n]), view.half[n] * (1 + 1e-12) + 1e-12);
         const MeasuredSolid here = meter.measure(pose, std::numeric_limits<double>::infinity(), 64, contacts);
-        const double clearance = here.inside ? here.value : 0;
         if (!here.inside) continue;
         ++inside;
         for (const SolidRow& row : rows) {
           double value = row.bound.level;
           for (std::size_t n = 0; n < 6; ++n) value += row.bound.slope[n] * z[n];
-          EXPECT_GE(std::max(value, -row.radius) + bounds.rounding(), clearance);
-          if (value < clearance + 0.02) ++tight;
+          EXPECT_GE(std::max(value, -row.radius) + bounds.rounding(), here.value);
+          if (value < here.value + 0.02) ++tight;
         }
       }
     }
   }
   EXPECT_GT(inside, 300u);
   EXPECT_GT(tight, 100u);
+}
+
+/// A small block as it lies anywhere.
+solid::Mesh thrown(Vector half, Vector middle, Random& random) {
+  solid::Mesh mesh = cases::block(-half, half);
+  Motion motion = cases::turn(cases::direction(random), random.uniform(0, 3));
+  motion.shift = middle;
+  for (Vector& p : mesh.vertices) p = motion(p);
+  return mesh;
+}
+
+/// A part near a small void far inside a blank: one contact of a vertex and a face, or of two edges, is all
+/// that counts, and it soon leaves the face or the edge.
+TEST(SolidBounds, ALoneContactAllowsWhatThePosesOfTheBoxHave) {
+  Random random(cases::seed(), 82);
+  std::size_t inside = 0, tight = 0, edges = 0, of_part = 0, of_blank = 0;
+  for (std::uint64_t i = 0; i < cases::case_count(400); ++i) {
+    Vector large{6, 5, 4}, small{1.5, 2, 2.5};
+    if (i % 2 == 0) std::swap(large, small);
+    SolidProblem problem{thrown(large, {}, random), cases::block({-60, -60, -60}, {60, 60, 60}), {}};
+    const Vector way = cases::direction(random);
+    cases::append(problem.blank, thrown(small, random.uniform(9, 12) * way, random));
+    SolidFrame frame;
+    frame.start = {1, 0, 0, 0};
+    for (const Vector p : problem.part.vertices) frame.reach = std::max(frame.reach, norm(p));
+    frame.window = {{}, {{0.3, 0.3, 0.3}, {9, 9, 9}}};
+    const SolidMeter meter(problem, frame);
+    const SolidBounds bounds(meter);
+    std::vector<SolidContact> contacts;
+    const MeasuredSolid start = meter.measure({}, 20, 1, contacts);
+    if (!start.inside || contacts.empty()) continue;
+    const KnownSolid known = bounds.known(contacts.front(), frame.motion({}));
+    edges += known.edges.has_value();
+    of_part += known.part_disc.radius > 0.3;
+    of_blank += known.blank_disc.radius > 0.3;
+    for (int cell_number = 0; cell_number < 4; ++cell_number) {
+      const double size = random.uniform(0.02, 1) * start.value, turn = size / 10 * random.uniform(0, 1);
+      const SolidCell cell{{within({}, {0.01, 0.01, 0.01}, random), within({}, {0.1, 0.1, 0.1}, random)},
+                           {{turn, turn, turn}, {size, size, size}}};
+      const CellView view(frame, cell);
+      const SolidRow row = bounds.row(known, view);
+      for (int k = 0; k < 12; ++k) {
+        const FramedPose pose{within(cell.middle.x, cell.half.x, random),
+                              within(cell.middle.at, cell.half.at, random)};
+        const MeasuredSolid here = meter.measure(pose, std::numeric_limits<double>::infinity(), 1, contacts);
+        if (!here.inside) continue;
+        ++inside;
+        const Steps z = steps(frame, cell.middle, pose);
+        double value = row.bound.level;
+        for (std::size_t n = 0; n < 6; ++n) value += row.bound.slope[n] * z[n];
+        EXPECT_GE(std::max(value, -row.radius) + bounds.rounding(), here.value);
+        if (value < here.value + 0.02) ++tight;
+      }
+    }
+  }
+  EXPECT_GT(inside, 3000u);
+  EXPECT_GT(tight, 300u);
+  EXPECT_GT(edges, 30u);
+  EXPECT_GT(of_part, 30u);
+  EXPECT_GT(of_blank, 30u);
 }
 
 }  // namespace

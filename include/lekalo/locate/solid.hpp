@@ -26,7 +26,7 @@ struct SolidPose {
 };
 [[nodiscard]] solid::Motion motion_of(const SolidPose& pose) noexcept;
 
-/// What may move: the part's place; also its turn about the z axis of the blank's frame; or all six.
+/// The freedoms of the part: its place; also its turn about the z axis of the blank's frame; or all six.
 enum class SolidFreedom { xyz, c_xyz, six };
 
 struct SolidProblem {
@@ -72,6 +72,7 @@ struct SolidPlacement {
 };
 
 struct SolidResult {
+  /// It is `stopped`, too, where no pose was found inside and none has more than the gap.
   Status status = Status::stopped;
   SolidPlacement best;
   /// No placement of the window has more clearance; rounded up.

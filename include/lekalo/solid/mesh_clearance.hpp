@@ -22,7 +22,7 @@ struct NearPair {
 /// their surfaces, where the part lies inside the blank. A triangle of the blank may have a width, which is
 /// how far the true surface may lie inside it.
 ///
-/// What it answers depends on its arguments alone. docs/design/solid.md has the bounds.
+/// Its answers depend on their arguments alone. docs/design/solid.md has the bounds.
 class MeshClearance {
  public:
   /// \param widths  of the blank's triangles, mm, >= 0; or none, of a blank taken as drawn
@@ -58,7 +58,8 @@ class MeshClearance {
   struct Walk;
 
   TriangleTree part_, blank_;
-  /// Of the blank's triangles in leaf order, and the widest of each of its nodes; both empty without widths.
+  /// The widths of the blank's triangles in leaf order, and the widest of each of its nodes; both empty
+  /// without widths.
   std::vector<double> width_, widest_;
   /// The roots of the pieces.
   std::vector<std::uint32_t> pieces_;

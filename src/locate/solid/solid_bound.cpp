@@ -59,8 +59,8 @@ double least_along(const TriangleTree& tree, Vector n) {
   return least;
 }
 
-/// What n . R p may exceed n . p + 2 (p x n) . y by, for a rotation R with y in the cell: docs/design/
-/// locate-solid.md has the two bounds of the second order.
+/// n . R p exceeds n . p + 2 (p x n) . y by no more than this, for a rotation R with y in the cell:
+/// docs/design/ locate-solid.md has the two bounds of the second order.
 double bend(Vector n, Vector p, Vector lever, const CellView& cell) {
   const double y = cell.turn_norm, np = dot(n, p);
   const double all_round = y * y * std::max(0.0, norm(p) - np);

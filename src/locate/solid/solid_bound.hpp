@@ -64,14 +64,14 @@ struct SolidRow {
   double radius = std::numeric_limits<double>::infinity();
 };
 
-/// Makes contacts known, and bounds boxes by them. What it says depends on its arguments alone.
+/// Makes contacts known, and bounds boxes by them. Its answers depend on their arguments alone.
 class SolidBounds {
  public:
   explicit SolidBounds(const SolidMeter& meter);
 
   [[nodiscard]] KnownSolid known(const SolidContact& contact, const solid::Motion& motion) const;
   [[nodiscard]] SolidRow row(const KnownSolid& known, const CellView& cell) const;
-  /// What a bound may be too low by rounding, mm.
+  /// A bound may be too low by this for rounding, mm.
   [[nodiscard]] double rounding() const noexcept { return rounding_; }
 
  private:

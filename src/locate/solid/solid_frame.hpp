@@ -30,14 +30,14 @@ inline std::array<double, 4> product(const std::array<double, 4>& u, const std::
           u[0] * q[3] + u[1] * q[2] - u[2] * q[1] + u[3] * q[0]};
 }
 
-/// What poses are counted from.
+/// The frame that poses are counted in.
 struct SolidFrame {
   std::array<double, 4> start{};
   solid::Vector pivot;  ///< part coordinates
   double reach = 0;     ///< no point of the part is farther from the pivot, mm
   SolidCell window;
 
-  /// Of any length, so that a locked part of the rotation stays exactly as it is.
+  /// It has any length, so that a locked part of the rotation stays exactly as it is.
   [[nodiscard]] std::array<double, 4> quaternion(const FramedPose& pose) const {
     const solid::Vector x = pose.x;
     return product({1, x.x, x.y, x.z}, start);

@@ -29,7 +29,7 @@ struct MeasuredSolid {
   bool inside = false;
 };
 
-/// Measures a part in a blank. What it says depends on its arguments alone, so threads may share it.
+/// Measures a part in a blank. Its answers depend on their arguments alone, so threads may share it.
 class SolidMeter {
  public:
   SolidMeter(const SolidProblem& problem, const SolidFrame& frame);

@@ -31,7 +31,7 @@ class SolidSearch {
     /// Those of known_ that may matter here.
     std::vector<std::uint32_t> known;
   };
-  /// What bounding a box found besides its bound.
+  /// The finds of bounding a box, besides its bound.
   struct Found {
     std::vector<KnownSolid> known;
     MeasuredSolid best;
