@@ -8,20 +8,21 @@
 #include "triangle_pair.hpp"
 
 namespace lekalo::solid {
-namespace {
-
-/// Moving a point, differences and products with a unit vector are some forty roundings of 2^-53 of the
-/// coordinates.
-constexpr double kRounding = 0x1p-47;
-/// The part is cut into this many pieces, if it has as many triangles.
-constexpr std::size_t kPieces = 64;
-
-Vector absolute(Vector p) { return {std::abs(p.x), std::abs(p.y), std::abs(p.z)}; }
 
 /// A box along the axes by its middle and half widths.
 struct MiddleBox {
   Vector middle, half;
 };
+
+namespace {
+
+/// Moving a point, differences and products with a unit vector are some forty roundings of 2^-53 of the
+/// coordinates.
+constexpr double kPairRounding = 0x1p-47;
+/// The part is cut into this many pieces, if it has as many triangles.
+constexpr std::size_t kPieces = 64;
+
+Vector absolute(Vector p) { return {std::abs(p.x), std::abs(p.y), std::abs(p.z)}; }
 
 MiddleBox moved(const Motion& motion, const Box& box) {
   const Vector half = 0.5 * (box.high - box.low);
@@ -94,7 +95,7 @@ MeshClearance::MeshClearance(const Mesh& part, const Mesh& blank, const std::vec
 struct MeshClearance::Walk {
   Walk(const MeshClearance& from, const Motion& pose) : meter(from), motion(pose) {
     const double far = std::sqrt(3.0) * meter.part_.largest() + largest_coordinate(motion.shift);
-    rounding = kRounding * (far + meter.blank_.largest());
+    rounding = kPairRounding * (far + meter.blank_.largest());
   }
 
   void start(double most) {

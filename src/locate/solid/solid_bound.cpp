@@ -7,7 +7,6 @@ using solid::Motion;
 using solid::TriangleTree;
 using solid::Vector;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The balls of a contact are so many times smaller than part and blank together, and each one larger than
 /// the one before by this.
 constexpr double kSmallestBall = 1.0 / 1024, kLadder = 3;

@@ -17,7 +17,6 @@ constexpr int kMostSteps = 100;
 constexpr int kMostTries = 3;
 /// So many contacts of one pose are looked at.
 constexpr std::size_t kContacts = 64;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 LinearBound<6> row_of(const SolidFrame& frame, const Motion& motion, const SolidContact& contact) {
   const Vector n = contact.normal, g = 1 / frame.reach * cross(motion.turned(contact.part - frame.pivot), n);

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "lekalo/locate/solid.hpp"
 
 namespace lekalo::locate {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A pose as the search counts it: the rotation after the start's, as x = tan(angle / 2) times its axis, and
 /// the place of the pivot, the middle of the part's box, in the blank's frame.

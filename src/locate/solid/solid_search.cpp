@@ -10,19 +10,18 @@ namespace {
 
 using solid::Vector;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// So many boxes are halved at a time.
 constexpr std::size_t kAtOnce = 4;
 /// Contacts are looked for in one box this many times before it is halved.
 constexpr int kRounds = 4;
 /// So many contacts of one pose are looked at, and so many are made known.
-constexpr std::size_t kContacts = 24, kMostNew = 12;
+constexpr std::size_t kLooked = 24, kMostNew = 12;
 /// A box hands at most this many on to its halves.
 constexpr std::size_t kMostKnown = 64;
 /// A contact has to lower a bound by this part of the gap to be worth knowing.
 constexpr double kWorthKnowing = 1.0 / 64;
 /// A climb goes on while it gains this part of the gap.
-constexpr double kClimbGain = 1e-3;
+constexpr double kWorthClimbing = 1e-3;
 /// The progress listener is called after this many units of work.
 constexpr std::uint64_t kReportEvery = 256;
 
@@ -77,7 +76,7 @@ void SolidSearch::bound(Node& node, Found& found) const {
     }
     if (round == kRounds) break;
     const MeasuredSolid here =
-        meter_.measure(pose, std::max(solution.bound, options_.gap), kContacts, contacts);
+        meter_.measure(pose, std::max(solution.bound, options_.gap), kLooked, contacts);
     ++found.work;
     if (here.value > found.best.value) found.best = here;
     std::stable_sort(contacts.begin(), contacts.end(),
@@ -116,7 +115,7 @@ void SolidSearch::learn(Node& node, Found& found) {
   if (!(found.best.value > best_.value)) return;
   best_ = found.best;
   const MeasuredSolid climbed =
-      climb(meter_, best_.pose, size(node.cell), kClimbGain * options_.gap, options_.run, work_);
+      climb(meter_, best_.pose, size(node.cell), kWorthClimbing * options_.gap, options_.run, work_);
   if (climbed.value > best_.value) best_ = climbed;
 }
 
