@@ -456,9 +456,28 @@ TEST(VerifySvgDrawing, LayersAreGroupsAndWhatIsHiddenIsMarked) {
 
 /// Whoever shows the drawing does what they say, so that what is drawn without them is another one.
 TEST(VerifySvgDrawing, StylesThatMoveOrShapeAreNotRead) {
-  for (const char* style :
-       {"transform:scale(2)", "fill:none; TRANSLATE: 5px", "rotate:9deg", "scale:2", "d:path(\"\")",
-        "x:5px;fill:none", "y:5px", "cx:5px", "cy:5px", "r:5px", "rx:5px", "ry:5px", "/**/x:5px", "\\78:5px"})
+  for (const char* style : {"transform:scale(2)",
+                            "fill:none; TRANSLATE: 5px",
+                            "rotate:9deg",
+                            "scale:2",
+                            "d:path(\"\")",
+                            "x:5px;fill:none",
+                            "y:5px",
+                            "cx:5px",
+                            "cy:5px",
+                            "r:5px",
+                            "rx:5px",
+                            "ry:5px",
+                            "/**/x:5px",
+                            "\\78:5px",
+                            "width:2px",
+                            "height:2px",
+                            "offset-path:none",
+                            "offset:none",
+                            "zoom:2",
+                            "all:unset",
+                            "-webkit-transform:scale(2)",
+                            "-moz-transform:none"})
     EXPECT_EQ(on_page("<rect width='1' height='1' style='" + std::string(style) + "'/>"),
               "not read: styles that move or shape\n")
         << style;
@@ -486,16 +505,17 @@ TEST(VerifySvgDrawing, StyleSheetsThatHideOrMoveAreNotRead) {
   for (const char* word : {"display", "visibility", "transform"})
     EXPECT_EQ(on_page("<style>.a{" + std::string(word) + ":none}</style>"),
               "not read: style sheets that hide or move\n");
-  for (const char* rule :
-       {"a{DISPLAY:none}", "a{ x : 5px}", "a{fill:none;r:5px}", "@media print{a{rotate:9deg}}",
-        "a{fill:none}b{scale:2}", "a{b{fill:none}x:5px}", "a{/* b */transform:scale(2)}",
-        "/* a */a{visibility:hidden}", "a{\\78:5px}", "a{/* b */r:5px}", "a{fill:none;/**/x/* c */:5px}",
-        "/**/r:5px", "a{&#114;:5px}", "@import url(other.css);"})
+  for (const char* rule : {"a{DISPLAY:none}", "a{ x : 5px}", "a{fill:none;r:5px}",
+                           "@media print{a{rotate:9deg}}", "a{fill:none}b{scale:2}", "a{b{fill:none}x:5px}",
+                           "a{/* b */transform:scale(2)}", "/* a */a{visibility:hidden}", "a{\\78:5px}",
+                           "a{/* b */r:5px}", "a{fill:none;/**/x/* c */:5px}", "/**/r:5px", "a{&#114;:5px}",
+                           "a{-webkit-transform:scale(2)}", "rect{width:5px}", "@import url(other.css);"})
     EXPECT_EQ(on_page("<style>" + std::string(rule) + "</style>"),
               "not read: style sheets that hide or move\n")
         << rule;
   EXPECT_EQ(on_page("<style>/* a */ .a{fill:none;stroke:red}</style>"), "");
   EXPECT_EQ(on_page("<style>.a{fill:none;/* r:5px; */}/* x:1px</style>"), "");
+  EXPECT_EQ(on_page("<style>.a{stroke-width:5px;-inkscape-font:b;-:c;--:d}</style>"), "");
   EXPECT_EQ(on_page("<?xml-stylesheet href='other.css'?>"), "not read: style sheets of other files\n");
   EXPECT_EQ(on_page("<?xml-model href='other.rng'?>"), "");
   EXPECT_EQ(on_page("<style>.a{fill:none}</style>"), "");
@@ -577,6 +597,10 @@ TEST(VerifyXml, ElementsHaveNamesAttributesTextAndChildren) {
   EXPECT_EQ(parsed("<?xml version='1.0'?><!-- <x> --><!DOCTYPE svg><a>1<!-- 2 -->3<![CDATA[<4>]]></a>"),
             "a '13<4>'");
   EXPECT_EQ(parsed("<a b='&lt;&gt;&amp;&quot;&apos;&#65;&#x7a;&#8364;x'/>"), "a b=<>&\"'Az?x");
+  EXPECT_EQ(parsed("<a b='&#127;&#128;&#99999999999;&#x80;'/>"), "a b=\x7f???");
+  for (const char* wrong : {"&#;", "&#x;", "&#;&#65;", "&#6z;", "&#xg;", "&#-1;", "&#X41;"})
+    EXPECT_EQ(parsed("<a b='" + std::string(wrong) + "'/>"), "d.svg: it is no XML that is understood here")
+        << wrong;
   EXPECT_EQ(parsed("<a>&#65;<![CDATA[&#65;]]></a>"), parsed("<a>A<![CDATA[&#65;]]></a>"));
   EXPECT_EQ(parsed("text <a/> and what follows </b>"), "a");
 }

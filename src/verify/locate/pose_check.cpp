@@ -78,11 +78,12 @@ class PoseCheck {
           "the criterion \"{}\" is none that this checker knows, so it was not rechecked that the "
           "placement is the one that the criterion looks for",
           excerpt(r_.demands->criterion)));
-    report_.verdict = !report_.findings.empty()                                   ? Verdict::refuted
-                      : !proved                                                   ? Verdict::unproved
-                      : open || !features_whole || program_open_ || missing_open_ ? Verdict::incomplete
-                      : origins_open_                                             ? Verdict::stated_regions
-                                                                                  : Verdict::confirmed;
+    const bool claims_open = open || !features_whole || program_open_;
+    report_.verdict = !report_.findings.empty()      ? Verdict::refuted
+                      : !proved                      ? Verdict::unproved
+                      : claims_open || missing_open_ ? Verdict::incomplete
+                      : origins_open_                ? Verdict::stated_regions
+                                                     : Verdict::confirmed;
     return std::move(report_);
   }
 

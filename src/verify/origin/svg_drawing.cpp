@@ -203,11 +203,14 @@ class SvgReader {
     }
   }
   static bool says_shape(std::string_view style) {
-    constexpr std::array<std::string_view, 12> kShapes{
-        "TRANSFORM", "TRANSLATE", "ROTATE", "SCALE", "D", "X", "Y", "CX", "CY", "R", "RX", "RY"};
+    constexpr std::string_view kShapes[] = {
+        "TRANSFORM", "TRANSLATE", "ROTATE", "SCALE", "OFFSET", "OFFSET-PATH", "ZOOM", "ALL",   "D",
+        "X",         "Y",         "CX",     "CY",    "R",      "RX",          "RY",   "WIDTH", "HEIGHT"};
     bool found = false;
-    each_said(style, [&](const std::string& name, std::string_view) {
-      found = found || std::find(kShapes.begin(), kShapes.end(), name) != kShapes.end();
+    each_said(style, [&](std::string_view name, std::string_view) {
+      // Browsers know some names with their maker's prefix, too.
+      if (name.starts_with('-')) name.remove_prefix(std::min(name.find('-', 1), name.size() - 1) + 1);
+      found = found || std::find(std::begin(kShapes), std::end(kShapes), name) != std::end(kShapes);
     });
     return found;
   }
@@ -218,12 +221,12 @@ class SvgReader {
   }
   static std::string without_comments(std::string_view sheet) {
     std::string rules;
-    for (std::size_t at = 0; at < sheet.size();) {
-      const std::size_t comment = std::min(sheet.find("/*", at), sheet.size());
-      rules += sheet.substr(at, comment - at);
-      at = comment < sheet.size() ? sheet.find("*/", comment + 2) : std::string_view::npos;
-      if (at == std::string_view::npos) break;
-      at += 2;
+    while (true) {
+      const std::size_t comment = sheet.find("/*");
+      rules += sheet.substr(0, comment);
+      const std::size_t end = comment == std::string_view::npos ? comment : sheet.find("*/", comment + 2);
+      if (end == std::string_view::npos) break;
+      sheet.remove_prefix(end + 2);
     }
     return rules;
   }

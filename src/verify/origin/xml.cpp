@@ -123,7 +123,7 @@ class XmlReader {
   /// Returns the character that a number names, or ? for one beyond ASCII: those neither draw nor name
   /// anything.
   char character(std::string_view number) {
-    const bool hexadecimal = !number.empty() && number.front() == 'x';
+    const bool hexadecimal = number.starts_with('x');
     if (hexadecimal) number.remove_prefix(1);
     std::uint32_t code = 0;
     const auto [end, error] =

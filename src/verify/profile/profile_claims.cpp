@@ -207,7 +207,7 @@ class ProfileCheck {
 
   [[nodiscard]] bool is_everywhere(const Ring& loop, const Wanted& wanted) const {
     // The waste lies to the right of an outline that runs counter-clockwise, to the left of such a hole.
-    const bool right = (wanted.ring.area() > 0) == (wanted.hole == 0);
+    const bool right = std::signbit(wanted.ring.area()) == (wanted.hole != 0);
     for (const Stroke& piece : wanted.ring.pieces) {
       const double whole = length(piece);
       const int samples = static_cast<int>(std::ceil(whole / kSampling));

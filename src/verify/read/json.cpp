@@ -168,7 +168,7 @@ constexpr std::array<bool, 256> kStructure = [] {
 /// Says of eight characters at once that none of them does. The answer is no also where one is a letter.
 bool all_plain(std::string_view eight) {
   constexpr std::uint64_t kOnes = 0x0101010101010101;
-  std::uint64_t word = 0;
+  std::uint64_t word;
   std::memcpy(&word, eight.data(), sizeof word);
   const std::uint64_t quotes = word ^ '"' * kOnes;  // 0 where a quote stands
   return (word & '@' * kOnes) == 0 && ((quotes - kOnes) & ~quotes & 0x80 * kOnes) == 0;
