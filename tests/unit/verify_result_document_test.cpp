@@ -180,6 +180,9 @@ std::string program_with(const std::string& list, const char* word = "M130") {
 TEST(ProgramCheck, AListOfMWordsHasOneALine) {
   const std::string allowed = program_with("M130\n"), not_allowed = program_with("");
   EXPECT_NE(allowed, not_allowed);
+  EXPECT_EQ(not_allowed.rfind("left open\nthat the program written is p.nc, moved, was not rechecked: ", 0),
+            0U)
+      << not_allowed;
   for (const char* list : {"M130", "m130", " M 1\t30 \r\n", "# M7\nM130 # or not\n", "; a\nM130;M9",
                            "(a)\nM130 (b)", "M0\n\n\nM130", "M130\nM131\n", "M131\nM130"})
     EXPECT_EQ(program_with(list), allowed) << list;
