@@ -1,0 +1,53 @@
+#include "box_tree.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace lekalo::verify {
+namespace {
+
+constexpr std::uint32_t kLeaf = 4;
+
+}  // namespace
+
+double gap(const Box3& a, const Box3& b) {
+  double sum = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double between = std::max(a.low[axis] - b.high[axis], b.low[axis] - a.high[axis]);
+    if (!(between > 0)) continue;
+    const double least = step_down(between);
+    sum = step_down(sum + step_down(least * least));
+  }
+  return sum > 0 ? step_down(std::sqrt(sum)) : 0;
+}
+
+BoxTree::BoxTree(std::vector<Box3> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
+  std::iota(order_.begin(), order_.end(), 0U);
+  nodes_.reserve(boxes_.size());
+  build(0, static_cast<std::uint32_t>(boxes_.size()));
+}
+
+std::uint32_t BoxTree::build(std::uint32_t begin, std::uint32_t end) {
+  const auto at = static_cast<std::uint32_t>(nodes_.size());
+  Box3 box = boxes_[order_[begin]];
+  for (std::uint32_t k = begin + 1; k < end; ++k) box.hold(boxes_[order_[k]]);
+  nodes_.push_back({box, begin, end, 0});
+  ask((end - begin) / 16 + 1);
+  if (end - begin <= kLeaf) return at;
+  std::size_t longest = 0;
+  for (const std::size_t axis : {1U, 2U})
+    if (box.high[axis] - box.low[axis] > box.high[longest] - box.low[longest]) longest = axis;
+  const std::uint32_t half = begin + (end - begin) / 2;
+  const auto middle = [&](std::uint32_t number) {
+    return boxes_[number].low[longest] + boxes_[number].high[longest];
+  };
+  std::nth_element(
+      order_.begin() + begin, order_.begin() + half, order_.begin() + end,
+      [&](std::uint32_t a, std::uint32_t b) { return std::pair(middle(a), a) < std::pair(middle(b), b); });
+  build(begin, half);
+  const std::uint32_t second = build(half, end);
+  nodes_[at].second = second;
+  return at;
+}
+
+}  // namespace lekalo::verify

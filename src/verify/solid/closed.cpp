@@ -1,0 +1,108 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "lekalo/base/stop.hpp"
+#include "solid_mesh.hpp"
+#include "vec3.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+/// Orders the places of two vertices exactly: nearest doubles that differ are in the order of their numbers.
+int compare_places(const SolidMesh& mesh, std::uint32_t a, std::uint32_t b) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double x = mesh.near[a][axis], y = mesh.near[b][axis];
+    if (x != y) return x < y ? -1 : 1;
+    if (mesh.written.empty()) continue;
+    const Decimal &u = mesh.written[a][axis], &v = mesh.written[b][axis];
+    if (u.exponent == v.exponent && u.digits == v.digits) continue;
+    if (const int order = compare(u, v); order != 0) return order;
+  }
+  return 0;
+}
+
+/// Returns the number of each vertex after those at one place have become one, and keeps one of each.
+std::vector<std::uint32_t> weld(SolidMesh& mesh) {
+  std::vector<std::uint32_t> order(mesh.near.size()), becomes(mesh.near.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    ask();
+    return compare_places(mesh, a, b) < 0;
+  });
+  SolidMesh kept;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (k == 0 || compare_places(mesh, order[k - 1], order[k]) != 0) {
+      kept.near.push_back(mesh.near[order[k]]);
+      if (!mesh.written.empty()) kept.written.push_back(mesh.written[order[k]]);
+    }
+    becomes[order[k]] = static_cast<std::uint32_t>(kept.near.size() - 1);
+  }
+  mesh.near = std::move(kept.near);
+  mesh.written = std::move(kept.written);
+  return becomes;
+}
+
+/// Returns an edge that belongs to an odd number of triangles.
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+std::optional<Edge> open_edge(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  std::vector<Edge> edges;
+  edges.reserve(3 * triangles.size());
+  for (const auto& [a, b, c] : triangles)
+    for (const auto& [from, to] : {Edge{a, b}, Edge{b, c}, Edge{c, a}})
+      edges.emplace_back(std::min(from, to), std::max(from, to));
+  ask(edges.size());
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    while (end < edges.size() && edges[end] == edges[begin]) ++end;
+    if ((end - begin) % 2 != 0) return edges[begin];
+  }
+  return std::nullopt;
+}
+
+/// Says whether the corners lie exactly on one line.
+bool is_flat(const SolidMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  std::array<Vec3, 3> at{};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis) at[k][axis] = mesh.enclosed(triangle[k], axis);
+  const Vec3 n = cross(at[1] - at[0], at[2] - at[0]);
+  if (std::ranges::any_of(n, [](Span s) { return s.low > 0 || s.high < 0; })) return false;
+  std::array<Exact3, 3> exact;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis) exact[k][axis] = mesh.exact(triangle[k], axis);
+  return std::ranges::all_of(cross(exact[1] - exact[0], exact[2] - exact[0]),
+                             [](const Fraction& f) { return sgn(f) == 0; });
+}
+
+}  // namespace
+
+Result<SolidMesh> closed(SolidMesh mesh, const std::string& name) {
+  const std::vector<std::uint32_t> becomes = weld(mesh);
+  std::vector<std::array<std::uint32_t, 3>> all, with_area;
+  for (const auto& triangle : mesh.triangles) {
+    ask();
+    const std::array<std::uint32_t, 3> t{becomes[triangle[0]], becomes[triangle[1]], becomes[triangle[2]]};
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    all.push_back(t);
+    if (!is_flat(mesh, t)) with_area.push_back(t);
+  }
+  if (with_area.empty()) return failure(ErrorCode::bad_input, name + ": none of its triangles has an area");
+  if (!open_edge(with_area)) {
+    mesh.triangles = std::move(with_area);
+    return mesh;
+  }
+  if (const auto edge = open_edge(all)) {
+    const auto &a = mesh.near[edge->first], &b = mesh.near[edge->second];
+    return failure(ErrorCode::bad_input,
+                   fmt::format("{}: the surface is open: the edge from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, "
+                               "{:.6g}, {:.6g}) belongs to one triangle or an odd number of them",
+                               name, a[0], a[1], a[2], b[0], b[1], b[2]));
+  }
+  mesh.triangles = std::move(all);
+  return mesh;
+}
+
+}  // namespace lekalo::verify

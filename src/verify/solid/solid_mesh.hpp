@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/verify/verify.hpp"
+#include "verify/number/exact.hpp"
+#include "verify/number/span.hpp"
+
+namespace lekalo::verify {
+
+/// Triangles over vertices, as a file has them: every coordinate is exactly what was written.
+struct SolidMesh {
+  std::vector<std::array<double, 3>> near;  ///< the nearest doubles
+  /// The decimals of a text; empty where each coordinate is its double.
+  std::vector<std::array<Decimal, 3>> written;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+
+  [[nodiscard]] Span enclosed(std::uint32_t vertex, std::size_t axis) const {
+    const double value = near[vertex][axis];
+    return written.empty() ? just(value) : outwards(value, value);
+  }
+  [[nodiscard]] Fraction exact(std::uint32_t vertex, std::size_t axis) const {
+    return written.empty() ? Fraction(near[vertex][axis]) : to_fraction(written[vertex][axis]);
+  }
+};
+
+/// Most vertices, and most triangles, of a file (docs/limits.md).
+inline constexpr std::size_t kMostSolidItems = 20'000'000;
+
+struct SolidReading {
+  SolidMesh mesh;
+  /// Says what is not read here, and so not rechecked; the mesh is of no use then.
+  std::optional<std::string> open;
+};
+
+/// Reads STL, OBJ or PLY, told apart by content, as docs/formats.md says, with triangles alone. bad_input
+/// names the line, or the triangle or row of a binary file.
+[[nodiscard]] Result<SolidReading> read_solid(const Document& document);
+
+/// Returns the mesh with one vertex at each place. Every edge belongs to an even number of triangles, else it
+/// is refused with a place. Triangles with a corner twice are left out; those whose corners lie exactly on a
+/// line, too, unless the surface closes along them.
+[[nodiscard]] Result<SolidMesh> closed(SolidMesh mesh, const std::string& name);
+
+}  // namespace lekalo::verify

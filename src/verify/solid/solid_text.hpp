@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "solid_mesh.hpp"
+
+namespace lekalo::verify {
+
+/// Collects what a reader finds in a file.
+class SolidMaker {
+ public:
+  explicit SolidMaker(const Document& document) : document_(document) {}
+
+  [[nodiscard]] const Document& document() const { return document_; }
+  [[nodiscard]] std::size_t vertices() const { return reading_.mesh.near.size(); }
+
+  /// Returns the sentence of refusal for the three numbers of a text, or none.
+  [[nodiscard]] std::optional<std::string> add_vertex(const std::string_view* words);
+  [[nodiscard]] std::optional<std::string> add_vertex(const std::array<double, 3>& xyz);
+  [[nodiscard]] std::optional<std::string> add_triangle(const std::array<std::uint32_t, 3>& corners);
+  /// Gives the file up: it is not read any further.
+  void leave_open(std::string sentence) { reading_.open = std::move(sentence); }
+  [[nodiscard]] bool is_open() const { return reading_.open.has_value(); }
+
+  [[nodiscard]] SolidReading take() { return std::move(reading_); }
+
+ private:
+  const Document& document_;
+  SolidReading reading_;
+};
+
+/// Cuts a line at blanks.
+void split(std::string_view line, std::vector<std::string_view>& words);
+
+[[nodiscard]] Result<void> read_ply(SolidMaker& made);
+
+}  // namespace lekalo::verify

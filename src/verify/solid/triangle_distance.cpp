@@ -1,0 +1,252 @@
+#include "triangle_distance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lekalo/base/stop.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+using NearTriangle = std::array<Near3, 3>;
+
+NearTriangle middle_of(const Triangle3& t) {
+  NearTriangle middle{};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis) middle[k][axis] = t[k][axis].low / 2 + t[k][axis].high / 2;
+  return middle;
+}
+
+/// A point of a triangle: the shares of its corners.
+using Shares = Near3;
+
+/// Two nearest points of two triangles, as far as doubles tell.
+struct Proposal {
+  double squared = kInfinity;
+  Shares a{1, 0, 0}, b{1, 0, 0};
+};
+
+Near3 point_at(const NearTriangle& t, const Shares& shares) {
+  return t[0] * shares[0] + t[1] * shares[1] + t[2] * shares[2];
+}
+
+class Proposer {
+ public:
+  Proposer(const NearTriangle& a, const NearTriangle& b) : a_(a), b_(b) {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) edges(i, j);
+    for (std::size_t k = 0; k < 3; ++k) {
+      face(b_, a_[k], [&](const Shares& shares) { take(corner(k), shares); });
+      face(a_, b_[k], [&](const Shares& shares) { take(shares, corner(k)); });
+      pierce(a_, b_, k, [&](const Shares& edge, const Shares& shares) { take(edge, shares); });
+      pierce(b_, a_, k, [&](const Shares& edge, const Shares& shares) { take(shares, edge); });
+    }
+  }
+  [[nodiscard]] const Proposal& best() const { return best_; }
+
+ private:
+  static Shares corner(std::size_t k) {
+    Shares shares{};
+    shares[k] = 1;
+    return shares;
+  }
+  static Shares on_edge(std::size_t k, double share) {
+    Shares shares{};
+    shares[k] = 1 - share;
+    shares[(k + 1) % 3] = share;
+    return shares;
+  }
+
+  void take(const Shares& a, const Shares& b) {
+    const Near3 way = point_at(b_, b) - point_at(a_, a);
+    if (const double squared = dot(way, way); squared < best_.squared) best_ = {squared, a, b};
+  }
+
+  void edges(std::size_t i, std::size_t j) {
+    const Near3 u = a_[(i + 1) % 3] - a_[i], v = b_[(j + 1) % 3] - b_[j], w = b_[j] - a_[i];
+    const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w);
+    const auto within = [](double x) { return x > 0 ? std::min(x, 1.0) : 0.0; };
+    const double det = uu * vv - uv * uv;
+    double s = det > 0 ? within((uw * vv - vw * uv) / det) : 0;
+    const double t = vv > 0 ? within((s * uv - vw) / vv) : 0;
+    s = uu > 0 ? within((t * uv + uw) / uu) : 0;
+    take(on_edge(i, s), on_edge(j, t));
+  }
+
+  /// Takes the foot of a point on the inside of a triangle.
+  template <class Take>
+  static void face(const NearTriangle& t, const Near3& p, const Take& take) {
+    const Near3 n = cross(t[1] - t[0], t[2] - t[0]);
+    Shares shares{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Near3& from = t[(k + 1) % 3];
+      shares[k] = dot(n, cross(t[(k + 2) % 3] - from, p - from));
+      if (!(shares[k] >= 0)) return;
+    }
+    if (const double sum = shares[0] + shares[1] + shares[2]; sum > 0) take(shares * (1 / sum));
+  }
+
+  /// Takes the point where edge k of one triangle passes through the other.
+  template <class Take>
+  static void pierce(const NearTriangle& edge, const NearTriangle& t, std::size_t k, const Take& take) {
+    const Near3 &from = edge[k], &to = edge[(k + 1) % 3];
+    const Near3 n = cross(t[1] - t[0], t[2] - t[0]);
+    const double before = dot(n, from - t[0]), after = dot(n, to - t[0]);
+    if (!(before * after < 0)) return;
+    const double share = before / (before - after);
+    const Near3 p = from * (1 - share) + to * share;
+    face(t, p, [&](const Shares& shares) { take(on_edge(k, share), shares); });
+  }
+
+  const NearTriangle &a_, &b_;
+  Proposal best_;
+};
+
+/// Returns a number that the distance of the triangles is not below: the gap between them along a direction.
+double gap_along(const Near3& direction, const Triangle3& a, const Triangle3& b) {
+  const Vec3 n{just(direction[0]), just(direction[1]), just(direction[2])};
+  Span of_a = dot(n, a[0]), of_b = dot(n, b[0]);
+  for (std::size_t k = 1; k < 3; ++k) {
+    const Span x = dot(n, a[k]), y = dot(n, b[k]);
+    of_a = {std::min(of_a.low, x.low), std::max(of_a.high, x.high)};
+    of_b = {std::min(of_b.low, y.low), std::max(of_b.high, y.high)};
+  }
+  const double between = std::max(step_down(of_b.low - of_a.high), step_down(of_a.low - of_b.high));
+  if (!(between > 0)) return 0;
+  const double low = (just(between) / length(n)).low;
+  return low > 0 ? low : 0;
+}
+
+Vec3 point_at(const Triangle3& t, const Shares& shares) {
+  const Span sum = just(shares[0]) + just(shares[1]) + just(shares[2]);
+  Vec3 p{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    p[axis] =
+        (t[0][axis] * just(shares[0]) + t[1][axis] * just(shares[1]) + t[2][axis] * just(shares[2])) / sum;
+  return p;
+}
+
+// ---- exactly ----------------------------------------------------------------------------------------------
+
+using WholeTriangle = std::array<Whole3, 3>;
+
+/// The least of squared lengths, as a fraction that is not reduced.
+class Least {
+ public:
+  void take(const Integer& numerator, const Integer& denominator) {
+    if (some_ && numerator * denominator_ >= numerator_ * denominator) return;
+    some_ = true;
+    numerator_ = numerator;
+    denominator_ = denominator;
+  }
+  [[nodiscard]] Fraction value() const {
+    Fraction value(numerator_, denominator_);
+    value.canonicalize();
+    return value;
+  }
+
+ private:
+  bool some_ = false;
+  Integer numerator_, denominator_ = 1;
+};
+
+void to_edge(const Whole3& p, const Whole3& from, const Whole3& to, Least& least) {
+  const Whole3 along = to - from, way = p - from;
+  const Integer share = dot(way, along), all = dot(along, along);
+  if (share <= 0 || all == 0) return least.take(dot(way, way), 1);
+  if (share >= all) {
+    const Whole3 rest = p - to;
+    return least.take(dot(rest, rest), 1);
+  }
+  const Whole3 across = cross(way, along);
+  least.take(dot(across, across), all);
+}
+
+void between_edges(const Whole3& a, const Whole3& b, const Whole3& c, const Whole3& d, Least& least) {
+  const Whole3 u = b - a, v = d - c, w = c - a, n = cross(u, v);
+  const Integer all = dot(n, n);
+  if (all == 0) return;  // parallel: an end is as near
+  const Integer on_u = dot(cross(w, v), n), on_v = dot(cross(w, u), n);
+  if (on_u < 0 || on_u > all || on_v < 0 || on_v > all) return;
+  const Integer height = dot(w, n);
+  least.take(height * height, all);
+}
+
+void to_face(const Whole3& p, const WholeTriangle& t, Least& least) {
+  const Whole3 n = cross(t[1] - t[0], t[2] - t[0]);
+  const Integer all = dot(n, n);
+  if (all == 0) return;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (dot(n, cross(t[(k + 1) % 3] - t[k], p - t[k])) < 0) return;
+  const Integer height = dot(n, p - t[0]);
+  least.take(height * height, all);
+}
+
+/// Returns nothing where the edge does not pass from one side of the triangle's plane to the other within the
+/// triangle, and else whether it does so in its inside.
+std::optional<bool> pierces(const Whole3& from, const Whole3& to, const WholeTriangle& t) {
+  const Whole3 n = cross(t[1] - t[0], t[2] - t[0]);
+  if (sgn(dot(n, from - t[0])) * sgn(dot(n, to - t[0])) >= 0) return std::nullopt;
+  int least = 1, most = -1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int side = sgn(dot(cross(t[k] - from, t[(k + 1) % 3] - from), to - from));
+    least = std::min(least, side);
+    most = std::max(most, side);
+  }
+  if (least < 0 && most > 0) return std::nullopt;
+  return least == most;
+}
+
+}  // namespace
+
+Span distance(const Triangle3& a, const Triangle3& b, double limit) {
+  ask();
+  const NearTriangle near_a = middle_of(a), near_b = middle_of(b);
+  const Proposal best = Proposer(near_a, near_b).best();
+  double low = gap_along(point_at(near_b, best.b) - point_at(near_a, best.a), a, b);
+  if (low > limit) return {low, kInfinity};
+  // Along a face that both lie flat to, its own normal is more exact than the way between two points.
+  for (const NearTriangle* t : {&near_a, &near_b})
+    low = std::max(low, gap_along(cross((*t)[1] - (*t)[0], (*t)[2] - (*t)[0]), a, b));
+  if (low > limit) return {low, kInfinity};
+  const double high = length(point_at(b, best.b) - point_at(a, best.a)).high;
+  return {low, high >= low ? high : kInfinity};  // NaN says nothing
+}
+
+ExactDistance exact_distance(const ExactTriangle& a, const ExactTriangle& b) {
+  ask(50);
+  Integer unit = 1;
+  for (const ExactTriangle* t : {&a, &b})
+    for (const Exact3& p : *t)
+      for (const Fraction& x : p) unit = lcm(unit, x.get_den());
+  const auto whole = [&](const ExactTriangle& t) {
+    WholeTriangle made;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        made[k][axis] = t[k][axis].get_num() * (unit / t[k][axis].get_den());
+    return made;
+  };
+  const WholeTriangle s = whole(a), t = whole(b);
+  ExactDistance found;
+  Least least;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Whole3 &from = s[i], &to = s[(i + 1) % 3];
+    to_face(s[i], t, least);
+    to_face(t[i], s, least);
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Whole3 &begin = t[j], &end = t[(j + 1) % 3];
+      to_edge(s[i], begin, end, least);
+      to_edge(t[j], from, to, least);
+      between_edges(from, to, begin, end, least);
+    }
+    for (const auto& through : {pierces(from, to, t), pierces(t[i], t[(i + 1) % 3], s)}) {
+      if (!through) continue;
+      least.take(0, 1);
+      found.pierces = found.pierces || *through;
+    }
+  }
+  found.squared = least.value() / Fraction(unit * unit);
+  return found;
+}
+
+}  // namespace lekalo::verify

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+
+#include "verify/number/exact.hpp"
+#include "verify/number/span.hpp"
+
+namespace lekalo::verify {
+
+/// A point or a vector of space: of doubles, of enclosures, of fractions and of integers.
+template <class Number>
+using Of3 = std::array<Number, 3>;
+using Near3 = Of3<double>;
+using Vec3 = Of3<Span>;
+using Exact3 = Of3<Fraction>;
+using Whole3 = Of3<Integer>;
+
+template <class Number>
+[[nodiscard]] Of3<Number> operator-(const Of3<Number>& a, const Of3<Number>& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+template <class Number>
+[[nodiscard]] Of3<Number> operator+(const Of3<Number>& a, const Of3<Number>& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+template <class Number>
+[[nodiscard]] Of3<Number> operator*(const Of3<Number>& a, const Number& by) {
+  return {a[0] * by, a[1] * by, a[2] * by};
+}
+template <class Number>
+[[nodiscard]] Number dot(const Of3<Number>& a, const Of3<Number>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <class Number>
+[[nodiscard]] Of3<Number> cross(const Of3<Number>& a, const Of3<Number>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+[[nodiscard]] inline Span length(const Vec3& a) {
+  return square_root(squared(a[0]) + squared(a[1]) + squared(a[2]));
+}
+
+/// Returns the sign of a number that is surely not 0, and else 0.
+[[nodiscard]] inline int sure_sign(Span a) { return a.low > 0 ? 1 : (a.high < 0 ? -1 : 0); }
+
+}  // namespace lekalo::verify

@@ -1,0 +1,194 @@
+// The checker's reader of closed meshes.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "support/solid_files.hpp"
+#include "support/solids.hpp"
+#include "support/stopwatch.hpp"
+#include "support/verify_solids.hpp"
+
+namespace lekalo::verify::verify_solid_file_test {
+namespace {
+
+using namespace solid_files;
+using solid::Mesh;
+
+/// "closed" with numbers, or the sentence of what is open or wrong.
+std::string reading(const std::string& bytes) {
+  const auto read = read_solid({"s", bytes});
+  if (!read) return read.error().message;
+  if (read->open) return "open: " + *read->open;
+  const auto made = closed(read->mesh, "s");
+  if (!made) return made.error().message;
+  return fmt::format("closed, {} vertices, {} triangles", made->near.size(), made->triangles.size());
+}
+
+Mesh cube() { return cases::block({0, 0, 0}, {1.5, 2, 3}); }
+
+TEST(SolidReader, EveryFormatGivesTheSameCube) {
+  const std::string closed = "closed, 8 vertices, 12 triangles";
+  EXPECT_EQ(reading(stl_text(cube())), closed);
+  EXPECT_EQ(reading(stl_binary(cube())), closed);
+  EXPECT_EQ(reading(stl_binary(cube(), "head")), closed);
+  EXPECT_EQ(reading(obj(cube())), closed);
+  for (const PlyForm form : kPlyForms) {
+    EXPECT_EQ(reading(ply<float>(cube(), form)), closed);
+    EXPECT_EQ(reading(ply<double>(cube(), form, true)), closed);
+  }
+}
+
+TEST(SolidReader, NumbersAreWhatIsWritten) {
+  Mesh mesh = cube();
+  mesh.vertices[7] = {0.1, 1e-7, 1234567.875};
+  for (const std::string& text : {stl_text(mesh), obj(mesh), ply<double>(mesh, PlyForm::text)}) {
+    const auto read = read_solid({"s", text});
+    ASSERT_TRUE(read && !read->open) << reading(text);
+    const auto made = closed(read->mesh, "s");
+    ASSERT_TRUE(made);
+    const auto at = std::ranges::find(made->near, std::array<double, 3>{0.1, 1e-7, 1234567.875});
+    ASSERT_NE(at, made->near.end());
+    const auto v = static_cast<std::uint32_t>(at - made->near.begin());
+    EXPECT_TRUE(made->exact(v, 0) == Fraction(1, 10));
+    EXPECT_TRUE(made->exact(v, 1) == Fraction(1, 10'000'000));
+    EXPECT_LT(made->enclosed(v, 0).low, 0.1);
+    EXPECT_GT(made->enclosed(v, 0).high, 0.1);
+  }
+  for (const std::string& bytes : {ply<double>(mesh, PlyForm::little), ply<double>(mesh, PlyForm::big)}) {
+    const auto read = read_solid({"s", bytes});
+    ASSERT_TRUE(read && !read->open);
+    EXPECT_TRUE(read->mesh.exact(7, 0) == Fraction(0.1));
+  }
+  const auto single = read_solid({"s", stl_binary(mesh)});
+  ASSERT_TRUE(single);
+  EXPECT_TRUE(std::ranges::any_of(single->mesh.near, [](const auto& p) { return p[0] == 0.1F; }));
+}
+
+TEST(SolidReader, PlacesAreOneWhereTheirNumbersAre) {
+  std::string text = stl_text(cube());
+  const auto replace_first = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace_first("vertex 1.5 0 0", "vertex 15e-1 -0.0 0e5");
+  EXPECT_EQ(reading(text), "closed, 8 vertices, 12 triangles");
+  // A number below 1e-100 mm is 0; one of 1e-30 is another place, which doubles near 1.5 do not see.
+  replace_first("vertex 15e-1 -0.0 0e5", "vertex 1.5 1e-101 0");
+  EXPECT_EQ(reading(text), "closed, 8 vertices, 12 triangles");
+  replace_first("vertex 1.5 1e-101 0", "vertex 1.500000000000000000000000000001 0 0");
+  EXPECT_NE(reading(text).find("s: the surface is open: the edge from ("), std::string::npos)
+      << reading(text);
+}
+
+TEST(SolidReader, OpenEdgesAreRefusedWithAPlace) {
+  Mesh mesh = cube();
+  mesh.triangles.pop_back();
+  EXPECT_EQ(
+      reading(stl_binary(mesh)),
+      "s: the surface is open: the edge from (1.5, 0, 3) to (1.5, 2, 0) belongs to one triangle or an odd "
+      "number of them");
+}
+
+TEST(SolidReader, TrianglesWithoutAreaAreLeftOutUnlessTheSurfaceClosesAlongThem) {
+  Mesh mesh = cube();
+  mesh.vertices.push_back({0.75, 1, 0});
+  mesh.triangles.push_back({1, 2, 8});
+  mesh.triangles.push_back({1, 2, 8});
+  mesh.triangles.push_back({1, 1, 8});
+  EXPECT_EQ(reading(obj(mesh)), "closed, 9 vertices, 12 triangles");
+  mesh.triangles.resize(13);
+  mesh.triangles[0] = {0, 2, 8};
+  mesh.triangles.push_back({0, 8, 1});
+  EXPECT_EQ(reading(obj(mesh)), "closed, 9 vertices, 14 triangles");
+  // Nearly flat is not flat: 0.75 + 1e-30 is off the line.
+  std::string text = obj(mesh);
+  text.replace(text.find("v 0.75 1 0"), 10, "v 0.75 1 1e-30");
+  EXPECT_EQ(reading(text), "closed, 9 vertices, 14 triangles");
+  EXPECT_EQ(reading("v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\nf 1 2 3\n"), "s: none of its triangles has an area");
+}
+
+TEST(SolidReader, WhatIsNotReadIsSaidAndLeftOpen) {
+  EXPECT_EQ(reading("ISO-10303-21;\n"), "open: it is none of STL, OBJ and PLY");
+  EXPECT_EQ(reading(""), "open: it is none of STL, OBJ and PLY");
+  EXPECT_EQ(reading("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"),
+            "open: the face on line 5 has 4 corners, and only triangles are read");
+  EXPECT_EQ(reading("v 0 0 0 2\n"), "open: the vertex on line 1 has a weight");
+  EXPECT_EQ(reading("v 0 0 \\\n0\n"), "open: line 1 goes on in the next one");
+  EXPECT_EQ(reading("v 0 0 0\nsurf 0 1 0 1\n"), "open: line 2 begins a curved surface");
+  EXPECT_EQ(
+      reading("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float "
+              "z\nend_header\n0 0 0\n"),
+      "open: it has no faces");
+  const std::string quad =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face "
+      "1\nproperty list uchar int vertex_index\nend_header\n0 0 0\n4 0 0 0 0\n";
+  EXPECT_EQ(reading(quad), "open: face 0 has 4 corners, and only triangles are read");
+}
+
+TEST(SolidReader, BadFilesGetOneSentenceWithThePlace) {
+  const auto changed = [](std::string text, const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+    return text;
+  };
+  EXPECT_EQ(reading(changed(stl_text(cube()), "vertex 1.5", "vertex nan")),
+            "s:6: \"nan\" is not " + decimal_rule());
+  EXPECT_EQ(reading(changed(stl_text(cube()), "vertex 1.5", "vertex 1e10")),
+            "s:6: the coordinate 10000000000 is not within 1e+09 mm");
+  EXPECT_EQ(reading(changed(stl_text(cube()), "endloop", "vertex")),
+            "s:7: \"vertex\" where 'endloop' is wanted");
+  EXPECT_EQ(reading("solid a\n"), "s:1: \"\" where 'facet' or 'endsolid' is wanted");
+  EXPECT_EQ(reading("solid a\nendsolid\n"), "s: there are no triangles in it");
+  EXPECT_EQ(reading("v 0 0 0\nf 1 2 1\n"),
+            "s:2: \"2\" is not the number of a vertex that stands before this line");
+  EXPECT_EQ(reading("v 0 0\n"), "s:1: 2 numbers where x, y and z of a vertex are wanted");
+  EXPECT_EQ(reading("v 0 0 0\nf 1 1\n"), "s:2: a face has three corners or more, not 2");
+  std::string binary = stl_binary(cube());
+  const float bad = std::numeric_limits<float>::quiet_NaN();
+  std::copy_n(reinterpret_cast<const char*>(&bad), 4, binary.begin() + 84 + 50 + 12);
+  EXPECT_EQ(reading(binary), "s: triangle 2: the coordinate nan is not within 1e+09 mm");
+  const std::string text = ply<float>(cube(), PlyForm::text), little = ply<float>(cube(), PlyForm::little);
+  EXPECT_NE(reading(little.substr(0, little.size() - 6)).find("s: face 11: "), std::string::npos)
+      << reading(little.substr(0, little.size() - 6));
+  EXPECT_NE(reading(changed(text, "element vertex 8", "element vertex 7")).find("s:"), std::string::npos);
+  EXPECT_EQ(reading(changed(text, "format ascii", "format ebcdic")),
+            "s:2: this line of the header is not known");
+  EXPECT_EQ(reading("ply\nformat ascii 1.0\n"), "s: the header of this PLY does not end");
+  EXPECT_EQ(reading(changed(little, "element vertex 8", "element vertex 18446744073709551615")).substr(0, 2),
+            "s:");
+  EXPECT_EQ(reading(changed(text, "element face 12", "element face 99999999999")).substr(0, 2), "s:");
+}
+
+TEST(SolidReader, EveryCutFileIsToldFromAWholeOne) {
+  for (const std::string& whole : {stl_text(cube()), stl_binary(cube()), obj(cube()),
+                                   ply<float>(cube(), PlyForm::text), ply<double>(cube(), PlyForm::big)})
+    for (std::size_t length = 0; length + 8 < whole.size(); ++length)
+      EXPECT_NE(reading(whole.substr(0, length)).substr(0, 28), "closed, 8 vertices, 12 trian")
+          << length << " of " << whole.size();
+}
+
+TEST(SolidGrowth, TwiceTheFileCostsTwiceTheTime) {
+  const auto seconds = [](std::uint32_t around, auto&& write) {
+    Random random(3);
+    const std::string bytes = write(cases::ring(random, around, 10, 50, 10));
+    double least = 1e9;
+    for (int k = 0; k < 3; ++k) {
+      const cases::Stopwatch watch;
+      const auto read = read_solid({"s", bytes});
+      EXPECT_TRUE(read && closed(read->mesh, "s"));
+      least = std::min(least, watch.seconds());
+    }
+    return least;
+  };
+  const auto check = [&](auto&& write) { EXPECT_LT(seconds(300, write), 3 * seconds(150, write) + 0.02); };
+  check([](const Mesh& mesh) { return stl_text(mesh); });
+  check([](const Mesh& mesh) { return stl_binary(mesh); });
+  check([](const Mesh& mesh) { return obj(mesh); });
+  check([](const Mesh& mesh) { return ply<double>(mesh, PlyForm::text); });
+  check([](const Mesh& mesh) { return ply<float>(mesh, PlyForm::little); });
+}
+
+}  // namespace
+}  // namespace lekalo::verify::verify_solid_file_test
