@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -31,14 +30,20 @@ TEST(SolidCorpus, APublishedPartAndItsCastingCloseAndLieAsTheyDo) {
   EXPECT_EQ(casting.triangles.size(), 6152u);
   EXPECT_EQ(PlacedSolid(part).one_of_each_component().size(), 1u);
   EXPECT_EQ(PlacedSolid(casting).one_of_each_component().size(), 3u);
+  // Both begin at x = -36, which their texts say to the last digit.
+  const SolidMesh box = cases::checked(cases::block({-46, -60, -60}, {60, 60, 60}));
   for (const SolidMesh* mesh : {&part, &casting}) {
-    const Box3 box = PlacedSolid(*mesh).tree().whole();
-    std::cout << fmt::format("{} {} {} / {} {} {}\n", box.low[0], box.low[1], box.low[2], box.high[0],
-                             box.high[1], box.high[2]);
+    EXPECT_EQ(cases::answer(*mesh, box, cases::unturned(), "10"), "shown");
+    EXPECT_NE(cases::answer(*mesh, box, cases::unturned(), "10.00000000000000000001").find("is nearer"),
+              std::string::npos);
+    EXPECT_EQ(cases::answer(*mesh, box, cases::unturned({"0.1", "0", "0"}), "10.1"), "shown");
+    EXPECT_NE(cases::answer(*mesh, box, cases::unturned({"-1e-20", "0", "0"}), "10").find("is nearer"),
+              std::string::npos);
   }
-  for (const auto& shift : {cases::unturned(), cases::unturned({"82", "29.7558", "39.9886"}),
-                            cases::unturned({"0.25", "0", "0"})})
-    std::cout << cases::answer(part, casting, shift, "0") << "\n";
+  // Without the three part zeros moved as its authors do, the part passes through its casting.
+  EXPECT_NE(cases::answer(part, casting, cases::unturned(), "0").find("passes through"), std::string::npos);
+  EXPECT_NE(cases::answer(part, casting, cases::unturned({"500", "0", "0"}), "0").find("lies outside"),
+            std::string::npos);
 }
 
 }  // namespace

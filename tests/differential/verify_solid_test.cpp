@@ -119,13 +119,18 @@ std::string root_below(const Fraction& square, int more) {
 
 TEST(SolidClearance, IsTheLeastOfAllPairsToThirtyPlaces) {
   Random random(cases::seed() + 1);
-  std::size_t shown = 0;
-  for (std::size_t n = 0; n < cases::case_count(4); ++n) {
+  std::size_t apart = 0, inside = 0;
+  for (std::size_t n = 0; n < cases::case_count(8); ++n) {
     const auto coordinate = [&](std::uint64_t steps) { return static_cast<double>(random.below(steps)) / 4; };
     solid::Mesh part = cases::block({0, 0, 0}, {1 + coordinate(8), 1 + coordinate(8), 1 + coordinate(8)});
     // A pyramid, whose edges are skew to those of the part.
     solid::Mesh blank;
-    blank.vertices = {{-9, -9, -5}, {9, -9, -5}, {9, 9, -5}, {-9, 9, -5}, {coordinate(8), coordinate(8), 9}};
+    const double wide = n % 4 == 0 ? 9 : 40;
+    blank.vertices = {{-wide, -wide, -wide / 2},
+                      {wide, -wide, -wide / 2},
+                      {wide, wide, -wide / 2},
+                      {-wide, wide, -wide / 2},
+                      {coordinate(8), coordinate(8), wide}};
     blank.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
     const auto digit = [&] { return std::to_string(static_cast<int>(random.below(9)) - 4); };
     const SolidPose pose = cases::solid_pose({"5", digit(), digit(), digit()}, {digit(), "0.1", "0.3"});
@@ -141,7 +146,8 @@ TEST(SolidClearance, IsTheLeastOfAllPairsToThirtyPlaces) {
     for (std::uint32_t v = 0; v < p.near.size(); ++v)
       in = in && still.holds(placed.at(v), placed.exactly_at(v));
     if (sgn(*least) == 0) continue;
-    ++shown;
+    ++apart;
+    inside += in ? 1 : 0;
     if (in) {
       EXPECT_EQ(cases::answer(p, b, pose, root_below(*least, 0)), "shown") << n;
     } else {
@@ -149,7 +155,8 @@ TEST(SolidClearance, IsTheLeastOfAllPairsToThirtyPlaces) {
     }
     EXPECT_NE(cases::answer(p, b, pose, root_below(*least, 1)).find("fault: "), std::string::npos) << n;
   }
-  EXPECT_GT(shown, cases::case_count(4) / 4);
+  EXPECT_GT(apart, cases::case_count(8) / 4);
+  EXPECT_GT(inside, 0u);
 }
 
 TEST(SolidClearance, InsideAndNearestAgreeWithTheMakers) {

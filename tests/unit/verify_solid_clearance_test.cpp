@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "lekalo/base/stop.hpp"
 #include "support/solids.hpp"
 #include "support/stopwatch.hpp"
 #include "support/verify_solids.hpp"
@@ -186,6 +187,25 @@ TEST(SolidClearance, ContactsAreBounds) {
 TEST(SolidClearance, SizesThatNoMachineHasAreRefused) {
   const Mesh cube = block({0, 0, 0}, {1, 1, 1});
   EXPECT_TRUE(says(answer(cube, cube, unturned({"1e300", "0", "0"}), "1"), "is not within 1e+12 mm"));
+}
+
+TEST(SolidClearance, WorkIsBounded) {
+  // Every triangle of a thin fan is near every other one, so that all pairs are looked at.
+  Mesh fan;
+  fan.vertices = {{0, 0, 0}, {0, 0, 9}};
+  for (std::uint32_t k = 0; k < 1000; ++k) {
+    fan.vertices.push_back({100, k * 1e-6, 5});
+    fan.triangles.push_back({0, k + 2, (k + 1) % 1000 + 2});
+    fan.triangles.push_back({1, k + 2, (k + 1) % 1000 + 2});
+  }
+  const SolidMesh part = cases::checked(fan);
+  const auto pair = SolidPair::make(part, part, unturned({"0", "1e-9", "0"}));
+  ASSERT_TRUE(pair);
+  RunControl run;
+  run.work_limit = 100'000;
+  const auto said = stoppable(run, [&] { return pair->check(cases::decimal("0")); });
+  ASSERT_FALSE(said);
+  EXPECT_TRUE(said.error().out_of_work());
 }
 
 TEST(SolidGrowth, TwiceTheTrianglesTakeTwiceTheTime) {

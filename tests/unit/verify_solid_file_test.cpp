@@ -169,6 +169,35 @@ TEST(SolidReader, EveryCutFileIsToldFromAWholeOne) {
           << length << " of " << whole.size();
 }
 
+TEST(SolidReader, ChangedBytesAreReadOrGetOneSentence) {
+  Random random(11);
+  for (const std::string& whole : {stl_text(cube()), stl_binary(cube()), obj(cube()),
+                                   ply<float>(cube(), PlyForm::text), ply<double>(cube(), PlyForm::little)})
+    for (int n = 0; n < 400; ++n) {
+      std::string bytes = whole;
+      for (std::uint64_t k = 0; k <= random.below(3); ++k) {
+        const std::size_t at = random.below(bytes.size());
+        switch (random.below(4)) {
+          case 0:
+            bytes[at] = static_cast<char>(random.below(256));
+            break;
+          case 1:
+            bytes[at] = static_cast<char>('0' + random.below(10));
+            break;
+          case 2:
+            bytes.erase(at, random.below(40));
+            break;
+          default:
+            bytes.insert(at, bytes.substr(random.below(bytes.size()), random.below(40)));
+        }
+        bytes += ' ';
+      }
+      const std::string said = reading(bytes);
+      EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+      EXPECT_TRUE(said.starts_with("closed") || said.starts_with("open: ") || said.starts_with("s:")) << said;
+    }
+}
+
 TEST(SolidGrowth, TwiceTheFileCostsTwiceTheTime) {
   const auto seconds = [](std::uint32_t around, auto&& write) {
     Random random(3);

@@ -13,8 +13,6 @@ namespace lekalo::verify {
 namespace {
 
 constexpr std::size_t kMostProperties = 256, kMostHeaderLines = 2000;
-/// Corners of a face that are kept; any that has another number of them is left open.
-constexpr std::size_t kCorners = 3;
 
 /// The kind of a number in a binary file: bytes, and a letter for signed, unsigned or floating.
 struct PlyNumber {
@@ -187,7 +185,7 @@ class PlyReader {
     for (std::uint64_t row = 0; row < element.rows; ++row) {
       ask();
       if (text_ && !next_row()) return bad_row(element, row, "the file ends here, too early");
-      std::array<std::uint32_t, kCorners> face{};
+      std::array<std::uint32_t, 3> face{};
       std::size_t face_size = 0;
       for (std::size_t p = 0; p < none; ++p) {
         const PlyProperty& property = element.properties[p];
@@ -203,7 +201,7 @@ class PlyReader {
         for (std::uint32_t k = 0; k < *count; ++k) {
           const auto value = next(property.number);
           if (!value) return bad_row(element, row, "a list ends early");
-          if (!is_face || p != corners || k >= kCorners) continue;
+          if (!is_face || p != corners || k >= 3) continue;
           const auto corner = whole(*value);
           if (!corner) return bad_row(element, row, "a corner is not the number of a vertex");
           face[k] = *corner;
@@ -221,10 +219,9 @@ class PlyReader {
   }
 
   Result<void> add_face(const PlyElement& element, std::uint64_t row,
-                        const std::array<std::uint32_t, kCorners>& corners, std::size_t size) {
-    if (size < kCorners)
-      return bad_row(element, row, fmt::format("a face has three corners or more, not {}", size));
-    if (size > kCorners)
+                        const std::array<std::uint32_t, 3>& corners, std::size_t size) {
+    if (size < 3) return bad_row(element, row, fmt::format("a face has three corners or more, not {}", size));
+    if (size > 3)
       made_.leave_open(fmt::format("face {} has {} corners, and only triangles are read", row, size));
     if (faces_.size() == kMostSolidItems)
       return bad_row(element, row, fmt::format("more than {} triangles", kMostSolidItems));
@@ -261,7 +258,7 @@ class PlyReader {
   std::string_view body_;
   bool text_ = false, big_ = false;
   std::vector<PlyElement> elements_;
-  std::vector<std::array<std::uint32_t, kCorners>> faces_;
+  std::vector<std::array<std::uint32_t, 3>> faces_;
   std::vector<PlyValue> values_;
   std::vector<std::string_view> words_;
   std::size_t at_ = 0;

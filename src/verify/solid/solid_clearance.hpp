@@ -8,7 +8,7 @@
 
 namespace lekalo::verify {
 
-/// What is proved of a claim "the part lies in the blank, and its surface is nowhere nearer to the blank's
+/// The answer to a claim "the part lies in the blank, and its surface is nowhere nearer to the blank's
 /// than so many millimetres". The claim is shown where there is neither a fault nor something open.
 struct SolidAnswer {
   Span least;                        ///< holds the least distance of the two surfaces, mm
