@@ -69,8 +69,36 @@ TEST(SolidClearance, TurnsWithRationalSinesAreExact) {
             "the quaternion is 0, which is no rotation");
 }
 
-TEST(SolidClearance, BetweenSkewEdgesTheDistanceIsARootAndStillExact) {
-  // The part's edge along z at (2, 2) and the blank's reentrant edge: two boxes make an L about it.
+TEST(SolidMotion, IsTheRotationOfTheQuaternionThenTheShift) {
+  // A third of a turn about (1, 1, 1): x goes to y, y to z, z to x.
+  const SolidMotion third(solid_pose({"0.5", "0.5", "0.5", "0.5"}, {"0.1", "0.2", "0.3"}));
+  const auto is = [](const Exact3& p, const Fraction& x, const Fraction& y, const Fraction& z) {
+    return p[0] == x && p[1] == y && p[2] == z;
+  };
+  EXPECT_TRUE(is(third(Exact3{7, 8, 9}), Fraction(91, 10), Fraction(36, 5), Fraction(83, 10)));
+  const Vec3 near = third(Vec3{just(7), just(8), just(9)});
+  for (const auto& [span, value] : {std::pair(near[0], 9.1), {near[1], 7.2}, {near[2], 8.3}}) {
+    EXPECT_LE(span.low, value);
+    EXPECT_GE(span.high, value);
+    EXPECT_LT(span.high - span.low, 1e-13);
+  }
+  // Any other: columns of length 1, upright to each other, right-handed, with the axis in place.
+  const SolidMotion any(solid_pose({"5", "1", "-2", "3"}, {"0", "0", "0"}));
+  const std::array<Exact3, 3> to{any(Exact3{1, 0, 0}), any(Exact3{0, 1, 0}), any(Exact3{0, 0, 1})};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) EXPECT_TRUE(dot(to[i], to[j]) == (i == j ? 1 : 0)) << i << j;
+    EXPECT_TRUE(cross(to[i], to[(i + 1) % 3]) == to[(i + 2) % 3]);
+  }
+  EXPECT_TRUE(is(any(Exact3{1, -2, 3}), 1, -2, 3));
+  EXPECT_TRUE(Fraction(to[0][0] + to[1][1] + to[2][2] + 1) == Fraction(100, 39));
+  // A turn by the angle of 3, 4, 5 about each axis, counter-clockwise as seen from its tip.
+  const Fraction c(3, 5), s(4, 5);
+  EXPECT_TRUE(is(SolidMotion(solid_pose({"2", "1", "0", "0"}, {"0", "0", "0"}))(Exact3{0, 1, 0}), 0, c, s));
+  EXPECT_TRUE(is(SolidMotion(solid_pose({"2", "0", "1", "0"}, {"0", "0", "0"}))(Exact3{0, 0, 1}), s, 0, c));
+  EXPECT_TRUE(is(SolidMotion(solid_pose({"2", "0", "0", "1"}, {"0", "0", "0"}))(Exact3{1, 0, 0}), c, s, 0));
+}
+
+TEST(SolidClearance, ATiltedPartIsMeasuredExactly) {
   const Mesh part = block({0, 0, 0}, {1, 1, 1});
   const Mesh blank = block({-3, -3, -3}, {4, 4, 4});
   // Turned by 45 degrees about z, q = (cos, sin) of 22.5 degrees, is no fraction; by 3-4-5 about x and y it

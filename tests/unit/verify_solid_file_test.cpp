@@ -102,6 +102,12 @@ TEST(SolidReader, TrianglesWithoutAreaAreLeftOutUnlessTheSurfaceClosesAlongThem)
   mesh.triangles[0] = {0, 2, 8};
   mesh.triangles.push_back({0, 8, 1});
   EXPECT_EQ(reading(obj(mesh)), "closed, 9 vertices, 14 triangles");
+  // A corner twice makes no edge, whichever two they are.
+  for (const solid::Triangle& twice : {solid::Triangle{3, 3, 8}, {3, 8, 3}, {8, 3, 3}}) {
+    Mesh more = mesh;
+    more.triangles.push_back(twice);
+    EXPECT_EQ(reading(obj(more)), "closed, 9 vertices, 14 triangles");
+  }
   // Nearly flat is not flat: 0.75 + 1e-30 is off the line.
   std::string text = obj(mesh);
   text.replace(text.find("v 0.75 1 0"), 10, "v 0.75 1 1e-30");
@@ -167,6 +173,91 @@ TEST(SolidReader, EveryCutFileIsToldFromAWholeOne) {
     for (std::size_t length = 0; length + 8 < whole.size(); ++length)
       EXPECT_NE(reading(whole.substr(0, length)).substr(0, 28), "closed, 8 vertices, 12 trian")
           << length << " of " << whole.size();
+}
+
+TEST(SolidReader, FormsThatAreReadToo) {
+  const std::string closed = "closed, 8 vertices, 12 triangles";
+  std::string loud = stl_text(cube());
+  for (char& c : loud)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  EXPECT_EQ(reading(loud), closed);
+  EXPECT_EQ(
+      reading(stl_text(cases::block({0, 0, 0}, {1, 1, 1})) + stl_text(cases::block({2, 0, 0}, {3, 1, 1}))),
+      "closed, 16 vertices, 24 triangles");
+  const std::string tetrahedron = "f 1 3 2\nf 1 2 4\nfo 2 3 4\nf 3 1 4\n";
+  EXPECT_EQ(reading("# solid\n\nv 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv\t0 1 0 1 0.5 0.5 0.5\nv 0 0 1 1.0\n" +
+                    tetrahedron),
+            "closed, 4 vertices, 4 triangles");
+  // Whole numbers of each kind, negative ones too; what nobody asked for need not be a number.
+  for (const auto& [type, bytes] :
+       {std::pair("char", 1U), {"int8", 1U}, {"short", 2U}, {"int16", 2U}, {"int", 4U}, {"int32", 4U}}) {
+    std::string ply = fmt::format(
+        "ply\nformat binary_big_endian 1.0\nelement vertex 4\nproperty {0} x\nproperty {0} y\nproperty {0} "
+        "z\n"
+        "element face 4\nproperty list uint16 {0} vertex_index\nend_header\n",
+        type);
+    const auto put = [&](int value, unsigned size) {
+      for (unsigned k = size; k-- > 0;) ply += static_cast<char>(value >> (8 * k));
+    };
+    for (const int c : {-1, -2, -3, 1, 0, 0, 0, 1, 0, 0, 0, 1}) put(c, bytes);
+    for (const auto& face : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}) {
+      put(3, 2);
+      for (const int c : face) put(c, bytes);
+    }
+    EXPECT_EQ(reading(ply), "closed, 4 vertices, 4 triangles") << type;
+    const auto read = read_solid({"s", ply});
+    EXPECT_EQ(read->mesh.near[0], (std::array<double, 3>{-1, -2, -3})) << type;
+  }
+  const std::string text = ply<float>(cube(), PlyForm::text);
+  std::string unread = text;
+  while (unread.find(" 0.25\n") != std::string::npos) unread.replace(unread.find(" 0.25\n"), 6, " nan\n");
+  EXPECT_EQ(reading(unread), closed);
+}
+
+TEST(SolidReader, NumbersOfVerticesAreInRange) {
+  const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (const char* const wrong : {"0", "4", "-4", "1x", "1/a", "99999999999999999999"})
+    EXPECT_NE(reading(three + "f 1 2 " + wrong + "\n").find("is not the number of a vertex"),
+              std::string::npos)
+        << wrong;
+  EXPECT_EQ(reading("v 0 0 0 1 1\n"), "s:1: 5 numbers where x, y and z of a vertex are wanted");
+  EXPECT_EQ(reading("v 0 0 0 1 1 1 1 1\n"), "s:1: 8 numbers where x, y and z of a vertex are wanted");
+  const auto ply_face = [](const std::string& corners) {
+    return reading(
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+        "z\nelement face "
+        "1\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n0 1 0\n" +
+        corners + "\n");
+  };
+  EXPECT_EQ(ply_face("3 0 1 3"), "s: a face names the vertex 3 of 3, numbered from 0");
+  EXPECT_EQ(ply_face("3 0 1 2").find("s: the surface is open"), 0u);
+  for (const char* const wrong : {"3 0 1 -1", "3 0 1 0.5", "3 0 1 4294967296", "3 0 1 a"})
+    EXPECT_EQ(ply_face(wrong), "s:13: a corner is not the number of a vertex") << wrong;
+  EXPECT_EQ(ply_face("2 0 1"), "s:13: a face has three corners or more, not 2");
+  EXPECT_EQ(ply_face("-1"), "s:13: the row ends early, or has a list without a length");
+  EXPECT_EQ(ply_face("3 0 1"), "s:13: a list ends early");
+  EXPECT_EQ(ply_face("3 0 1 2 0"), "s:13: the row has more numbers than it should");
+}
+
+TEST(SolidReader, HeadersThatSayTwoThingsAreRefused) {
+  const std::string unknown = "this line of the header is not known";
+  const std::string begin = "ply\nformat ascii 1.0\n";
+  for (const char* const line :
+       {"format ascii 1.0", "property float x", "element vertex", "element vertex 1x",
+        "element vertex 1\nelement vertex 1", "element a 1\nproperty float128 x",
+        "element a 1\nproperty list float int x", "element a 1\nproperty list no int x",
+        "element a 1\nproperty float x\nproperty float x", "word"})
+    EXPECT_NE(reading(begin + line + "\nend_header\n").find(unknown), std::string::npos) << line;
+  EXPECT_EQ(reading("ply\nend_header\n"), "s: the header of this PLY does not say its format");
+  EXPECT_EQ(reading(begin + "element vertex 1\nend_header\n"),
+            "s: the vertices of this PLY have no x, y and z");
+  EXPECT_EQ(reading(begin + "element face 1\nproperty int a\nend_header\n1\n"),
+            "s: the faces of this PLY have no vertex_indices");
+  EXPECT_EQ(reading(begin + "element a 1\nend_header\n"), "s: the element a has no properties");
+  EXPECT_EQ(reading(begin + "element tristrips 1\nproperty list int int vertex_indices\nend_header\n1 0\n"),
+            "open: it has strips of triangles");
+  for (const char* const word : {"surf", "bzp", "bsp", "cdp"})
+    EXPECT_EQ(reading(fmt::format("v 0 0 0\n{} 1\n", word)), "open: line 2 begins a curved surface");
 }
 
 TEST(SolidReader, ChangedBytesAreReadOrGetOneSentence) {
