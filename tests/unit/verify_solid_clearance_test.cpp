@@ -184,6 +184,19 @@ TEST(SolidClearance, WaysUpThroughEdgesAndCornersCountRight) {
                    "lies outside"));
 }
 
+TEST(SolidClearance, AnUprightSeamIsNotCrossed) {
+  // The edge from (0, 0, 0) to (0, 0, 4) has a corner in its middle on one side, and a triangle without area.
+  Mesh blank = block({0, 0, 0}, {4, 4, 4});
+  blank.vertices.push_back({0, 0, 2});
+  ASSERT_EQ(blank.triangles[4], (solid::Triangle{0, 1, 4}));
+  blank.triangles[4] = {0, 1, 8};
+  blank.triangles.push_back({8, 1, 4});
+  blank.triangles.push_back({0, 8, 4});
+  ASSERT_EQ(cases::checked(blank).triangles.size(), 14u);
+  EXPECT_TRUE(says(answer(block({0, 0, -3}, {1, 1, -1}), blank, unturned(), "0.5"), "lies outside"));
+  EXPECT_EQ(answer(block({1, 1, 1}, {3, 3, 3}), blank, unturned(), "1"), "shown");
+}
+
 TEST(SolidClearance, ContactsAreBounds) {
   const SolidMesh part = cases::checked(block({0, 0, 0}, {8, 8, 8})),
                   blank = cases::checked(block({0, 0, 0}, {10, 10, 10}));
