@@ -235,8 +235,7 @@ class SvgReader {
     for (char& c : rules)
       if (c == '{' || c == '}') c = ';';
     const auto names = [&](std::string_view word) { return rules.find(word) != std::string::npos; };
-    return names("DISPLAY") || names("VISIBILITY") || names("TRANSFORM") || names("\\") || names("@IMPORT") ||
-           says_shape(rules);
+    return names("DISPLAY") || names("VISIBILITY") || names("\\") || names("@IMPORT") || says_shape(rules);
   }
   /// Returns the value of a property, in capitals: the last of its style, else the attribute.
   static std::string property(const XmlElement& element, std::string_view name) {
