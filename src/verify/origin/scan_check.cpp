@@ -1,6 +1,7 @@
 #include "scan_check.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 #include "verify/number/span.hpp"
@@ -275,7 +276,7 @@ class ScanCheck {
   const std::vector<Vec>& points_;
   const std::vector<std::size_t>& starts_;
   const Shape& blank_;
-  std::vector<bool> kept_;
+  std::vector<std::uint8_t> kept_;  ///< 0 or 1
   std::vector<ScanOutline> outlines_;
   ScanVerdict verdict_;
 };
