@@ -9,17 +9,17 @@
 #include <optional>
 #include <set>
 
-#include "colour.hpp"
+#include "draw/paper/colour.hpp"
+#include "draw/paper/printed_number.hpp"
+#include "draw/paper/report_sheet.hpp"
+#include "draw/paper/scene.hpp"
+#include "draw/paper/view.hpp"
 #include "layout_tables.hpp"
 #include "lekalo/base/counted.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/io/layout/label_place.hpp"
 #include "lekalo/io/text/words.hpp"
-#include "printed_number.hpp"
 #include "region_rings.hpp"
-#include "report_sheet.hpp"
-#include "scene.hpp"
-#include "view.hpp"
 
 namespace lekalo::draw {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "report_sheet.hpp"
-#include "view.hpp"
+#include "draw/paper/report_sheet.hpp"
+#include "draw/paper/view.hpp"
 
 namespace lekalo::draw {
 namespace {

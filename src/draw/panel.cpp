@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "colour.hpp"
+#include "draw/paper/colour.hpp"
+#include "draw/paper/colour_scale.hpp"
+#include "draw/paper/printed_number.hpp"
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/rounding.hpp"
 #include "lekalo/io/text/words.hpp"
-#include "printed_number.hpp"
 
 namespace lekalo::draw {
 namespace {
@@ -137,34 +138,9 @@ class Panel {
     if (shapes_.sticks_out()) outside_key();
   }
   void scale() {
-    const double step = tick_step(shapes_.low, shapes_.high, room_.width, kSmall);
-    const LengthScale unit = length_scale(step, shapes_.high);
-    y_ += 5;
-    text(room_.x, "allowance along the contour, " + unit.unit_name, kBody, kInk, Anchor::start, false,
-         "scale-title");
-    y_ += 2;
-    const double bar = y_;
-    for (int i = 0; i < kColourSteps; ++i) {
-      // Each colour reaches to the end of the bar and is covered by the next: no seams.
-      const double x = room_.x + room_.width * i / kColourSteps;
-      path({{x, bar}, {room_.right(), bar}, {room_.right(), bar + 3.6}, {x, bar + 3.6}}, true,
-           filled(scale_colour(i)), "scale");
-    }
-    y_ += 3.6 + 0.9 + kSmall;
-    for (double k = std::ceil(shapes_.low / step * (1 - 1e-12)); k * step <= shapes_.high * (1 + 1e-12);
-         ++k) {
-      tick(k * step, unit, bar + 3.6);
-    }
-    y_ += 0.6;
-  }
-  void tick(double value, const LengthScale& unit, double top) {
-    const double share = (value - shapes_.low) / (shapes_.high - shapes_.low);
-    const double x = room_.x + room_.width * std::clamp(share, 0.0, 1.0);
-    path({{x, top}, {x, top + 0.8}}, false, stroked(kInk, 0.2), "tick");
-    const std::string number = unit.text(value);
-    const double half = kSmall * io::text_width(number) / 2;
-    const double shifted = std::clamp(x, room_.x + half, room_.right() - half);
-    text(shifted, number, kSmall, kInk, Anchor::middle, false, "tick-label");
+    y_ = draw_colour_scale({shapes_.low, shapes_.high}, "allowance along the contour",
+                           {room_.x, y_, room_.width, 0}, kBody, kSmall, items_) +
+         0.6;
   }
   void outside_key() {
     y_ += kLine;

@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "draw/paper/scene.hpp"
+#include "draw/paper/view.hpp"
 #include "picture_drawing.hpp"
-#include "scene.hpp"
-#include "view.hpp"
 
 namespace lekalo::draw {
 

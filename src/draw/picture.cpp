@@ -7,15 +7,15 @@
 #include <limits>
 #include <numbers>
 
-#include "colour.hpp"
-#include "labels.hpp"
+#include "draw/paper/colour.hpp"
+#include "draw/paper/labels.hpp"
+#include "draw/paper/printed_number.hpp"
+#include "draw/paper/scene.hpp"
+#include "draw/paper/view.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "panel.hpp"
 #include "picture_drawing.hpp"
 #include "picture_scene.hpp"
-#include "printed_number.hpp"
-#include "scene.hpp"
-#include "view.hpp"
 
 namespace lekalo::draw {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "colour.hpp"
+#include "draw/paper/colour.hpp"
+#include "draw/paper/printed_number.hpp"
 #include "lekalo/geom/distance.hpp"
 #include "lekalo/geom/pose.hpp"
 #include "lekalo/io/text/words.hpp"
-#include "printed_number.hpp"
 
 namespace lekalo::draw {
 namespace {

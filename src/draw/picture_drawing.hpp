@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
+#include "draw/paper/scene.hpp"
+#include "draw/paper/view.hpp"
 #include "lekalo/draw/picture.hpp"
 #include "lekalo/locate/allowance.hpp"
-#include "scene.hpp"
-#include "view.hpp"
 
 namespace lekalo::draw {
 

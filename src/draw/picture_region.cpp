@@ -4,16 +4,16 @@
 #include <array>
 #include <cmath>
 
-#include "colour.hpp"
+#include "draw/paper/colour.hpp"
+#include "draw/paper/printed_number.hpp"
+#include "draw/paper/scene.hpp"
+#include "draw/paper/view.hpp"
 #include "lekalo/base/angle.hpp"
 #include "lekalo/geom/pose.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "picture_scene.hpp"
-#include "printed_number.hpp"
 #include "region_rings.hpp"
-#include "scene.hpp"
-#include "view.hpp"
 
 namespace lekalo::draw {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "draw/paper/scene.hpp"
+#include "draw/paper/view.hpp"
 #include "lekalo/draw/picture.hpp"
-#include "scene.hpp"
-#include "view.hpp"
 
 namespace lekalo::draw {
 

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "colour.hpp"
+#include "draw/paper/colour.hpp"
+#include "draw/paper/printed_number.hpp"
+#include "draw/paper/scene.hpp"
+#include "draw/paper/view.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/io/text/words.hpp"
-#include "printed_number.hpp"
 #include "region_rings.hpp"
-#include "scene.hpp"
-#include "view.hpp"
 
 namespace lekalo::draw {
 namespace {

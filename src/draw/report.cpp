@@ -6,10 +6,10 @@
 #include <cmath>
 #include <string_view>
 
+#include "draw/paper/printed_number.hpp"
 #include "lekalo/base/double_of_text.hpp"
 #include "lekalo/geom/pose.hpp"
 #include "lekalo/io/text/words.hpp"
-#include "printed_number.hpp"
 #include "report_words.hpp"
 
 namespace lekalo::draw {

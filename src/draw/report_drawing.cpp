@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "labels.hpp"
+#include "draw/paper/labels.hpp"
 #include "lekalo/geom/pose.hpp"
 #include "region_rings.hpp"
 #include "report_page.hpp"

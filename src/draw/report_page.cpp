@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "colour.hpp"
+#include "draw/paper/colour.hpp"
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/text/words.hpp"
 

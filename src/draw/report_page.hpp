@@ -1,9 +1,9 @@
 #pragma once
 
-#include "colour.hpp"
+#include "draw/paper/colour.hpp"
+#include "draw/paper/report_sheet.hpp"
+#include "draw/paper/view.hpp"
 #include "lekalo/draw/report.hpp"
-#include "report_sheet.hpp"
-#include "view.hpp"
 
 namespace lekalo::draw {
 

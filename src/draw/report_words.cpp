@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "draw/paper/printed_number.hpp"
 #include "lekalo/base/rounding.hpp"
 #include "lekalo/io/text/words.hpp"
-#include "printed_number.hpp"
 
 namespace lekalo::draw {
 namespace {

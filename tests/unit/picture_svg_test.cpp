@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "draw/colour.hpp"
+#include "draw/paper/colour.hpp"
 #include "lekalo/draw/picture.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "lekalo/locate/convex.hpp"

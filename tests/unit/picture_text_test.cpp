@@ -1,4 +1,4 @@
-#include "draw/printed_number.hpp"
+#include "draw/paper/printed_number.hpp"
 #include "lekalo/io/text/words.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <string>
 
-#include "draw/colour.hpp"
+#include "draw/paper/colour.hpp"
 #include "lekalo/base/random.hpp"
 #include "support/cases.hpp"
 

@@ -19,6 +19,9 @@ using Surface = std::unique_ptr<cairo_surface_t, FreeCairo>;
 /// Paints the scene on a canvas whose unit is a millimetre of paper.
 void paint_scene(const Scene& scene, cairo_t* canvas);
 
+/// The pixels as a picture that can be painted; it holds a copy of them.
+[[nodiscard]] Surface surface_of(const Pixels& pixels);
+
 /// Appends bytes to `text`, which is a std::string.
 cairo_status_t append_bytes(void* text, const unsigned char* bytes, unsigned int count);
 

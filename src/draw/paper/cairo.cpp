@@ -1,5 +1,6 @@
 #include "cairo.hpp"
 
+#include <cstring>
 #include <new>
 
 #include "lekalo/base/angle.hpp"
@@ -40,6 +41,15 @@ class Painter {
     cairo_move_to(canvas_, item.at.x - share * extents.x_advance, item.at.y);
     set(item.colour, 1);
     cairo_show_text(canvas_, text.c_str());
+  }
+  void operator()(const ImageItem& item) const {
+    const Surface surface = surface_of(item.pixels);
+    cairo_save(canvas_);
+    cairo_translate(canvas_, item.at.x, item.at.y);
+    cairo_scale(canvas_, item.width / item.pixels.columns, item.height / item.pixels.rows);
+    cairo_set_source_surface(canvas_, surface.get(), 0, 0);
+    cairo_paint(canvas_);
+    cairo_restore(canvas_);
   }
   void operator()(const ClipBegin& item) const {
     cairo_save(canvas_);
@@ -85,6 +95,33 @@ class Painter {
 void paint_scene(const Scene& scene, cairo_t* canvas) {
   const Painter painter(canvas);
   for (const Item& item : scene.items) std::visit(painter, item);
+}
+
+Surface surface_of(const Pixels& pixels) {
+  Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, pixels.columns, pixels.rows));
+  unsigned char* bytes = cairo_image_surface_get_data(surface.get());
+  if (bytes == nullptr) throw std::bad_alloc();
+  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface.get()));
+  const auto columns = static_cast<std::size_t>(pixels.columns);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(pixels.rows); ++row) {
+    ask(columns / 64);
+    for (std::size_t column = 0; column < columns; ++column) {
+      const Colour c = pixels.colours[row * columns + column];
+      const std::uint32_t word = static_cast<std::uint32_t>(c.red) << 16 | c.green << 8 | c.blue;
+      std::memcpy(bytes + row * stride + 4 * column, &word, sizeof word);
+    }
+  }
+  cairo_surface_mark_dirty(surface.get());
+  return surface;
+}
+
+std::string pixels_png(const Pixels& pixels) {
+  std::string bytes;
+  const Surface surface = surface_of(pixels);
+  // The bytes go to memory, so nothing but memory can be missing.
+  if (cairo_surface_write_to_png_stream(surface.get(), append_bytes, &bytes) != CAIRO_STATUS_SUCCESS)
+    throw std::bad_alloc();
+  return bytes;
 }
 
 cairo_status_t append_bytes(void* text, const unsigned char* bytes, unsigned int count) {

@@ -8,16 +8,12 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/geom/point.hpp"
 #include "lekalo/geom/polygon.hpp"
+#include "pixels.hpp"
 
 namespace lekalo::draw {
 
 /// A drawing as a list of primitives in painting order: millimetres of paper, origin top left, y down. Built
 /// once; SVG and PNG are two ways to write it.
-
-struct Colour {
-  std::uint8_t red = 0, green = 0, blue = 0;
-  friend constexpr bool operator==(const Colour&, const Colour&) = default;
-};
 
 /// How outlines are filled and drawn; an absent fill is alpha 0, an absent line is width 0.
 struct Paint {
@@ -76,13 +72,21 @@ struct TextItem {
   Meaning meaning;
 };
 
+/// A picture of pixels, stretched over its place.
+struct ImageItem {
+  geom::Point at;  ///< its top left corner
+  double width = 0, height = 0;
+  Pixels pixels;
+  Meaning meaning;
+};
+
 /// Everything up to the matching ClipEnd is drawn inside these closed lines only.
 struct ClipBegin {
   std::vector<geom::Ring> lines;
 };
 struct ClipEnd {};
 
-using Item = std::variant<PathItem, DotItem, TextItem, ClipBegin, ClipEnd>;
+using Item = std::variant<PathItem, DotItem, TextItem, ImageItem, ClipBegin, ClipEnd>;
 
 struct Scene {
   double width = 0, height = 0;

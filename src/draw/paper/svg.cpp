@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "base64.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "printed_number.hpp"
@@ -83,6 +84,14 @@ class Writer {
     if (item.anchor == Anchor::end) text_ += " text-anchor=\"end\"";
     if (item.bold) text_ += " font-weight=\"bold\"";
     text_ += ">" + title(item.meaning) + io::xml_text(item.text) + "</text>\n";
+  }
+  void write(const ImageItem& item) {
+    element("image",
+            fmt::format(" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
+                        "href=\"data:image/png;base64,{}\"",
+                        number(item.at.x), number(item.at.y), number(item.width), number(item.height),
+                        base64(pixels_png(item.pixels))),
+            item.meaning);
   }
   void write(const ClipBegin& item) {
     text_ += fmt::format(

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/base/parallel.hpp"
+#include "lekalo/locate/solid.hpp"
+#include "lekalo/solid/mesh.hpp"
+
+namespace lekalo::draw {
+
+/// A solid part placed in a solid blank, as pictures, reports and pages show it. docs/design/picture.md.
+struct SolidScene {
+  /// Names or paths, any bytes. Of a path the last name is shown.
+  std::string part_name, blank_name;
+  std::string status, method;
+  /// mm, each in its own frame; with triangles. The part is best that of locate::measured_part, whose colours
+  /// are right between the vertices too.
+  solid::Mesh part, blank;
+  /// Its contacts are numbered from 1 in the order given.
+  locate::SolidPlacement placement;
+  std::optional<double> upper_bound;  ///< mm; none where nothing is proved
+  /// The demand and what is missing of it, mm.
+  double min_allowance = 0, shortfall = 0;
+  /// At each vertex of the part, mm, negative outside the blank; or none.
+  std::vector<double> allowances;
+  /// Triangles of the blank that nobody measured, by number, and their area.
+  std::vector<std::uint32_t> unknown;
+  double unknown_area = 0;  ///< mm2
+  /// Sentences that belong under the picture.
+  std::vector<std::string> notes;
+};
+
+/// The picture as PNG bytes, 4 wide by 3 high: the part in the colours of its allowance within a blank of
+/// glass, seen without perspective from where the tightest contact faces the viewer; contacts with numbers
+/// and lengths; a section through the tightest one, whole and magnified; a scale, a legend and the figures.
+/// Where less than demanded is left the part is red, and what nobody measured is yellow.
+///
+/// \param width_px  100 to 20000, else ErrorCode::usage; ErrorCode::environment when the drawing library
+/// fails
+/// \pre coordinates are finite and of size 1e12 at most
+/// Same input, same bytes on a machine with the same libraries and fonts, for any number of threads.
+/// Cost: 100,000 triangles of each within a second.
+[[nodiscard]] Result<std::string> solid_png(const SolidScene& scene, int width_px = 1600,
+                                            unsigned threads = kUsualThreads);
+
+}  // namespace lekalo::draw

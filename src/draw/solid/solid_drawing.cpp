@@ -1,0 +1,176 @@
+#include "solid_drawing.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "draw/paper/colour_scale.hpp"
+#include "draw/paper/printed_number.hpp"
+
+namespace lekalo::draw {
+namespace {
+
+using geom::Point;
+using solid::Vector;
+
+constexpr std::size_t kMostLabels = 16;
+constexpr double kLabel = 25;  ///< width of the columns of labels at both sides, mm of paper
+
+struct Mark {
+  std::size_t contact = 0;
+  Point at;
+  bool seen = true;
+};
+
+void draw_mark(Point at, bool seen, const Meaning& meaning, Sheet& sheet) {
+  Paint paint = filled(kPaper, seen ? 1 : 0.35);
+  paint.stroke = kInk, paint.width = seen ? 0.45 : 0.25;
+  sheet.items().push_back(DotItem{at, 0.9, paint, meaning});
+}
+
+/// Writes the lengths of contacts in a column at each side, so that no label lies on the solids or on another
+/// one and no two leaders of a side cross.
+class ContactLabels {
+ public:
+  ContactLabels(const SolidScene& scene, const SolidLook& look, const Rect& frame, Sheet& sheet)
+      : scene_(scene), look_(look), frame_(frame), sheet_(sheet) {}
+
+  void draw(std::vector<Mark> marks) {
+    // The tightest contacts have labels, if not all can.
+    std::stable_sort(marks.begin(), marks.end(),
+                     [&](const Mark& a, const Mark& b) { return distance(a) < distance(b); });
+    for (auto mark = marks.rbegin(); mark != marks.rend(); ++mark) dot(*mark);
+    if (marks.size() > kMostLabels) marks.resize(kMostLabels);
+    std::vector<Mark> left, right;
+    std::stable_sort(marks.begin(), marks.end(),
+                     [](const Mark& a, const Mark& b) { return a.at.x < b.at.x; });
+    for (std::size_t k = 0; k < marks.size(); ++k) (2 * k < marks.size() ? left : right).push_back(marks[k]);
+    column(left, frame_.x, Anchor::start);
+    column(right, frame_.right(), Anchor::end);
+  }
+
+ private:
+  [[nodiscard]] double distance(const Mark& mark) const {
+    return scene_.placement.contacts[mark.contact].distance;
+  }
+  void dot(const Mark& mark) {
+    draw_mark(mark.at, mark.seen,
+              {mark.seen ? "contact" : "hidden-contact", std::to_string(mark.contact + 1)}, sheet_);
+  }
+  void column(std::vector<Mark>& marks, double x, Anchor anchor) {
+    constexpr double kStep = 5.6;
+    std::stable_sort(marks.begin(), marks.end(),
+                     [](const Mark& a, const Mark& b) { return a.at.y < b.at.y; });
+    // From above each label goes as near to its mark as those above let it, then from below.
+    std::vector<double> y;
+    for (const Mark& mark : marks) {
+      const double least = y.empty() ? frame_.y + 4 : y.back() + kStep;
+      y.push_back(std::max(least, mark.at.y + 1));
+    }
+    // Axes and scale bar stand in the lower left corner.
+    double most = frame_.bottom() - (anchor == Anchor::start ? 23 : 2);
+    for (std::size_t k = marks.size(); k-- > 0; most = y[k] - kStep) y[k] = std::min(y[k], most);
+    const bool at_left = anchor == Anchor::start;
+    for (std::size_t k = 0; k < marks.size(); ++k) {
+      const std::string words =
+          fmt::format("{}: {} mm", marks[k].contact + 1, decimal(distance(marks[k]), look_.table_decimals));
+      const bool tightest = look_.focus && look_.focus->contact == marks[k].contact;
+      const double width = kLabel - 2,
+                   drawn = std::min(width, kReportBody * kReportBoldWider * io::text_width(words)) + 1;
+      const Point from{at_left ? x + drawn : x - drawn, y[k] - 1}, to = marks[k].at;
+      sheet_.path({from, to}, false, stroked(kPaper, 0.7), "leader-halo");
+      sheet_.path({from, to}, false, stroked(kInk, 0.22), "leader");
+      sheet_.text(x, y[k], width, words,
+                  {.colour = marks[k].seen ? kInk : kGrey,
+                   .anchor = anchor,
+                   .bold = tightest,
+                   .kind = "contact-label"});
+      dot(marks[k]);
+    }
+  }
+
+  const SolidScene& scene_;
+  const SolidLook& look_;
+  Rect frame_;
+  Sheet& sheet_;
+};
+
+void draw_axes(const SpaceView& view, Point origin, Sheet& sheet) {
+  constexpr double kLength = 7;
+  const struct {
+    const char* name;
+    Vector along;
+  } axes[] = {{"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}};
+  for (const auto& [name, along] : axes) {
+    const Point way{dot(view.right, along), -dot(view.up, along)};
+    if (geom::norm(way) < 0.05) continue;
+    const Point tip = origin + kLength * way, beyond = tip + 1.9 / geom::norm(way) * way;
+    sheet.path({origin, tip}, false, stroked_round(kGrey, 0.35), "axis");
+    sheet.text(beyond.x, beyond.y + 0.85, 5, name,
+               {.size = kReportSmall, .colour = kGrey, .anchor = Anchor::middle, .kind = "axis"});
+  }
+}
+
+}  // namespace
+
+void draw_view(const SolidScene& scene, const SolidLook& look, SpaceView view, const Rect& frame, double fine,
+               unsigned threads, Sheet& sheet) {
+  Rect image = frame;
+  if (!look.contacts.empty()) image.x += kLabel, image.width -= 2 * kLabel;
+  const int columns = static_cast<int>(std::lround(fine * image.width)),
+            rows = static_cast<int>(std::lround(fine * image.height));
+  std::vector<Vector> places = look.part.surface.places;
+  places.insert(places.end(), look.blank.surface.places.begin(), look.blank.surface.places.end());
+  fit(view, places, columns, rows, 2 * fine);
+  Painting painting = paint(look.part, look.blank, view, columns, rows, look.contacts, threads);
+  sheet.items().push_back(
+      ImageItem{{image.x, image.y}, image.width, image.height, std::move(painting.pixels), {"solids", ""}});
+  std::vector<Mark> marks;
+  for (std::size_t k = 0; k < look.contacts.size(); ++k) {
+    const ScreenPoint at = view(look.contacts[k]);
+    marks.push_back({k,
+                     {image.x + image.width * at.x / columns, image.y + image.height * at.y / rows},
+                     painting.seen[k]});
+  }
+  draw_axes(view, {frame.x + 9, frame.bottom() - 12}, sheet);
+  draw_scale_bar(view.scale * image.width / columns, {frame.x + 1, frame.bottom() - 0.6}, 36, sheet);
+  ContactLabels(scene, look, frame, sheet).draw(std::move(marks));
+}
+
+void draw_scale_bar(double scale, Point left, double most, Sheet& sheet) {
+  const double length = round_length(most / scale), on_page = length * scale;
+  sheet.path({{left.x, left.y - 1}, left, {left.x + on_page, left.y}, {left.x + on_page, left.y - 1}}, false,
+             stroked_round(kInk, 0.3), "scale-bar");
+  sheet.text(left.x + on_page + 1.5, left.y, 30, length_scale(length, length).text_with_unit(length),
+             {.size = kReportSmall, .kind = "scale-bar"});
+}
+
+double draw_solid_key(const SolidScene& scene, const SolidLook& look, const Rect& room, Sheet& sheet) {
+  double y = room.y;
+  const auto key = [&](Colour fill, double alpha, const std::string& words, const char* kind) {
+    y += kReportLine + 0.3;
+    Paint paint = filled(fill, alpha);
+    paint.stroke = kBlankLine, paint.width = 0.25;
+    sheet.path(Rect{room.x, y - 2.3, 5.5, 2.6}.ring(), true, paint, "key");
+    sheet.text(room.x + 7.5, y, room.width - 7.5, words, {.size = kReportSmall, .kind = kind});
+  };
+  if (!scene.allowances.empty() && look.greatest >= scene.min_allowance)
+    y = draw_colour_scale(look.range, "allowance of the part", {room.x, y, room.width, 0}, kReportBody,
+                          kReportSmall, sheet.items()) +
+        1;
+  if (look.missing()) key(kOutside, 1, missing_text(scene, look), "missing");
+  if (scene.allowances.empty()) key(kPlainPart, 1, "part, placed", "key-part");
+  key(kGlass, 0.3, "blank, as glass", "key-blank");
+  if (!scene.unknown.empty()) key(kUnknownGlass, 0.6, "blank, not measured", "key-unknown");
+  if (look.contacts.empty()) return y;
+  y += kReportLine + 0.3;
+  draw_mark({room.x + 1.2, y - 1}, true, {"key", ""}, sheet);
+  draw_mark({room.x + 4.3, y - 1}, false, {"key", ""}, sheet);
+  sheet.text(room.x + 7.5, y, room.width - 7.5, "contacts, in sight and hidden",
+             {.size = kReportSmall, .kind = "key-contact"});
+  return y;
+}
+
+}  // namespace lekalo::draw

@@ -1,0 +1,185 @@
+#include "solid_look.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "draw/paper/printed_number.hpp"
+#include "lekalo/base/angle.hpp"
+#include "lekalo/base/rounding.hpp"
+#include "lekalo/base/stop.hpp"
+
+namespace lekalo::draw {
+namespace {
+
+using solid::Vector;
+
+double size_of(const ShadedMesh& part, const ShadedMesh& blank) {
+  solid::Box box = solid::box_of(part.places);
+  for (const Vector p : blank.places) box.hold(p);
+  return norm(box.high - box.low);
+}
+
+Vector unit_or(Vector v, Vector other) {
+  const double length = norm(v);
+  return length > 0 ? 1 / length * v : other;
+}
+
+Vector normal_of(const ShadedMesh& mesh, std::uint32_t triangle) {
+  const solid::Triangle& t = mesh.triangles[triangle];
+  return unit_or(mesh.normals[t[0]] + (mesh.normals[t[1]] + mesh.normals[t[2]]), {0, 0, 1});
+}
+
+std::optional<SolidFocus> focus_of(const SolidScene& scene, const SolidLook& look) {
+  const std::vector<locate::SolidTouch>& contacts = scene.placement.contacts;
+  if (!contacts.empty()) {
+    const auto tightest =
+        std::min_element(contacts.begin(), contacts.end(),
+                         [](const auto& a, const auto& b) { return a.distance < b.distance; });
+    const Vector place = look.motion(tightest->part);
+    // The numbers of triangles may be those of a file, and count for nothing here.
+    Vector inner;
+    double nearest = 1e300;
+    for (std::uint32_t t = 0; t < look.part.surface.triangles.size(); ++t) {
+      const solid::Triangle& corners = look.part.surface.triangles[t];
+      const Vector middle = 1.0 / 3 *
+                            (look.part.surface.places[corners[0]] +
+                             (look.part.surface.places[corners[1]] + look.part.surface.places[corners[2]]));
+      if (const double off = norm(middle - place); off < nearest)
+        nearest = off, inner = normal_of(look.part.surface, t);
+    }
+    return SolidFocus{place, unit_or(tightest->blank - place, inner), tightest->distance,
+                      static_cast<std::size_t>(tightest - contacts.begin())};
+  }
+  if (!look.missing()) return std::nullopt;
+  const std::vector<std::uint32_t>& from = look.part.surface.from;
+  const auto worst = std::min_element(from.begin(), from.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return scene.allowances[a] < scene.allowances[b];
+  });
+  const auto at = static_cast<std::size_t>(worst - from.begin());
+  return SolidFocus{look.part.surface.places[at], look.part.surface.normals[at],
+                    std::abs(scene.allowances[*worst]), contacts.size()};
+}
+
+}  // namespace
+
+SolidLook::SolidLook(const SolidScene& scene) : motion(locate::motion_of(scene.placement.pose)) {
+  part.surface = shaded(scene.part, motion);
+  blank.surface = shaded(scene.blank);
+  size = size_of(part.surface, blank.surface);
+  decimals = decimals_for(size);
+  table_decimals = std::max(3, decimals - 2);
+  if (!scene.unknown.empty()) {
+    blank.unknown.resize(blank.surface.triangles.size());
+    for (const std::uint32_t triangle : scene.unknown) blank.unknown[triangle] = 1;
+  }
+  if (!scene.allowances.empty()) {
+    const auto [low, high] = std::minmax_element(scene.allowances.begin(), scene.allowances.end());
+    least = *low, greatest = *high;
+    // Rounding of the coordinates shows nothing that is missing.
+    const double rounding = 1e-12 * size;
+    missing_ = least < scene.min_allowance - rounding;
+    range = colour_range(missing_ ? scene.min_allowance : least, greatest, rounding, size);
+    for (const std::uint32_t vertex : part.surface.from)
+      part.values.push_back(missing_ ? value_of(scene.allowances[vertex] + rounding)
+                                     : std::max(0.0, value_of(scene.allowances[vertex])));
+  }
+  for (const locate::SolidTouch& contact : scene.placement.contacts) contacts.push_back(motion(contact.part));
+  focus = focus_of(scene, *this);
+}
+
+namespace {
+
+/// Says if a ray meets the surface farther than `clear` from where it begins.
+bool hidden(const ShadedMesh& mesh, Vector from, Vector direction, double clear) {
+  for (const solid::Triangle& t : mesh.triangles) {
+    ask();
+    const Vector a = mesh.places[t[0]], u = mesh.places[t[1]] - a, v = mesh.places[t[2]] - a;
+    const Vector across = cross(direction, v);
+    const double determinant = dot(u, across);
+    if (determinant == 0) continue;
+    const Vector w = from - a;
+    const double x = dot(w, across) / determinant;
+    if (x < 0 || x > 1) continue;
+    const Vector around = cross(w, u);
+    const double y = dot(direction, around) / determinant;
+    if (y < 0 || x + y > 1) continue;
+    if (dot(v, around) / determinant > clear) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+SpaceView facing(const SolidLook& look) {
+  constexpr std::array<std::array<double, 2>, 8> kAround{
+      {{1, -2}, {2, -1}, {-1, -2}, {-2, -1}, {2, 1}, {1, 2}, {-2, 1}, {-1, 2}}};
+  if (!look.focus) return seen_from({1, -2, 1.2});
+  // No view is along an axis, so that a block shows three of its faces.
+  std::vector<std::pair<double, Vector>> views;
+  for (const double height : {1.2, 2.5, -1.2, -2.5})
+    for (const auto& [x, y] : kAround) {
+      const Vector towards = unit_or({x, y, height}, {});
+      views.emplace_back(dot(towards, look.focus->outward) - (height < 0 ? 0.35 : 0), towards);
+    }
+  std::stable_sort(views.begin(), views.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (std::size_t k = 0; k < 12; ++k)
+    if (!hidden(look.part.surface, look.focus->place, views[k].second, 1e-3 * look.size))
+      return seen_from(views[k].second);
+  return seen_from(views.front().second);
+}
+
+std::string clearance_text(const SolidScene& scene, const SolidLook& look) {
+  if (!scene.placement.inside) return "sticks out";
+  return decimal(scene.placement.clearance, look.decimals, Rounding::down) + " mm";
+}
+
+std::string missing_text(const SolidScene& scene, const SolidLook& look) {
+  const std::string most = short_number_up(scene.min_allowance - look.least);
+  if (scene.min_allowance == 0) return fmt::format("outside the blank, by up to {} mm", most);
+  return fmt::format("less than {} mm, by up to {} mm", scene.min_allowance, most);
+}
+
+std::vector<SolidFigure> figures_of(const SolidScene& scene, const SolidLook& look) {
+  const auto length = [&](double mm, Rounding rounding = Rounding::nearest) {
+    return decimal(mm, look.decimals, rounding) + " mm";
+  };
+  std::vector<SolidFigure> figures;
+  if (scene.upper_bound) {
+    figures.push_back({"proven upper bound", length(*scene.upper_bound, Rounding::up), "upper-bound"});
+    if (scene.placement.inside) {
+      const double gap = difference_rounded_up(*scene.upper_bound, scene.placement.clearance);
+      figures.push_back({"gap", short_number_up(gap) + (std::isfinite(gap) ? " mm" : ""), "gap"});
+    }
+  } else {
+    figures.push_back({"proven upper bound", "not proved", "upper-bound"});
+  }
+  if (scene.min_allowance > 0) figures.push_back({"demanded", length(scene.min_allowance), "min-allowance"});
+  if (scene.shortfall > 0)
+    figures.push_back({"missing", length(scene.shortfall, Rounding::up), "shortfall", true});
+  if (!scene.unknown.empty())
+    figures.push_back(
+        {"not measured", fmt::format("{} mm²", short_number_up(scene.unknown_area)), "unknown", true});
+  const locate::SolidPose& pose = scene.placement.pose;
+  figures.push_back({"x", length(pose.shift.x), "x"});
+  figures.push_back({"y", length(pose.shift.y), "y"});
+  figures.push_back({"z", length(pose.shift.z), "z"});
+  auto [w, x, y, z] = pose.quaternion;
+  if (w < 0) w = -w, x = -x, y = -y, z = -z;
+  const Vector axis{x, y, z};
+  const double sine = norm(axis);
+  // As many digits as move the rim of the part by less than the last digit of x.
+  figures.push_back({"turned by", decimal(2 * std::atan2(sine, w) * kDegreesPerRadian, 7) + "°", "turn-deg"});
+  if (sine > 0) {
+    const Vector n = 1 / sine * axis;
+    figures.push_back({"about the axis",
+                       fmt::format("{} {} {}", decimal(n.x, 4), decimal(n.y, 4), decimal(n.z, 4)), "axis"});
+  }
+  return figures;
+}
+
+}  // namespace lekalo::draw
