@@ -3,6 +3,7 @@
 // Meshes and poses for the checker of solids.
 
 #include <array>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -17,6 +18,8 @@ inline verify::SolidMesh checked(const solid::Mesh& mesh) {
   verify::SolidMesh made;
   for (const solid::Vector p : mesh.vertices) made.near.push_back({p.x, p.y, p.z});
   made.triangles = mesh.triangles;
+  made.numbers.resize(mesh.triangles.size());
+  std::iota(made.numbers.begin(), made.numbers.end(), 0U);
   auto closed = verify::closed(std::move(made), "mesh");
   if (!closed) throw std::logic_error(closed.error().message);
   return *std::move(closed);

@@ -24,6 +24,11 @@ inline constexpr double kSmallestCoordinate = 1e-100;
 inline constexpr double kLargestDerived = 1e12;
 /// The factor by which the margin of a feature is measured, and its inverse.
 inline constexpr double kLargestFactor = 1e6;
+/// Vertices, and triangles, of the file of a solid.
+inline constexpr std::size_t kMostSolidItems = 20'000'000;
+/// Rows of each table, and nodes of all trees, in the certificate of a placement of solids; terms of a leaf.
+inline constexpr std::size_t kMostCertificateRows = 1'000'000, kMostCertificateNodes = 4'000'000,
+                             kMostCertificateTerms = 64;
 /// Programs and the pockets that they cut, mm: a kilometre, beyond any machine.
 inline constexpr double kLargestProgramCoordinate = 1e6;
 

@@ -44,6 +44,9 @@ struct Decimal {
 /// \pre value fits a long
 [[nodiscard]] inline long to_long(const Integer& value) { return value.get_si(); }
 
+/// Returns the largest whole number whose square is not above the value. \pre value >= 0
+[[nodiscard]] inline Integer whole_root(const Integer& value) { return sqrt(value); }
+
 /// Returns the number of bits of |value|, which is 1 for 0.
 [[nodiscard]] inline long bits_of(const Integer& value) {
   return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2));

@@ -109,6 +109,41 @@ constexpr Known kPlacement[] = {{"format", kFormat},
                                 {"run"},
                                 // A file of a certificate has these.
                                 {"intervals", kIntervals}};
+constexpr Known kSolidInputs[] = {{"role"}, {"path"}, {"sha256"}, {"units"}, {"triangles"}};
+constexpr Known kSolidWindow[] = {{"quaternion"}, {"x"}, {"y"}, {"z"}, {"pivot"}, {"shift"}, {"turn_deg"}};
+constexpr Known kSolidContacts[] = {{"part_point"},     {"blank_point"}, {"part_triangle"},
+                                    {"blank_triangle"}, {"distance"},    {"multiplier"}};
+constexpr Known kSolidTrees[] = {{"quaternion"}, {"x"},      {"y"},      {"z"},
+                                 {"turn_x"},     {"turn_y"}, {"turn_z"}, {"nodes"}};
+constexpr Known kSolidCertificate[] = {
+    {"pivot"}, {"part_balls"}, {"blank_balls"}, {"planes"}, {"trees", kSolidTrees}};
+constexpr Known kSolidFile[] = {{"path"}, {"sha256"}, {"boxes"}};
+constexpr Known kSolidPlacement[] = {{"format", kFormat},
+                                     {"status"},
+                                     {"units"},
+                                     {"inputs", kSolidInputs},
+                                     {"warnings"},
+                                     {"seed"},
+                                     {"work"},
+                                     {"version"},
+                                     {"method"},
+                                     {"freedom"},
+                                     {"window", kSolidWindow},
+                                     {"quaternion"},
+                                     {"x"},
+                                     {"y"},
+                                     {"z"},
+                                     {"inside"},
+                                     {"clearance"},
+                                     {"upper_bound"},
+                                     {"gap"},
+                                     {"min_allowance"},
+                                     {"shortfall"},
+                                     {"contacts", kSolidContacts},
+                                     {"unknown_area_mm2"},
+                                     {"certificate", kSolidCertificate},
+                                     {"certificate_file", kSolidFile},
+                                     {"run"}};
 constexpr Known kOfReports[] = {{"regions", kRegion}, {"drawing", kDrawing}, {"scan", kScan}};
 
 void look(Json value, std::span<const Known> known, const std::string& path, std::string& complaint,
@@ -140,6 +175,10 @@ void look(Json value, std::span<const Known> known, const std::string& path, std
 
 void refuse_unknown_fields(Json placement, std::string& complaint) {
   look(placement, kPlacement, "", complaint);
+}
+
+void refuse_unknown_fields_of_solids(Json placement, std::string& complaint) {
+  look(placement, kSolidPlacement, "", complaint, "a placement of solids");
 }
 
 void refuse_unknown_fields(Json value, const std::string& key, std::string& complaint) {

@@ -11,6 +11,9 @@ namespace lekalo::verify {
 /// the nodes of certificates is left to their reader. Cost: O(bytes).
 void refuse_unknown_fields(Json placement, std::string& complaint);
 
+/// The same for a placement of solids, or its certificate's file.
+void refuse_unknown_fields_of_solids(Json placement, std::string& complaint);
+
 /// The same for a value that stands in other reports too: `key` is "regions", "drawing" or "scan".
 void refuse_unknown_fields(Json value, const std::string& key, std::string& complaint);
 

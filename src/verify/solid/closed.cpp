@@ -25,6 +25,16 @@ int compare_places(const SolidMesh& mesh, std::uint32_t a, std::uint32_t b) {
   return 0;
 }
 
+/// Triangles by their corners, with the numbers that they have in the file.
+struct Kept {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::uint32_t> numbers;
+  void add(const std::array<std::uint32_t, 3>& triangle, std::uint32_t number) {
+    triangles.push_back(triangle);
+    numbers.push_back(number);
+  }
+};
+
 /// Returns the number of each vertex after those at one place have become one, and keeps one of each.
 std::vector<std::uint32_t> weld(SolidMesh& mesh) {
   std::vector<std::uint32_t> order(mesh.near.size()), becomes(mesh.near.size());
@@ -81,28 +91,30 @@ bool is_flat(const SolidMesh& mesh, const std::array<std::uint32_t, 3>& triangle
 
 Result<SolidMesh> closed(SolidMesh mesh, const std::string& name) {
   const std::vector<std::uint32_t> becomes = weld(mesh);
-  std::vector<std::array<std::uint32_t, 3>> all, with_area;
-  for (const auto& triangle : mesh.triangles) {
+  Kept all, with_area;
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     ask();
-    const std::array<std::uint32_t, 3> t{becomes[triangle[0]], becomes[triangle[1]], becomes[triangle[2]]};
+    const auto& [a, b, c] = mesh.triangles[k];
+    const std::array<std::uint32_t, 3> t{becomes[a], becomes[b], becomes[c]};
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    all.push_back(t);
-    if (!is_flat(mesh, t)) with_area.push_back(t);
+    all.add(t, mesh.numbers[k]);
+    if (!is_flat(mesh, t)) with_area.add(t, mesh.numbers[k]);
   }
-  if (with_area.empty()) return failure(ErrorCode::bad_input, name + ": none of its triangles has an area");
-  if (!open_edge(with_area)) {
-    mesh.triangles = std::move(with_area);
-    return mesh;
-  }
-  if (const auto edge = open_edge(all)) {
+  const auto with = [&](Kept& kept) {
+    mesh.triangles = std::move(kept.triangles), mesh.numbers = std::move(kept.numbers);
+    return std::move(mesh);
+  };
+  if (with_area.triangles.empty())
+    return failure(ErrorCode::bad_input, name + ": none of its triangles has an area");
+  if (!open_edge(with_area.triangles)) return with(with_area);
+  if (const auto edge = open_edge(all.triangles)) {
     const auto &a = mesh.near[edge->first], &b = mesh.near[edge->second];
     return failure(ErrorCode::bad_input,
                    fmt::format("{}: the surface is open: the edge from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, "
                                "{:.6g}, {:.6g}) belongs to one triangle or an odd number of them",
                                name, a[0], a[1], a[2], b[0], b[1], b[2]));
   }
-  mesh.triangles = std::move(all);
-  return mesh;
+  return with(all);
 }
 
 }  // namespace lekalo::verify

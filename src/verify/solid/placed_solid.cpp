@@ -8,12 +8,6 @@
 namespace lekalo::verify {
 namespace {
 
-Span enclosed(const Fraction& value) {
-  const double cut = cut_to_double(value);
-  return Fraction(cut) == value ? just(cut) : outwards(cut, cut);
-}
-Vec3 enclosed(const Exact3& p) { return {enclosed(p[0]), enclosed(p[1]), enclosed(p[2])}; }
-
 std::vector<Box3> boxes_of(const SolidMesh& mesh, const std::vector<Vec3>& at) {
   std::vector<Box3> boxes;
   boxes.reserve(mesh.triangles.size());

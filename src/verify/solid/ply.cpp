@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "lekalo/base/limits.hpp"
 #include "lekalo/base/stop.hpp"
 #include "solid_text.hpp"
 #include "verify/read/text_rows.hpp"
@@ -223,8 +224,8 @@ class PlyReader {
     if (size < 3) return bad_row(element, row, fmt::format("a face has three corners or more, not {}", size));
     if (size > 3)
       made_.leave_open(fmt::format("face {} has {} corners, and only triangles are read", row, size));
-    if (faces_.size() == kMostSolidItems)
-      return bad_row(element, row, fmt::format("more than {} triangles", kMostSolidItems));
+    if (faces_.size() == limits::kMostSolidItems)
+      return bad_row(element, row, fmt::format("more than {} triangles", limits::kMostSolidItems));
     faces_.push_back(corners);
     return {};
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lekalo/base/limits.hpp"
+#include "solid_number.hpp"
 #include "triangle_distance.hpp"
 
 namespace lekalo::verify {
@@ -19,12 +20,6 @@ std::string place(const PlacedSolid& body, std::uint32_t triangle) {
 }
 
 bool is_zero(const Decimal& value) { return sgn(value.digits) == 0; }
-
-/// Returns an enclosure of a decimal.
-Span enclosed(const Decimal& value) {
-  const double near = approximate(value);
-  return is_zero(value) ? just(0) : outwards(near, near);
-}
 
 /// Returns the enclosed distance of a point from a surface.
 Span distance_from(const Vec3& p, const PlacedSolid& body) {

@@ -236,44 +236,65 @@ void split(std::string_view line, std::vector<std::string_view>& words) {
 }
 
 std::optional<std::string> SolidMaker::add_vertex(const std::string_view* words) {
-  std::array<double, 3> near{};
-  std::array<Decimal, 3> exact;
+  std::array<Decimal, 3> numbers;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     auto number = parse_decimal(words[axis]);
     if (!number) return fmt::format("\"{}\" is not {}", excerpt(words[axis]), decimal_rule());
-    near[axis] = approximate(*number);
-    if (std::abs(near[axis]) < limits::kSmallestCoordinate)
-      near[axis] = 0;
-    else
-      exact[axis] = *std::move(number);
+    numbers[axis] = *std::move(number);
   }
-  if (auto fault = add_vertex(near)) return fault;
-  reading_.mesh.written.push_back(std::move(exact));
-  return std::nullopt;
+  return add(std::move(numbers));
 }
 
 std::optional<std::string> SolidMaker::add_vertex(const std::array<double, 3>& xyz) {
-  ask();
-  if (vertices() == kMostSolidItems * 3) return fmt::format("more than {} vertices", kMostSolidItems * 3);
+  if (unit_ == SolidUnit::millimetre) return add_near(xyz);
+  std::array<Decimal, 3> numbers;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // This one is beyond the sizes in any unit; what is not finite is no decimal.
+    if (!(std::abs(xyz[axis]) <= limits::kLargestCoordinate)) return add_near(xyz);
+    numbers[axis] = exactly(xyz[axis]);
+  }
+  return add(std::move(numbers));
+}
+
+std::optional<std::string> SolidMaker::add(std::array<Decimal, 3> numbers) {
   std::array<double, 3> near{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!(std::abs(xyz[axis]) <= limits::kLargestCoordinate))
-      return fmt::format("the coordinate {} is not within {:g} mm", xyz[axis], limits::kLargestCoordinate);
-    if (std::abs(xyz[axis]) >= limits::kSmallestCoordinate) near[axis] = xyz[axis];
+    Decimal& number = numbers[axis];
+    if (unit_ == SolidUnit::inch) number.digits *= 254, --number.exponent;
+    if (unit_ == SolidUnit::metre) number.exponent += 3;
+    near[axis] = approximate(number);
+    if (std::abs(near[axis]) < limits::kSmallestCoordinate) near[axis] = 0, number = {};
+  }
+  if (auto fault = add_near(near)) return fault;
+  reading_.mesh.written.push_back(std::move(numbers));
+  return std::nullopt;
+}
+
+std::optional<std::string> SolidMaker::add_near(const std::array<double, 3>& millimetres) {
+  ask();
+  constexpr std::size_t kMost = 3 * limits::kMostSolidItems;
+  if (vertices() == kMost) return fmt::format("more than {} vertices", kMost);
+  std::array<double, 3> near{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double x = millimetres[axis];
+    if (!(std::abs(x) <= limits::kLargestCoordinate))
+      return fmt::format("the coordinate {} is not within {:g} mm", x, limits::kLargestCoordinate);
+    if (std::abs(x) >= limits::kSmallestCoordinate) near[axis] = x;
   }
   reading_.mesh.near.push_back(near);
   return std::nullopt;
 }
 
 std::optional<std::string> SolidMaker::add_triangle(const std::array<std::uint32_t, 3>& corners) {
-  if (reading_.mesh.triangles.size() == kMostSolidItems)
-    return fmt::format("more than {} triangles", kMostSolidItems);
+  if (reading_.mesh.triangles.size() == limits::kMostSolidItems)
+    return fmt::format("more than {} triangles", limits::kMostSolidItems);
+  reading_.mesh.numbers.push_back(static_cast<std::uint32_t>(reading_.mesh.triangles.size()));
   reading_.mesh.triangles.push_back(corners);
   return std::nullopt;
 }
 
-Result<SolidReading> read_solid(const Document& document) {
-  SolidMaker made(document);
+Result<SolidReading> read_solid(const Document& document, SolidUnit unit) {
+  SolidMaker made(document, unit);
   const std::string_view word = first_word(document.bytes);
   if (is_binary_stl(document.bytes)) {
     LEKALO_CHECK(read_binary_stl(made));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -19,7 +20,15 @@ struct SolidMesh {
   /// The decimals of a text; empty where each coordinate is its double.
   std::vector<std::array<Decimal, 3>> written;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  /// The number of each triangle in the file, from 0 and ascending; closed() may leave some out.
+  std::vector<std::uint32_t> numbers;
 
+  /// Returns the triangle that has this number in the file; nothing where it is left out, or none.
+  [[nodiscard]] std::optional<std::uint32_t> triangle_of_file(std::size_t number) const {
+    const auto found = std::ranges::lower_bound(numbers, number);
+    if (found == numbers.end() || *found != number) return std::nullopt;
+    return static_cast<std::uint32_t>(found - numbers.begin());
+  }
   [[nodiscard]] Span enclosed(std::uint32_t vertex, std::size_t axis) const {
     const double value = near[vertex][axis];
     return written.empty() ? just(value) : outwards(value, value);
@@ -29,8 +38,8 @@ struct SolidMesh {
   }
 };
 
-/// Most vertices, and most triangles, of a file (docs/limits.md).
-inline constexpr std::size_t kMostSolidItems = 20'000'000;
+/// The unit of the numbers in a file, which none of the formats says.
+enum class SolidUnit : std::uint8_t { millimetre, inch, metre };
 
 struct SolidReading {
   SolidMesh mesh;
@@ -39,8 +48,9 @@ struct SolidReading {
 };
 
 /// Reads STL, OBJ or PLY, told apart by content, as docs/formats.md says, with triangles alone. bad_input
-/// names the line, or the triangle or row of a binary file.
-[[nodiscard]] Result<SolidReading> read_solid(const Document& document);
+/// names the line, or the triangle or row of a binary file. A millimetre is exactly so much of the unit.
+[[nodiscard]] Result<SolidReading> read_solid(const Document& document,
+                                              SolidUnit unit = SolidUnit::millimetre);
 
 /// Returns the mesh with one vertex at each place. Every edge belongs to an even number of triangles, else it
 /// is refused with a place. Triangles with a corner twice are left out; those whose corners lie exactly on a

@@ -11,7 +11,7 @@ namespace lekalo::verify {
 /// Collects what a reader finds in a file.
 class SolidMaker {
  public:
-  explicit SolidMaker(const Document& document) : document_(document) {}
+  SolidMaker(const Document& document, SolidUnit unit) : document_(document), unit_(unit) {}
 
   [[nodiscard]] const Document& document() const { return document_; }
   [[nodiscard]] std::size_t vertices() const { return reading_.mesh.near.size(); }
@@ -27,7 +27,11 @@ class SolidMaker {
   [[nodiscard]] SolidReading take() { return std::move(reading_); }
 
  private:
+  [[nodiscard]] std::optional<std::string> add(std::array<Decimal, 3> numbers);
+  [[nodiscard]] std::optional<std::string> add_near(const std::array<double, 3>& millimetres);
+
   const Document& document_;
+  SolidUnit unit_;
   SolidReading reading_;
 };
 

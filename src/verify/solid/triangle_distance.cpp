@@ -130,6 +130,21 @@ Vec3 point_at(const Triangle3& t, const Shares& shares) {
 
 using WholeTriangle = std::array<Whole3, 3>;
 
+/// Makes the unit 1 / unit one that every coordinate is a multiple of.
+template <std::size_t Count>
+void refine(Integer& unit, const std::array<Exact3, Count>& points) {
+  for (const Exact3& p : points)
+    for (const Fraction& x : p) unit = lcm(unit, x.get_den());
+}
+template <std::size_t Count>
+std::array<Whole3, Count> whole(const std::array<Exact3, Count>& points, const Integer& unit) {
+  std::array<Whole3, Count> made;
+  for (std::size_t k = 0; k < Count; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      made[k][axis] = points[k][axis].get_num() * (unit / points[k][axis].get_den());
+  return made;
+}
+
 /// The least of squared lengths, as a fraction that is not reduced.
 class Least {
  public:
@@ -216,17 +231,8 @@ Span distance(const Triangle3& a, const Triangle3& b, double limit) {
 ExactDistance exact_distance(const ExactTriangle& a, const ExactTriangle& b) {
   ask(50);
   Integer unit = 1;
-  for (const ExactTriangle* t : {&a, &b})
-    for (const Exact3& p : *t)
-      for (const Fraction& x : p) unit = lcm(unit, x.get_den());
-  const auto whole = [&](const ExactTriangle& t) {
-    WholeTriangle made;
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        made[k][axis] = t[k][axis].get_num() * (unit / t[k][axis].get_den());
-    return made;
-  };
-  const WholeTriangle s = whole(a), t = whole(b);
+  for (const ExactTriangle* t : {&a, &b}) refine(unit, *t);
+  const WholeTriangle s = whole(a, unit), t = whole(b, unit);
   ExactDistance found;
   Least least;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -247,6 +253,20 @@ ExactDistance exact_distance(const ExactTriangle& a, const ExactTriangle& b) {
   }
   found.squared = least.value() / Fraction(unit * unit);
   return found;
+}
+
+Fraction exact_squared_distance(const Exact3& p, const ExactTriangle& t) {
+  ask(10);
+  const std::array<Exact3, 1> point{p};
+  Integer unit = 1;
+  refine(unit, point);
+  refine(unit, t);
+  const Whole3 from = whole(point, unit)[0];
+  const WholeTriangle to = whole(t, unit);
+  Least least;
+  to_face(from, to, least);
+  for (std::size_t k = 0; k < 3; ++k) to_edge(from, to[k], to[(k + 1) % 3], least);
+  return least.value() / Fraction(unit * unit);
 }
 
 }  // namespace lekalo::verify

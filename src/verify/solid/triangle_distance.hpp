@@ -18,5 +18,7 @@ struct ExactDistance {
   bool pierces = false;
 };
 [[nodiscard]] ExactDistance exact_distance(const ExactTriangle& a, const ExactTriangle& b);
+/// Returns the squared distance of a point from a triangle.
+[[nodiscard]] Fraction exact_squared_distance(const Exact3& p, const ExactTriangle& t);
 
 }  // namespace lekalo::verify

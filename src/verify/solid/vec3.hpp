@@ -39,6 +39,15 @@ template <class Number>
   return square_root(squared(a[0]) + squared(a[1]) + squared(a[2]));
 }
 
+/// Encloses a number, by itself where a double is that.
+[[nodiscard]] inline Span enclosed(const Fraction& value) {
+  const double cut = cut_to_double(value);
+  return Fraction(cut) == value ? just(cut) : outwards(cut, cut);
+}
+[[nodiscard]] inline Vec3 enclosed(const Exact3& p) {
+  return {enclosed(p[0]), enclosed(p[1]), enclosed(p[2])};
+}
+
 /// Returns the sign of a number that is surely not 0, and else 0.
 [[nodiscard]] inline int sure_sign(Span a) { return a.low > 0 ? 1 : (a.high < 0 ? -1 : 0); }
 

@@ -8,13 +8,15 @@
 #include <vector>
 
 #include "lekalo/base/error.hpp"
+#include "lekalo/base/limits.hpp"
 #include "lekalo/io/text/format.hpp"
 #include "lekalo/solid/mesh.hpp"
 
 namespace lekalo::io {
 
 /// Most vertices, and most triangles, of the file of a solid; more are refused.
-inline constexpr std::size_t kMostSolidVertices = 20'000'000, kMostSolidTriangles = 20'000'000;
+inline constexpr std::size_t kMostSolidVertices = limits::kMostSolidItems,
+                             kMostSolidTriangles = limits::kMostSolidItems;
 
 /// The unit of the numbers in a file of a solid; none of the formats says it.
 enum class SolidUnit : std::uint8_t { millimetre, inch, metre };

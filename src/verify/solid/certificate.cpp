@@ -1,0 +1,256 @@
+#include "certificate.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "certificate_leaf.hpp"
+#include "certificate_tables.hpp"
+#include "lekalo/base/limits.hpp"
+#include "lekalo/base/stop.hpp"
+#include "solid_window.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+/// After this many findings the certificate has failed, and the other leaves are only read.
+constexpr std::size_t kMostFailures = 3;
+
+class TreeCheck {
+ public:
+  TreeCheck(Json tree, std::string path, const LeafFrame& frame, CertificateTables& tables,
+            std::vector<std::string>& findings, std::string& complaint)
+      : path_(std::move(path)),
+        frame_(frame),
+        tables_(tables),
+        findings_(findings),
+        complaint_(complaint),
+        fields_(tree, path_, complaint) {}
+
+  /// Returns the box of the whole tree.
+  PoseBox root() {
+    for (std::size_t k = 0; k < 6; ++k) {
+      const auto ends =
+          numbers_of<2>(fields_.get(kAxes[k]), complaint_, [&] { return fields_.name(kAxes[k]); });
+      if (ends) whole_.low[k] = both((*ends)[0]), whole_.high[k] = both((*ends)[1]);
+      if (whole_.high[k].exact < whole_.low[k].exact)
+        complain(fmt::format("{} is not in ascending order", fields_.name(kAxes[k])));
+    }
+    return whole_;
+  }
+
+  /// Reads the nodes and checks the leaves. `nodes` counts those of all trees.
+  void walk(std::size_t& nodes, std::size_t& leaves) {
+    const Json list = fields_.get("nodes");
+    if (!list.is_array()) complain(fmt::format("{} is not a list", fields_.name("nodes")));
+    if (!complaint_.empty()) return;
+    const std::size_t failed = findings_.size() + kMostFailures;
+    Cell root{};
+    for (std::size_t k = 0; k < 6; ++k) {
+      root.low[k] = end_at(whole_.low[k]);
+      root.high[k] = end_at(whole_.high[k]);
+    }
+    std::vector<Cell> open{root};
+    JsonItems items(list);
+    for (std::size_t i = 0; const auto item = items.next(); ++i) {
+      at_ = i;
+      if (++nodes > limits::kMostCertificateNodes)
+        return complain(
+            fmt::format("{} is beyond the most nodes, {}", name(), limits::kMostCertificateNodes));
+      if (open.empty()) return complain(name() + " is one more than the subdivision needs");
+      const Cell cell = open.back();
+      open.pop_back();
+      const auto first = item->is_array() ? JsonItems(*item).next() : std::nullopt;
+      if (first && first->is_string()) {
+        split(*item, cell, open);
+      } else {
+        ++leaves;
+        check_leaf(*item, cell, findings_.size() < failed);
+      }
+      if (!complaint_.empty()) return;
+    }
+    if (!open.empty())
+      findings_.push_back(
+          fmt::format("{}: the subdivision ends early, {} boxes are missing", path_, open.size()));
+  }
+
+ private:
+  static constexpr std::array<std::string_view, 6> kAxes{"x", "y", "z", "turn_x", "turn_y", "turn_z"};
+
+  /// The ends of a box, by their places among all ends: a split has one, which many boxes share.
+  struct Cell {
+    std::array<std::uint32_t, 6> low, high;
+  };
+
+  void complain(const std::string& sentence) {
+    if (complaint_.empty()) complaint_ = sentence;
+  }
+  [[nodiscard]] std::string name() const { return fmt::format("{}.nodes[{}]", path_, at_); }
+
+  std::uint32_t end_at(Both place) {
+    ends_.push_back(std::move(place));
+    return static_cast<std::uint32_t>(ends_.size() - 1);
+  }
+
+  void split(Json node, const Cell& cell, std::vector<Cell>& open) {
+    JsonItems items(node);
+    const std::string word = json_text(*items.next());
+    const auto axis = static_cast<std::size_t>(std::ranges::find(kAxes, word) - kAxes.begin());
+    const auto at = items.next();
+    const auto place = at && at->is_number() ? parse_decimal(at->text) : std::nullopt;
+    if (axis == kAxes.size() || !place || items.next())
+      return complain(name() + " is neither a split nor a leaf");
+    const std::uint32_t end = end_at(both(*place));
+    Cell low = cell, high = cell;
+    if (less(ends_[end], ends_[cell.low[axis]]) || less(ends_[cell.high[axis]], ends_[end]))
+      return complain(fmt::format("{} splits {} outside of its box", name(), kAxes[axis]));
+    low.high[axis] = high.low[axis] = end;
+    open.push_back(high);
+    open.push_back(low);
+  }
+
+  void check_leaf(Json leaf, const Cell& cell, bool look) {
+    if (!leaf.is_array()) return complain(name() + " is neither a split nor a leaf");
+    terms_.clear();
+    const std::size_t before = findings_.size();
+    std::size_t count = 0;
+    JsonItems items(leaf);
+    while (const auto item = items.next()) {
+      if (++count > limits::kMostCertificateTerms)
+        return complain(fmt::format("{} has more than {} terms", name(), limits::kMostCertificateTerms));
+      if (!read_term(*item, look)) return complain(name() + " has a term that is none");
+    }
+    if (!any_) return complain(name() + " has no multiplier above 0");
+    any_ = false;
+    if (!look || findings_.size() > before) return;
+    PoseBox box;
+    for (std::size_t k = 0; k < 6; ++k) box.low[k] = ends_[cell.low[k]], box.high[k] = ends_[cell.high[k]];
+    if (proves(terms_, box, frame_)) return;
+    std::string where;
+    for (std::size_t k = 0; k < 6; ++k)
+      where += fmt::format("{}{} {} to {}", k == 0 ? "" : ", ", kAxes[k], box.low[k].near.low,
+                           box.high[k].near.high);
+    findings_.push_back(
+        fmt::format("{}: its terms do not prove that no placement with {} has more clearance "
+                    "than {} mm",
+                    name(), where, frame_.bound.near.high));
+  }
+
+  /// Reads one term; where `look` says so, it goes to the terms, unless it is not what it has to be.
+  bool read_term(Json item, bool look) {
+    if (!item.is_array()) return false;
+    JsonItems items(item);
+    std::array<Json, 4> value;
+    for (Json& one : value) {
+      const auto next = items.next();
+      if (!next) return false;
+      one = *next;
+    }
+    const auto multiplier = value[3].is_number() ? parse_decimal(value[3].text) : std::nullopt;
+    if (items.next() || !value[0].is_string() || !multiplier || sgn(multiplier->digits) < 0 ||
+        is_beyond_all_sizes(*multiplier))
+      return false;
+    const std::string kind = json_text(value[0]);
+    const bool by_part_face = kind == "part_face", by_blank_face = kind == "face", by_plane = kind == "plane";
+    if (!by_part_face && !by_blank_face && !by_plane && kind != "ball") return false;
+    std::optional<std::size_t> of_part, of_blank;
+    std::optional<std::uint32_t> triangle;
+    if (by_part_face) {
+      triangle = triangle_of(value[1], frame_.part);
+      if (!triangle) return false;
+    } else {
+      of_part = index(value[1], tables_.part_balls());
+      if (!of_part) return false;
+    }
+    if (by_blank_face) {
+      triangle = triangle_of(value[2], frame_.blank);
+      if (!triangle) return false;
+    } else {
+      of_blank = index(value[2], by_plane ? tables_.planes() : tables_.blank_balls());
+      if (!of_blank) return false;
+    }
+    if (sgn(multiplier->digits) == 0) return true;
+    any_ = true;
+    if (!look) return true;
+    LeafTerm term;
+    bool good = true;
+    if (of_part) good = (term.part_ball = tables_.part_ball(*of_part)) != nullptr;
+    if (of_blank && by_plane) good = (term.plane = tables_.plane(*of_blank)) != nullptr && good;
+    if (of_blank && !by_plane) good = (term.blank_ball = tables_.blank_ball(*of_blank)) != nullptr && good;
+    term.triangle = triangle.value_or(0);
+    term.multiplier = both(*multiplier);
+    if (good) terms_.push_back(std::move(term));
+    return true;
+  }
+
+  /// Reads a whole number below a count.
+  static std::optional<std::size_t> index(Json value, std::size_t count) {
+    const auto number = value.is_number() ? parse_decimal(value.text) : std::nullopt;
+    if (!number || number->exponent < 0 || sgn(number->digits) < 0 ||
+        compare(*number, Decimal{Integer(static_cast<unsigned long>(count)), 0}) >= 0)
+      return std::nullopt;
+    return static_cast<std::size_t>(to_long(in_units(*number, 0)));
+  }
+  static std::optional<std::uint32_t> triangle_of(Json value, const SolidMesh& mesh) {
+    const auto number = index(value, limits::kMostSolidItems);
+    return number ? mesh.triangle_of_file(*number) : std::nullopt;
+  }
+
+  std::string path_;
+  const LeafFrame& frame_;
+  CertificateTables& tables_;
+  std::vector<std::string>& findings_;
+  std::string& complaint_;
+  Fields fields_;
+  PoseBox whole_;
+  std::vector<Both> ends_;
+  std::vector<LeafTerm> terms_;
+  bool any_ = false;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+Result<void> SolidCertificate::check(Json certificate, const std::string& name) {
+  std::string complaint;
+  const auto bad = [&] { return failure(ErrorCode::bad_input, fmt::format("{}: {}", name, complaint)); };
+  Fields fields(certificate, "certificate", complaint);
+  const auto pivot =
+      numbers_of<3>(fields.get("pivot"), complaint, [] { return std::string("certificate.pivot"); });
+  CertificateTables tables(certificate, part_, blank_, findings_, complaint);
+  if (!complaint.empty()) return bad();
+  Both3 at;
+  bool same_pivot = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    at[k] = both((*pivot)[k]);
+    same_pivot = same_pivot && compare((*pivot)[k], window_.pivot[k]) == 0;
+  }
+  if (!same_pivot) findings_.emplace_back("the pivot of the certificate is not that of the window");
+
+  std::size_t nodes = 0;
+  std::optional<std::string> beyond = "there is no tree";
+  fields.each("trees", [&](Json item, const std::string& path) {
+    if (!complaint.empty()) return;
+    const auto start = numbers_of<4>(Fields(item, path, complaint).get("quaternion"), complaint,
+                                     [&] { return path + ".quaternion"; });
+    if (start && std::ranges::all_of(*start, [](const Decimal& q) { return sgn(q.digits) == 0; }))
+      complaint = path + ".quaternion is 0, which is no rotation";
+    if (!complaint.empty()) return;
+    const LeafFrame frame{part_, blank_, SolidMotion({*start, {}}), at, both(bound_)};
+    TreeCheck tree(item, path, frame, tables, findings_, complaint);
+    const PoseBox root = tree.root();
+    if (!complaint.empty()) return;
+    if (beyond) {
+      beyond = beyond_box(window_, root, *start);
+      if (beyond) beyond = fmt::format("{}: {}", path, *beyond);
+    }
+    tree.walk(nodes, leaves_);
+  });
+  if (!complaint.empty()) return bad();
+  if (beyond) findings_.push_back(*beyond);
+  return {};
+}
+
+}  // namespace lekalo::verify

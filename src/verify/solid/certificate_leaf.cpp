@@ -1,0 +1,313 @@
+#include "certificate_leaf.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lekalo/base/stop.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+enum class Answer : std::uint8_t { no, open, yes };
+
+Answer at_most_zero(Span value) {
+  return value.high <= 0 ? Answer::yes : (value.low > 0 ? Answer::no : Answer::open);
+}
+Answer at_most_zero(const Fraction& value) { return sgn(value) <= 0 ? Answer::yes : Answer::no; }
+
+// ---- the arithmetic of spans and of fractions -------------------------------------------------------------
+
+/// Returns 1 / |n|, whose error is on the side of the sign that is given: of a fraction a positive sign makes
+/// it no less. \pre n is not 0
+Span inverse_length(const Vec3& n, int) { return just(1) / length(n); }
+Fraction inverse_length(const Exact3& n, int side) {
+  // |n| = sqrt(p / q) = sqrt(p q) / q; where that is no fraction, it is cut at 2^-128 of itself, or finer.
+  const Fraction squared = dot(n, n);
+  const Integer product = squared.get_num() * squared.get_den();
+  constexpr unsigned long kPlaces = 128;
+  Integer root = whole_root(product << (2 * kPlaces));
+  if (side < 0 && root * root != product << (2 * kPlaces)) root += 1;
+  Fraction inverse(squared.get_den() << kPlaces, root);
+  inverse.canonicalize();
+  return inverse;
+}
+
+template <class Number>
+Number number(double value) {
+  if constexpr (std::is_same_v<Number, Span>)
+    return just(value);
+  else
+    return value;
+}
+template <class Number>
+Of3<Number> vertex(const SolidMesh& mesh, std::uint32_t v) {
+  if constexpr (std::is_same_v<Number, Span>)
+    return {mesh.enclosed(v, 0), mesh.enclosed(v, 1), mesh.enclosed(v, 2)};
+  else
+    return {mesh.exact(v, 0), mesh.exact(v, 1), mesh.exact(v, 2)};
+}
+
+Near3 near(const Vec3& p) {
+  return {p[0].low / 2 + p[0].high / 2, p[1].low / 2 + p[1].high / 2, p[2].low / 2 + p[2].high / 2};
+}
+
+// ---- polynomials ------------------------------------------------------------------------------------------
+
+/// For each t the form level + slope . t + bend |u|^2 + (R(x) p) . u, where u = from + turn t.
+template <class Number>
+struct Form {
+  Of3<Number> p, from;
+  Number turn{}, level{}, bend{};
+  Of3<Number> slope{};
+  Number weight{};
+};
+
+/// A polynomial of degree 2 in x; mixed[k] belongs to the product of the other two.
+template <class Number>
+struct Quadratic {
+  Number constant{};
+  Of3<Number> linear{}, square{}, mixed{};
+
+  /// Adds the form, times its weight and 1 + |x|^2, at one t:
+  /// (1 + |x|^2) R(x) p = (1 - |x|^2) p + 2 x cross p + 2 (x . p) x.
+  void add(const Form<Number>& form, const Of3<Number>& t) {
+    const Of3<Number> u = form.from + t * form.turn;
+    const Number level = form.level + dot(form.slope, t) + form.bend * dot(u, u), along = dot(form.p, u);
+    const Of3<Number> turning = cross(form.p, u);
+    const Number twice = form.weight + form.weight;
+    constant = constant + form.weight * (level + along);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
+      linear[a] = linear[a] + twice * turning[a];
+      square[a] = square[a] + form.weight * (level - along) + twice * (form.p[a] * u[a]);
+      mixed[a] = mixed[a] + twice * (form.p[b] * u[c] + form.p[c] * u[b]);
+    }
+  }
+};
+
+/// The box of a leaf.
+template <class Number>
+class Cell {
+ public:
+  explicit Cell(const PoseBox& box) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      ends_[k] = {as<Number>(box.low[k]), as<Number>(box.high[k])};
+      const Number low = as<Number>(box.low[k + 3]), high = as<Number>(box.high[k + 3]);
+      x_[k] = {low, Number((low + high) * number<Number>(0.5)), high};
+      squares_[k] = {Number(low * low), Number(low * high), Number(high * high)};
+    }
+  }
+
+  /// Says whether the sum of forms is nowhere above 0, by its Bernstein coefficients.
+  [[nodiscard]] Answer nowhere_positive(const std::vector<Form<Number>>& forms) const {
+    Answer answer = Answer::yes;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      ask(std::is_same_v<Number, Span> ? 4 : 1000);
+      Quadratic<Number> sum;
+      for (const Form<Number>& form : forms)
+        sum.add(form, {ends_[0][corner & 1], ends_[1][corner >> 1 & 1], ends_[2][corner >> 2]});
+      answer = std::min(answer, nowhere_positive(sum));
+      if (answer == Answer::no) break;
+    }
+    return answer;
+  }
+
+ private:
+  [[nodiscard]] Answer nowhere_positive(const Quadratic<Number>& q) const {
+    std::array<std::array<Number, 3>, 3> alone;
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t i = 0; i < 3; ++i) alone[a][i] = q.linear[a] * x_[a][i] + q.square[a] * squares_[a][i];
+    Answer answer = Answer::yes;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) {
+        const Number flat = q.constant + alone[0][i] + alone[1][j] + q.mixed[2] * x_[0][i] * x_[1][j];
+        const Number slope = q.mixed[1] * x_[0][i] + q.mixed[0] * x_[1][j];
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Number coefficient = flat + alone[2][k] + slope * x_[2][k];
+          answer = std::min(answer, at_most_zero(coefficient));
+        }
+      }
+    return answer;
+  }
+
+  std::array<std::array<Number, 2>, 3> ends_;
+  std::array<std::array<Number, 3>, 3> x_, squares_;
+};
+
+// ---- terms ------------------------------------------------------------------------------------------------
+
+template <class Number>
+struct Facet {
+  std::array<Of3<Number>, 3> at, inwards;
+  Of3<Number> normal;
+
+  Facet(const SolidMesh& mesh, std::uint32_t triangle) {
+    for (std::size_t k = 0; k < 3; ++k) at[k] = vertex<Number>(mesh, mesh.triangles[triangle][k]);
+    normal = cross(at[1] - at[0], at[2] - at[0]);
+    for (std::size_t k = 0; k < 3; ++k) inwards[k] = cross(normal, at[(k + 1) % 3] - at[k]);
+  }
+};
+
+/// What doubles tell of the middle of the leaf. It proves nothing.
+class Middle {
+ public:
+  Middle(const PoseBox& box, const LeafFrame& frame) : frame_(frame), pivot_(as<Span>(frame.pivot)) {
+    const auto middle = [&](std::size_t k) { return box.low[k].near.low / 2 + box.high[k].near.high / 2; };
+    for (std::size_t k = 0; k < 3; ++k) t_[k] = middle(k), x_[k] = middle(k + 3);
+  }
+  [[nodiscard]] Near3 place(const Both3& p) const { return turned(as<Span>(p) - pivot_) + t_; }
+  [[nodiscard]] Near3 place(const Vec3& p) const { return turned(p - pivot_) + t_; }
+  [[nodiscard]] Near3 turned(const Vec3& way) const {
+    const Near3 p = near(frame_.turn(way));
+    const double square = dot(x_, x_);
+    return (p * (1 - square) + cross(x_, p) * 2.0 + x_ * (2 * dot(x_, p))) * (1 / (1 + square));
+  }
+
+ private:
+  const LeafFrame& frame_;
+  Vec3 pivot_;
+  Near3 t_{}, x_{};
+};
+
+template <class Number>
+class LeafProof {
+ public:
+  LeafProof(const std::vector<LeafTerm>& terms, const PoseBox& box, const LeafFrame& frame)
+      : terms_(terms),
+        frame_(frame),
+        cell_(box),
+        middle_(box, frame),
+        pivot_(as<Number>(frame.pivot)),
+        bound_(as<Number>(frame.bound)) {}
+
+  Answer answer() {
+    Answer all = Answer::yes;
+    std::vector<Form<Number>> forms;
+    for (const LeafTerm& term : terms_) {
+      all = std::min(all, add(term, forms));
+      if (all == Answer::no) return all;
+      forms.back().weight = as<Number>(term.multiplier);
+    }
+    return std::min(all, cell_.nowhere_positive(forms));
+  }
+
+ private:
+  using Point = Of3<Number>;
+
+  static Point negative(const Point& p) { return Point{} - p; }
+  Point turned(const Point& way) const { return frame_.turn(way); }
+
+  /// Adds the form of a term, and says whether it counts over the whole box.
+  Answer add(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
+    if (term.part_ball == nullptr) return add_part_face(term, forms);
+    if (term.plane != nullptr) return add_plane(term, forms);
+    return term.blank_ball != nullptr ? add_ball(term, forms) : add_blank_face(term, forms);
+  }
+
+  Answer add_ball(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
+    const Ball &a = *term.part_ball, &c = *term.blank_ball;
+    const double apart = std::sqrt(squared_length(middle_.place(a.centre) - near(as<Span>(c.centre))));
+    const Number l = number<Number>(apart > 0 && std::isfinite(apart) ? apart : 1),
+                 inverse = number<Number>(1) / l, half = number<Number>(0.5);
+    const Point way = as<Number>(a.centre) - pivot_;
+    Form<Number> form{turned(way), as<Number>(c.centre) * Number(number<Number>(0) - inverse)};
+    form.turn = inverse;
+    form.level = half * (dot(way, way) * inverse + l) - as<Number>(a.radius) - as<Number>(c.radius) - bound_;
+    form.bend = half * l;
+    forms.push_back(std::move(form));
+    return not_below_zero(bound_ + as<Number>(c.radius));
+  }
+
+  Answer add_plane(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
+    const Ball& a = *term.part_ball;
+    const Point n = as<Number>(term.plane->normal);
+    const bool sticks_out = sgn(Fraction(a.radius.exact + frame_.bound.exact)) < 0;
+    const Number inverse = inverse_length(n, sticks_out ? -1 : 1);
+    Form<Number> form{turned(as<Number>(a.centre) - pivot_), n * inverse};
+    form.slope = form.from;
+    form.level = number<Number>(0) - as<Number>(term.plane->level) * inverse - as<Number>(a.radius) - bound_;
+    forms.push_back(std::move(form));
+    return Answer::yes;
+  }
+
+  Answer add_blank_face(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
+    const Ball& a = *term.part_ball;
+    const Facet<Number> face(frame_.blank, term.triangle);
+    const Facet<Span> seen(frame_.blank, term.triangle);
+    if (!has_area(face)) return add_nothing(forms);
+    const bool above = dot(near(seen.normal), middle_.place(a.centre) - near(seen.at[0])) >= 0;
+    const Number inverse = inverse_length(face.normal, 1);
+    const Point n = (above ? face.normal : negative(face.normal)) * inverse,
+                p = turned(as<Number>(a.centre) - pivot_);
+    /// Holds the ball's centre against a half-space.
+    const auto form_of = [&](const Point& normal, const Number& level) {
+      Form<Number> form{p, normal};
+      form.slope = normal, form.level = level, form.weight = number<Number>(1);
+      return form;
+    };
+    const Number foot = dot(n, face.at[0]), radius = as<Number>(a.radius);
+    forms.push_back(form_of(n, number<Number>(0) - foot - radius - bound_));
+    Answer all = std::min(not_below_zero(bound_), nowhere_positive(form_of(negative(n), foot - radius)));
+    for (std::size_t k = 0; k < 3; ++k)
+      all = std::min(all,
+                     nowhere_positive(form_of(negative(face.inwards[k]), dot(face.inwards[k], face.at[k]))));
+    return all;
+  }
+
+  Answer add_part_face(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
+    const Ball& c = *term.blank_ball;
+    const Facet<Number> face(frame_.part, term.triangle);
+    const Facet<Span> seen(frame_.part, term.triangle);
+    if (!has_area(face)) return add_nothing(forms);
+    const bool above =
+        dot(middle_.turned(seen.normal), near(as<Span>(c.centre)) - middle_.place(seen.at[0])) >= 0;
+    const Number inverse = inverse_length(face.normal, 1);
+    const Point n = (above ? face.normal : negative(face.normal)) * inverse;
+    /// Holds the ball's centre, as the part sees it, against a half-space: n . (T^-1 c - pivot) is
+    /// (R turn n) . (c - t).
+    const auto form_of = [&](const Point& normal, const Number& level) {
+      Form<Number> form{turned(normal), as<Number>(c.centre)};
+      form.turn = number<Number>(-1), form.level = level, form.weight = number<Number>(1);
+      return form;
+    };
+    const Number foot = dot(n, face.at[0] - pivot_), radius = as<Number>(c.radius);
+    forms.push_back(form_of(n, number<Number>(0) - foot - radius - bound_));
+    Answer all = std::min(not_below_zero(bound_), nowhere_positive(form_of(negative(n), foot - radius)));
+    for (std::size_t k = 0; k < 3; ++k)
+      all = std::min(all, nowhere_positive(
+                              form_of(negative(face.inwards[k]), dot(face.inwards[k], face.at[k] - pivot_))));
+    return all;
+  }
+
+  static bool has_area(const Facet<Span>&) { return true; }
+  static bool has_area(const Facet<Fraction>& face) { return sgn(dot(face.normal, face.normal)) != 0; }
+  static Answer add_nothing(std::vector<Form<Number>>& forms) {
+    forms.emplace_back();
+    return Answer::no;
+  }
+
+  static Answer not_below_zero(const Number& value) {
+    return at_most_zero(Number(number<Number>(0) - value));
+  }
+  Answer nowhere_positive(const Form<Number>& form) const {
+    return cell_.nowhere_positive(std::vector<Form<Number>>{form});
+  }
+  static double squared_length(const Near3& p) { return dot(p, p); }
+
+  const std::vector<LeafTerm>& terms_;
+  const LeafFrame& frame_;
+  Cell<Number> cell_;
+  Middle middle_;
+  Point pivot_;
+  Number bound_;
+};
+
+}  // namespace
+
+bool proves(const std::vector<LeafTerm>& terms, const PoseBox& box, const LeafFrame& frame) {
+  const Answer quick = LeafProof<Span>(terms, box, frame).answer();
+  return quick == Answer::open ? LeafProof<Fraction>(terms, box, frame).answer() == Answer::yes
+                               : quick == Answer::yes;
+}
+
+}  // namespace lekalo::verify

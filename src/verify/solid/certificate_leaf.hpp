@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "certificate_tables.hpp"
+#include "solid_window.hpp"
+
+namespace lekalo::verify {
+
+/// A term of a leaf, by what it bounds the clearance with.
+struct LeafTerm {
+  /// A ball of the part or, where it is null, the triangle of the part.
+  const Ball* part_ball = nullptr;
+  /// A ball or a half-space of the blank or, where both are null, the triangle of the blank.
+  const Ball* blank_ball = nullptr;
+  const HalfSpace* plane = nullptr;
+  std::uint32_t triangle = 0;
+  Both multiplier;
+};
+
+/// What the leaves of one tree have in common. The placed part is T p = R(x) turn (p - pivot) + t.
+struct LeafFrame {
+  const SolidMesh& part;
+  const SolidMesh& blank;
+  SolidMotion turn;  ///< without a shift
+  Both3 pivot;
+  Both bound;
+};
+
+/// Says whether the terms show that no pose of the box has more clearance than the bound. Suppose one has.
+/// Then every term is above 0 there:
+///   ball:       |T a - c| - r - s - bound. If |T a - c| < r, c would lie in the part, s from the material,
+///   so
+///               the bound must not be below -s.
+///   half-space: (n . T a - b) / |n| - r - bound.
+///   triangle of the blank, of the part: the height of the ball's centre over it less r, or s, and the bound,
+///               where the foot of the centre stays in the triangle and the height does not fall below -r, or
+///               -s; the bound must not be below 0.
+/// So their sum with the multipliers is above 0, and it is shown not to be. With |w| <= (|w|^2 + l^2) / 2 l
+/// for a ball, and times 1 + |x|^2, the sum is a polynomial of degree 2 in x, convex in t: it is nowhere
+/// above the largest of its 27 Bernstein coefficients at the eight corners of the box of t. Spans decide that
+/// nearly always, and else fractions.
+[[nodiscard]] bool proves(const std::vector<LeafTerm>& terms, const PoseBox& box, const LeafFrame& frame);
+
+}  // namespace lekalo::verify

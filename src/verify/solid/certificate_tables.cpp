@@ -1,0 +1,149 @@
+#include "certificate_tables.hpp"
+
+#include <fmt/core.h>
+
+#include <array>
+
+#include "lekalo/base/limits.hpp"
+#include "solid_document.hpp"
+#include "triangle_distance.hpp"
+#include "verify/read/fields.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+/// Calls visit(triangle, its exact squared distance) for the triangles that enclosures do not show to be
+/// `radius` away from a point, until it returns true.
+template <class Visit>
+bool any_within(const PlacedSolid& body, const Ball& ball, double radius, const Visit& visit) {
+  const Vec3 p = as<Span>(ball.centre);
+  const Box3 place = box_of(p);
+  bool found = false;
+  body.tree().visit([&](const Box3& box) { return !found && !(gap(place, box) > radius); },
+                    [&](std::uint32_t triangle) {
+                      if (found || distance({p, p, p}, body.triangle(triangle), radius).low > radius) return;
+                      found = visit(triangle, exact_squared_distance(as<Fraction>(ball.centre),
+                                                                     body.exact_triangle(triangle)));
+                    });
+  return found;
+}
+
+/// Says what of the surface comes nearer to the ball's centre than its radius.
+std::optional<std::string> nearer(const PlacedSolid& body, const Ball& ball) {
+  if (sgn(ball.radius.exact) == 0) return std::nullopt;
+  const Fraction squared = ball.radius.exact * ball.radius.exact;
+  std::optional<std::string> fault;
+  any_within(body, ball, ball.radius.near.high, [&](std::uint32_t triangle, const Fraction& distance) {
+    if (distance >= squared) return false;
+    fault =
+        fmt::format("triangle {} comes nearer to its centre than its radius", body.mesh().numbers[triangle]);
+    return true;
+  });
+  return fault;
+}
+
+bool lies_on_surface(const PlacedSolid& body, const Ball& ball) {
+  return any_within(body, ball, 0,
+                    [](std::uint32_t, const Fraction& distance) { return sgn(distance) == 0; });
+}
+
+/// \pre the centre is not on the surface
+bool holds(const PlacedSolid& body, const Ball& ball) {
+  return body.holds(as<Span>(ball.centre), as<Fraction>(ball.centre));
+}
+
+std::optional<std::string> fault_of_part_ball(const PlacedSolid& part, const Ball& ball) {
+  if (auto fault = nearer(part, ball)) return fault;
+  if (sgn(ball.radius.exact) == 0 && lies_on_surface(part, ball)) return std::nullopt;
+  if (!holds(part, ball)) return "its centre is not in the part";
+  return std::nullopt;
+}
+
+std::optional<std::string> fault_of_blank_ball(const PlacedSolid& blank, const Ball& ball) {
+  if (auto fault = nearer(blank, ball)) return fault;
+  if (sgn(ball.radius.exact) == 0 && lies_on_surface(blank, ball)) return std::nullopt;
+  if (holds(blank, ball)) return "its centre is in the blank";
+  return std::nullopt;
+}
+
+std::optional<std::string> fault_of_plane(const PlacedSolid& blank, const HalfSpace& plane) {
+  const Vec3 n = as<Span>(plane.normal);
+  const Exact3 exact_n = as<Fraction>(plane.normal);
+  if (sgn(dot(exact_n, exact_n)) == 0) return "its normal is 0";
+  const SolidMesh& mesh = blank.mesh();
+  std::optional<std::string> fault;
+  const auto reaches_below = [&](const Box3& box) {
+    return !fault && !(dot(n, Vec3{Span{box.low[0], box.high[0]}, Span{box.low[1], box.high[1]},
+                                   Span{box.low[2], box.high[2]}})
+                           .low >= plane.level.near.high);
+  };
+  blank.tree().visit(reaches_below, [&](std::uint32_t triangle) {
+    for (const std::uint32_t v : mesh.triangles[triangle])
+      if (!(dot(n, blank.at(v)).low >= plane.level.near.high) &&
+          dot(exact_n, blank.exactly_at(v)) < plane.level.exact)
+        fault = fmt::format("a corner of the blank's triangle {} is not in it", mesh.numbers[triangle]);
+  });
+  return fault;
+}
+
+}  // namespace
+
+CertificateTables::CertificateTables(Json certificate, const SolidMesh& part, const SolidMesh& blank,
+                                     std::vector<std::string>& findings, std::string& complaint)
+    : part_(part), blank_(blank), findings_(findings) {
+  const Fields fields(certificate, "certificate", complaint);
+  read(fields.get("part_balls"), "part_balls", true, part_balls_, complaint);
+  read(fields.get("blank_balls"), "blank_balls", true, blank_balls_, complaint);
+  read(fields.get("planes"), "planes", false, planes_, complaint);
+}
+
+template <class Thing>
+void CertificateTables::read(Json list, const char* key, bool has_radius, std::vector<Row<Thing>>& rows,
+                             std::string& complaint) {
+  const auto complain = [&](std::string_view sentence) {
+    if (complaint.empty()) complaint = fmt::format("certificate.{} {}", key, sentence);
+  };
+  if (!list.is_array()) return complain("is not a list");
+  JsonItems items(list);
+  while (const auto item = items.next()) {
+    const auto name = [&] { return fmt::format("certificate.{}[{}]", key, rows.size()); };
+    if (rows.size() == limits::kMostCertificateRows)
+      return complain(fmt::format("has more than {} rows", limits::kMostCertificateRows));
+    const auto numbers = numbers_of<4>(*item, complaint, name);
+    if (!numbers) return;
+    if (has_radius && sgn((*numbers)[3].digits) < 0) return complain("has a radius below 0");
+    rows.push_back({*item});
+  }
+}
+
+template <class Thing, class Fault>
+const Thing* CertificateTables::look(Row<Thing>& row, const char* key, std::size_t number,
+                                     const Fault& fault) {
+  if (!row.seen) {
+    row.seen = true;
+    std::string none;
+    const auto [x, y, z, number_beside] = *numbers_of<4>(row.written, none, [] { return std::string(); });
+    row.thing = Thing{{both(x), both(y), both(z)}, both(number_beside)};
+    if (const auto wrong = fault(*row.thing)) {
+      findings_.push_back(
+          fmt::format("certificate.{}[{}] is not what it has to be: {}", key, number, *wrong));
+      row.thing.reset();
+    }
+  }
+  return row.thing ? &*row.thing : nullptr;
+}
+
+const Ball* CertificateTables::part_ball(std::size_t number) {
+  return look(part_balls_[number], "part_balls", number,
+              [&](const Ball& ball) { return fault_of_part_ball(part_, ball); });
+}
+const Ball* CertificateTables::blank_ball(std::size_t number) {
+  return look(blank_balls_[number], "blank_balls", number,
+              [&](const Ball& ball) { return fault_of_blank_ball(blank_, ball); });
+}
+const HalfSpace* CertificateTables::plane(std::size_t number) {
+  return look(planes_[number], "planes", number,
+              [&](const HalfSpace& plane) { return fault_of_plane(blank_, plane); });
+}
+
+}  // namespace lekalo::verify

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "placed_solid.hpp"
+#include "solid_number.hpp"
+#include "verify/read/json.hpp"
+
+namespace lekalo::verify {
+
+struct Ball {
+  Both3 centre;
+  Both radius;
+};
+/// The half-space n . p >= level.
+struct HalfSpace {
+  Both3 normal;
+  Both level;
+};
+
+/// The balls and half-spaces of a certificate, and whether they are what they have to be of the meshes. One
+/// is looked at when it is used for the first time.
+class CertificateTables {
+ public:
+  /// Complains of rows that are none. The text behind the certificate, and the meshes, outlive this.
+  CertificateTables(Json certificate, const SolidMesh& part, const SolidMesh& blank,
+                    std::vector<std::string>& findings, std::string& complaint);
+
+  [[nodiscard]] std::size_t part_balls() const { return part_balls_.size(); }
+  [[nodiscard]] std::size_t blank_balls() const { return blank_balls_.size(); }
+  [[nodiscard]] std::size_t planes() const { return planes_.size(); }
+
+  /// A ball in the closed material of the part; nothing, and once a finding, where it is not that.
+  [[nodiscard]] const Ball* part_ball(std::size_t number);
+  /// A ball within which the blank has no material.
+  [[nodiscard]] const Ball* blank_ball(std::size_t number);
+  /// A half-space that holds the blank.
+  [[nodiscard]] const HalfSpace* plane(std::size_t number);
+
+ private:
+  /// A row as it is written; once it was looked at, the thing is there, unless it is not what it has to be.
+  template <class Thing>
+  struct Row {
+    Json written;
+    bool seen = false;
+    std::optional<Thing> thing = {};
+  };
+  template <class Thing>
+  static void read(Json list, const char* key, bool has_radius, std::vector<Row<Thing>>& rows,
+                   std::string& complaint);
+  template <class Thing, class Fault>
+  const Thing* look(Row<Thing>& row, const char* key, std::size_t number, const Fault& fault);
+
+  PlacedSolid part_, blank_;
+  std::vector<std::string>& findings_;
+  std::vector<Row<Ball>> part_balls_, blank_balls_;
+  std::vector<Row<HalfSpace>> planes_;
+};
+
+}  // namespace lekalo::verify

@@ -1,0 +1,173 @@
+#include "solid_document.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+#include "verify/read/known_fields.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+tl::unexpected<Error> bad(const std::string& name, const std::string& sentence) {
+  return failure(ErrorCode::bad_input, fmt::format("{}: {}", name, sentence));
+}
+
+bool has_format(Fields& fields, std::string_view format) {
+  std::string ignored;
+  Fields of(fields.get("format"), "format", ignored);
+  return of.text("name") == format && of.get("version").text == "1";
+}
+
+/// Returns which of some words a text is, and complains where it is none of them.
+template <std::size_t Count>
+std::size_t word_of(Fields& fields, std::string_view key, const std::string_view (&words)[Count]) {
+  const std::string text = fields.text(key);
+  const auto found = std::ranges::find(words, text);
+  if (found != std::end(words)) return static_cast<std::size_t>(found - words);
+  std::string list;
+  for (const std::string_view word : words) list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", word);
+  fields.complain(fmt::format("field {} is \"{}\", not {}", fields.name(key), excerpt(text), list));
+  return 0;
+}
+
+class Reader {
+ public:
+  Reader(Json written, std::string& complaint) : complaint_(complaint), fields_(written, "", complaint) {}
+
+  SolidDocument read() {
+    if (!has_format(fields_, "lekalo-locate"))
+      fields_.complain("field format does not say lekalo-locate, version 1");
+    word_of(fields_, "status", {"optimal", "stopped", "infeasible", "unproved"});
+    d_.status = fields_.text("status");
+    word_of(fields_, "units", {"mm"});
+    read_inputs();
+    read_window();
+    d_.pose = pose(fields_);
+    d_.inside = truth("inside");
+    d_.clearance = fields_.number_or_null("clearance");
+    d_.upper_bound = fields_.number_or_null("upper_bound");
+    d_.gap = fields_.number_or_null("gap");
+    d_.shortfall = fields_.number_or_null("shortfall");
+    d_.min_allowance = length(fields_, "min_allowance");
+    d_.unknown_area = fields_.number("unknown_area_mm2");
+    for (const auto& value : {d_.clearance, d_.upper_bound, d_.gap, d_.shortfall})
+      if (value && is_beyond_all_sizes(*value)) fields_.complain("a length is beyond all sizes");
+    fields_.each("contacts", [&](Json item, const std::string& path) { read_contact(item, path); });
+    fields_.require(
+        {"warnings", "seed", "work", "version", "method", "certificate", "certificate_file", "run"});
+    read_proof();
+    return std::move(d_);
+  }
+
+ private:
+  bool truth(std::string_view key) {
+    const Json value = fields_.get(key);
+    if (!value.is_bool())
+      fields_.complain(fmt::format("field {} is neither true nor false", fields_.name(key)));
+    return value.is_true();
+  }
+  Decimal length(Fields& fields, std::string_view key) {
+    Decimal value = fields.number(key);
+    if (is_beyond_all_sizes(value))
+      fields.complain(fmt::format("field {} is beyond {:g} mm", fields.name(key), limits::kLargestDerived));
+    return value;
+  }
+  template <std::size_t Count>
+  std::array<Decimal, Count> numbers(Fields& fields, std::string_view key) {
+    return numbers_of<Count>(fields.get(key), complaint_, [&] { return "field " + fields.name(key); })
+        .value_or(std::array<Decimal, Count>{});
+  }
+  SolidPose pose(Fields& fields) {
+    SolidPose made{numbers<4>(fields, "quaternion"),
+                   {length(fields, "x"), length(fields, "y"), length(fields, "z")}};
+    if (std::ranges::all_of(made.quaternion, [](const Decimal& q) { return sgn(q.digits) == 0; }))
+      fields.complain(fmt::format("field {} is 0, which is no rotation", fields.name("quaternion")));
+    return made;
+  }
+
+  void read_inputs() {
+    std::size_t parts = 0, blanks = 0;
+    fields_.each("inputs", [&](Json item, const std::string& path) {
+      Fields input(item, path, complaint_);
+      const std::string role = input.text("role");
+      if (role != "part" && role != "blank") return;
+      ++(role == "part" ? parts : blanks);
+      WrittenSolid& solid = role == "part" ? d_.part : d_.blank;
+      solid.unit = static_cast<SolidUnit>(word_of(input, "units", {"mm", "inch", "m"}));
+      solid.triangles = input.index("triangles");
+    });
+    if (parts != 1 || blanks != 1)
+      fields_.complain(fmt::format("inputs name {} part and {} blank, not one each", parts, blanks));
+  }
+
+  void read_window() {
+    SolidWindow& w = d_.window;
+    w.freedom = static_cast<SolidFreedom>(word_of(fields_, "freedom", {"xyz", "c-xyz", "six"}));
+    Fields window(fields_.get("window"), "window", complaint_);
+    w.start = pose(window);
+    w.pivot = numbers<3>(window, "pivot");
+    w.shift = length(window, "shift");
+    w.turn_deg = window.number("turn_deg");
+    if (sgn(w.shift.digits) < 0) window.complain("field window.shift is below 0");
+    if (sgn(w.turn_deg.digits) < 0 || compare(w.turn_deg, Decimal{9, 1}) > 0)
+      window.complain("field window.turn_deg is not from 0 to 90");
+  }
+
+  void read_contact(Json item, const std::string& path) {
+    Fields contact(item, path, complaint_);
+    d_.contacts.push_back(
+        {{numbers<3>(contact, "part_point"), numbers<3>(contact, "blank_point"), length(contact, "distance")},
+         contact.index("part_triangle"),
+         contact.index("blank_triangle")});
+    (void)contact.number("multiplier");
+  }
+
+  void read_proof() {
+    d_.certificate = fields_.get("certificate");
+    if (!d_.certificate.is_null() && !d_.certificate.is_object())
+      fields_.complain("field certificate is neither an object nor null");
+    const Json file = fields_.get("certificate_file");
+    if (file.is_null()) return;
+    d_.boxes_in_file = Fields(file, "certificate_file", complaint_).index("boxes");
+    if (!d_.certificate.is_null()) fields_.complain("the certificate is given both here and in a file");
+  }
+
+  std::string& complaint_;
+  Fields fields_;
+  SolidDocument d_;
+};
+
+}  // namespace
+
+bool is_beyond_all_sizes(const Decimal& value) {
+  return !(std::abs(approximate(value)) <= limits::kLargestDerived);
+}
+
+Result<SolidDocument> read_solid_document(Json written, const std::string& name) {
+  std::string complaint;
+  refuse_unknown_fields_of_solids(written, complaint);
+  SolidDocument document = Reader(written, complaint).read();
+  if (!complaint.empty()) return bad(name, complaint);
+  return document;
+}
+
+Result<Json> read_solid_certificate_document(const Document& document) {
+  LEKALO_TRY(const Json root, parse_json(document.bytes, document.name));
+  std::string complaint;
+  refuse_unknown_fields_of_solids(root, complaint);
+  Fields fields(root, "", complaint);
+  if (!has_format(fields, "lekalo-certificate"))
+    fields.complain("field format does not say lekalo-certificate, version 1");
+  const Json certificate = fields.get("certificate");
+  if (!certificate.is_object()) fields.complain("field certificate is not an object");
+  if (!complaint.empty()) return bad(document.name, complaint);
+  return certificate;
+}
+
+}  // namespace lekalo::verify

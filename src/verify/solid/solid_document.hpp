@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lekalo/base/limits.hpp"
+#include "solid_clearance.hpp"
+#include "verify/read/fields.hpp"
+#include "verify/read/json.hpp"
+
+namespace lekalo::verify {
+
+/// The fields of a result for solids (docs/formats.md).
+
+struct WrittenSolid {
+  SolidUnit unit = SolidUnit::millimetre;
+  std::size_t triangles = 0;
+};
+
+enum class SolidFreedom : std::uint8_t { xyz, c_xyz, six };
+
+/// The poses that were looked at.
+struct SolidWindow {
+  SolidFreedom freedom = SolidFreedom::six;
+  SolidPose start;
+  std::array<Decimal, 3> pivot;
+  Decimal shift, turn_deg;
+};
+
+struct WrittenSolidContact {
+  SolidContact points;
+  /// Their numbers in the files, from 0.
+  std::size_t part_triangle = 0, blank_triangle = 0;
+};
+
+struct SolidDocument {
+  std::string status;
+  WrittenSolid part, blank;
+  SolidWindow window;
+  SolidPose pose;
+  bool inside = false;
+  std::optional<Decimal> clearance, upper_bound, gap, shortfall;
+  Decimal min_allowance, unknown_area;
+  std::vector<WrittenSolidContact> contacts;
+  /// The certificate where the result itself holds it, else null.
+  Json certificate;
+  /// The number of boxes that the result states of the certificate's file.
+  std::optional<std::size_t> boxes_in_file;
+};
+
+/// Reads a result. bad_input names the document, where a field is missing or is not what docs/formats.md
+/// says.
+[[nodiscard]] Result<SolidDocument> read_solid_document(Json written, const std::string& name);
+
+/// Returns the certificate of a certificate file.
+[[nodiscard]] Result<Json> read_solid_certificate_document(const Document& document);
+
+/// Says whether a number is larger than any that a result may have.
+[[nodiscard]] bool is_beyond_all_sizes(const Decimal& value);
+
+/// Reads a list of so many numbers, none beyond limits::kLargestDerived; complains, and returns nothing,
+/// where it is another one. `name` makes the list's name for that.
+template <std::size_t Count, class Name>
+[[nodiscard]] std::optional<std::array<Decimal, Count>> numbers_of(Json list, std::string& complaint,
+                                                                   const Name& name) {
+  std::array<Decimal, Count> numbers;
+  std::size_t count = 0;
+  if (list.is_array()) {
+    JsonItems items(list);
+    while (const auto item = items.next()) {
+      auto number = item->is_number() ? parse_decimal(item->text) : std::nullopt;
+      if (!number || count == Count || is_beyond_all_sizes(*number)) {
+        count = Count + 1;
+        break;
+      }
+      numbers[count++] = *std::move(number);
+    }
+  }
+  if (count == Count) return numbers;
+  if (complaint.empty())
+    complaint =
+        fmt::format("{} is not a list of {} numbers within {:g}", name(), Count, limits::kLargestDerived);
+  return std::nullopt;
+}
+
+}  // namespace lekalo::verify
