@@ -130,12 +130,12 @@ class TreeCheck {
     if (proves(terms_, box, frame_)) return;
     std::string where;
     for (std::size_t k = 0; k < 6; ++k)
-      where += fmt::format("{}{} {} to {}", k == 0 ? "" : ", ", kAxes[k], box.low[k].near.low,
-                           box.high[k].near.high);
+      where += fmt::format("{}{} {} to {}", k == 0 ? "" : ", ", kAxes[k], nearest(box.low[k].exact),
+                           nearest(box.high[k].exact));
     findings_.push_back(
         fmt::format("{}: its terms do not prove that no placement with {} has more clearance "
                     "than {} mm",
-                    name(), where, frame_.bound.near.high));
+                    name(), where, nearest(frame_.bound.exact)));
   }
 
   /// Reads one term; where `look` says so, it goes to the terms, unless it is not what it has to be.

@@ -42,6 +42,12 @@ template <class Number>
   return {as<Number>(p[0]), as<Number>(p[1]), as<Number>(p[2])};
 }
 
+/// Returns the nearest double, for messages.
+[[nodiscard]] inline double nearest(const Fraction& value) {
+  const double cut = cut_to_double(value), away = sgn(value) < 0 ? step_down(cut) : step_up(cut);
+  return abs(value - Fraction(cut)) <= abs(Fraction(away) - value) ? cut : away;
+}
+
 /// Says whether a < b, exactly.
 [[nodiscard]] inline bool less(const Both& a, const Both& b) {
   if (a.near.high < b.near.low) return true;

@@ -66,8 +66,8 @@ std::optional<std::string> beyond_box(const SolidWindow& window, const PoseBox& 
     const Fraction at = k < 3 ? middle[k] : Fraction(), most = k < 3 ? shift : turns[k - 3];
     if (box.low[k].exact <= at - most && box.high[k].exact >= at + most) continue;
     return fmt::format("{} from {} to {} does not cover the window, from {} to {}", kNames[k],
-                       box.low[k].near.low, box.high[k].near.high, enclosed(Fraction(at - most)).low,
-                       enclosed(Fraction(at + most)).high);
+                       nearest(box.low[k].exact), nearest(box.high[k].exact), nearest(at - most),
+                       nearest(at + most));
   }
   return std::nullopt;
 }
@@ -80,8 +80,7 @@ std::optional<std::string> off_window(const SolidWindow& window, const SolidPose
     const Fraction allowed = window.freedom == SolidFreedom::xyz ? Fraction() : Fraction(turns[k] + slack);
     if (abs(turn[k + 1]) <= allowed * abs(turn[0]) && sgn(turn[0]) != 0) continue;
     return fmt::format("its rotation from the start's has the {} {}, beyond {}", kNames[k + 3],
-                       sgn(turn[0]) == 0 ? kInfinity : cut_to_double(turn[k + 1] / turn[0]),
-                       cut_to_double(turns[k]));
+                       sgn(turn[0]) == 0 ? kInfinity : nearest(turn[k + 1] / turn[0]), nearest(turns[k]));
   }
   const Exact3 pivot = exact(window.pivot), from = SolidMotion(window.start)(pivot),
                to = SolidMotion(pose)(pivot), at = exact(pose.shift);
@@ -91,7 +90,7 @@ std::optional<std::string> off_window(const SolidWindow& window, const SolidPose
     const Fraction off = abs(to[k] - from[k]);
     if (off > to_fraction(window.shift) + slack * size)
       return fmt::format("the pivot's {} is {} mm from its place at the start, more than {}", kNames[k],
-                         enclosed(off).high, approximate(window.shift));
+                         nearest(off), approximate(window.shift));
   }
   return std::nullopt;
 }
