@@ -8,6 +8,7 @@
 #include "lekalo/base/parallel.hpp"
 #include "lekalo/base/run_control.hpp"
 #include "lekalo/locate/placement.hpp"
+#include "lekalo/locate/solid_proof.hpp"
 #include "lekalo/solid/mesh.hpp"
 #include "lekalo/solid/motion.hpp"
 
@@ -39,6 +40,9 @@ struct SolidProblem {
   /// part of tan(angle / 2) times the axis up to tan(turn / 2). With `c_xyz` it has the turns about z by up
   /// to this. rad, at most a quarter turn.
   double turn = 0.0872664625997165;
+  /// Every coordinate may differ from the true one (the decimal in the file) by up to this, mm. The errors
+  /// are taken off the clearance and added to the upper bound.
+  double part_coordinate_error = 0, blank_coordinate_error = 0;
 };
 
 struct SolidOptions {
@@ -77,6 +81,8 @@ struct SolidResult {
   SolidPlacement best;
   /// No placement of the window has more clearance; rounded up.
   double upper_bound = 0;
+  /// The reason why, also of a search that was stopped. Triangles are numbered as in the problem.
+  SolidProof proof;
   std::uint64_t boxes = 0;
 };
 

@@ -37,6 +37,11 @@ Result<void> check(const SolidProblem& problem, const SolidOptions& options) {
     return failure(
         ErrorCode::usage,
         fmt::format("a window of turns by up to {} rad must lie between 0 and a quarter turn", problem.turn));
+  for (const double error : {problem.part_coordinate_error, problem.blank_coordinate_error})
+    if (!(error >= 0) || !(error <= limits::kLargestCoordinate))
+      return failure(ErrorCode::usage,
+                     fmt::format("coordinates that are off by {} mm must be off by a number from 0 to {:g}",
+                                 error, limits::kLargestCoordinate));
   double square = 0;
   for (const double q : problem.start.quaternion) square += q * q;
   if (!(square > 1e-6) || !(square < 1e6) || !finite(problem.start.shift) ||
@@ -52,13 +57,13 @@ SolidFrame frame_of(const SolidProblem& problem) {
   const solid::Box box = box_of(problem.part.vertices);
   frame.pivot = 0.5 * (box.low + box.high);
   for (const Vector p : problem.part.vertices) frame.reach = std::max(frame.reach, norm(p - frame.pivot));
-  frame.window.middle.at = motion_of(problem.start)(frame.pivot);
-  frame.window.half.at = {problem.shift, problem.shift, problem.shift};
+  const Vector at = motion_of(problem.start)(frame.pivot), shift{problem.shift, problem.shift, problem.shift};
   const geom::SinCos half = geom::sincos(0.5 * problem.turn);
-  // Rounded up, so that no rotation of the window is lost.
-  const double most = half.sine / half.cosine * (1 + 0x1p-50);
-  if (problem.freedom == SolidFreedom::six) frame.window.half.x = {most, most, most};
-  if (problem.freedom == SolidFreedom::c_xyz) frame.window.half.x.z = most;
+  const double most = half.sine / half.cosine;
+  Vector turn;
+  if (problem.freedom == SolidFreedom::six) turn = {most, most, most};
+  if (problem.freedom == SolidFreedom::c_xyz) turn.z = most;
+  frame.window = {{-turn, at - shift}, {turn, at + shift}};
   return frame;
 }
 
@@ -74,9 +79,9 @@ SolidPlacement placement(const SolidMeter& meter, const FramedPose& found) {
   const Motion turn = motion_of({made.pose.quaternion, {}});
   made.pose.shift = found.at - turn.turned(meter.frame().pivot);
   const Motion motion = motion_of(made.pose);
-  const solid::NearPair near = *meter.clearance().nearest(motion);
-  made.inside = near.low > 0 && meter.clearance().inside(motion);
-  made.clearance = made.inside ? near.low : 0;
+  const double least = meter.clearance().nearest(motion)->low - meter.part_error() - meter.blank_error();
+  made.inside = least > 0 && meter.clearance().inside(motion);
+  made.clearance = made.inside ? least : 0;
   return made;
 }
 
@@ -98,7 +103,7 @@ Result<SolidPlacement> place_solid(const SolidProblem& problem, const SolidOptio
   const SolidMeter meter(problem, frame_of(problem));
   std::uint64_t work = 0;
   const MeasuredSolid best =
-      climb(meter, meter.frame().window.middle, first_trust(problem), kClimbGain, options.run, work);
+      climb(meter, meter.frame().window.middle(), first_trust(problem), kClimbGain, options.run, work);
   SolidPlacement made = placement(meter, best.pose);
   made.contacts = holding_contacts(meter, best, options.gap);
   made.work = work;
@@ -116,6 +121,7 @@ Result<SolidResult> locate_solid(const SolidProblem& problem, const SolidOptions
   result.best.work = search.work();
   result.boxes = search.boxes();
   result.upper_bound = search.upper();
+  result.proof = search.proof();
   const bool closed = result.best.inside && result.upper_bound - result.best.clearance <= options.gap;
   result.status = search.finished() && closed ? Status::optimal : Status::stopped;
   if (result.upper_bound < options.min_allowance) result.status = Status::infeasible;

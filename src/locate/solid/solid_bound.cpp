@@ -1,5 +1,8 @@
 #include "solid_bound.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace lekalo::locate {
 namespace {
 
@@ -12,25 +15,15 @@ using solid::Vector;
 constexpr double kSmallestBall = 1.0 / 1024, kLadder = 3;
 /// A ball that stays away from the contact by more than this part of its way to the middle says little.
 constexpr double kMostLoss = 0.5;
-/// Edges at a smaller angle than this are taken for points.
-constexpr double kLeastSine = 0.02;
-
-Vector absolute(Vector p) { return {std::abs(p.x), std::abs(p.y), std::abs(p.z)}; }
-
-/// Balls about places farther and farther along a direction, each as large as the surface leaves it, while
-/// they lie on the side that is wanted.
-std::vector<SolidBall> ladder(const TriangleTree& tree, Vector from, Vector direction, bool inside,
-                              double size) {
-  std::vector<SolidBall> balls{{from, 0}};
-  for (double way = kSmallestBall * size; way <= 2 * size; way *= kLadder) {
-    const Vector centre = from + way * direction;
-    if (tree.holds(centre) != inside) break;
-    const double radius = tree.nearest(centre)->low;
-    if (!(radius > (1 - kMostLoss) * way)) break;
-    balls.push_back({centre, radius});
-  }
-  return balls;
-}
+/// A point of contact is a ball as far inside as this part of part and blank together.
+constexpr double kPoint = 0x1p-25;
+/// Triangles this near to a point, as a part of part and blank together, have it; normals are the same if
+/// their product is this.
+constexpr double kAtPlace = 0x1p-36, kSameNormal = 0.999;
+/// No face is used that is so many times longer than wide.
+constexpr double kMostSlender = 4096;
+/// Coordinates and lengths are rounded to 2^-53 of themselves, a few times.
+constexpr double kRounding = 0x1p-50;
 
 /// The least of n . p over all of a mesh.
 double least_along(const TriangleTree& tree, Vector n) {
@@ -58,240 +51,245 @@ double least_along(const TriangleTree& tree, Vector n) {
   return least;
 }
 
-/// n . R p exceeds n . p + 2 (p x n) . y by no more than this, for a rotation R with y in the cell:
-/// docs/design/ locate-solid.md has the two bounds of the second order.
-double bend(Vector n, Vector p, Vector lever, const CellView& cell) {
-  const double y = cell.turn_norm, np = dot(n, p);
-  const double all_round = y * y * std::max(0.0, norm(p) - np);
-  const Vector t = cell.turn;
-  const double squares = std::max(0.0, n.x * p.x - np) * t.x * t.x +
-                         std::max(0.0, n.y * p.y - np) * t.y * t.y +
-                         std::max(0.0, n.z * p.z - np) * t.z * t.z;
-  const double products = std::abs(n.x * p.y + n.y * p.x) * t.x * t.y +
-                          std::abs(n.y * p.z + n.z * p.y) * t.y * t.z +
-                          std::abs(n.z * p.x + n.x * p.z) * t.z * t.x;
-  return std::min(all_round, 2 * (squares + products)) + 2 * y * y * y * norm(lever);
+/// The normal of a triangle, and none if it has no area.
+Vector normal_of(const solid::Corners& t) {
+  const Vector across = cross(t[1] - t[0], t[2] - t[0]);
+  const double length = norm(across);
+  return length > 0 ? 1 / length * across : Vector{};
 }
 
-/// The edge of a triangle within which a point lies, farther than `off` from both ends.
-std::optional<SolidEdge> edge_at(const solid::Mesh& mesh, std::uint32_t triangle, Vector place, double off) {
+bool has(const solid::Corners& t, Vector normal, Vector place, double within) {
+  if (!(std::abs(dot(normal, place - t[0])) <= within)) return false;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto& t = mesh.triangles[triangle];
-    const Vector from = mesh.vertices[t[k]], to = mesh.vertices[t[(k + 1) % 3]];
-    const double length = norm(to - from), along = dot(to - from, place - from) / length;
-    if (along > off && along < length - off && norm(place - from - along / length * (to - from)) < off)
-      return SolidEdge{from, to};
+    const Vector along = t[(k + 1) % 3] - t[k];
+    if (!(dot(cross(normal, along), place - t[k]) >= -within * norm(along))) return false;
   }
-  return std::nullopt;
+  return true;
 }
 
-Vector any_across(Vector u) {
-  const Vector a = absolute(u);
-  const Vector axis = a.x <= a.y && a.x <= a.z ? Vector{1, 0, 0}
-                      : a.y <= a.z             ? Vector{0, 1, 0}
-                                               : Vector{0, 0, 1};
-  const Vector across = cross(u, axis);
-  return 1 / norm(across) * across;
+/// The middle of the directions that the triangles at a place look in: where several meet, as on an edge, a
+/// ball off along it can be larger than one off along the direction of a contact.
+Vector middle_normal(const TriangleTree& tree, Vector place, double within) {
+  std::vector<Vector> normals;
+  std::vector<std::uint32_t> open{0};
+  while (!open.empty()) {
+    const std::uint32_t at = open.back();
+    open.pop_back();
+    const TriangleTree::Node& node = tree.nodes()[at];
+    const Vector low = node.box.low, high = node.box.high;
+    if (place.x < low.x - within || place.y < low.y - within || place.z < low.z - within ||
+        place.x > high.x + within || place.y > high.y + within || place.z > high.z + within)
+      continue;
+    if (node.right != 0) {
+      open.push_back(node.right);
+      open.push_back(at + 1);
+      continue;
+    }
+    for (std::uint32_t k = node.begin; k < node.end; ++k) {
+      const Vector n = normal_of(tree.corners(k));
+      if (has(tree.corners(k), n, place, within) &&
+          std::none_of(normals.begin(), normals.end(), [&](Vector m) { return dot(m, n) > kSameNormal; }))
+        normals.push_back(n);
+    }
+  }
+  Vector sum;
+  for (const Vector n : normals) sum = sum + n;
+  const double length = norm(sum);
+  return length > 0.01 ? 1 / length * sum : Vector{};
 }
 
 }  // namespace
 
-CellView::CellView(const SolidFrame& frame, const SolidCell& cell)
-    : motion(frame.motion(cell.middle)), at(cell.middle.at), slide(cell.half.at) {
-  const Vector x = absolute(cell.middle.x), h = cell.half.x;
-  // y = (d + x cross d) / (1 + x . x + x . d) for the step d from the middle x; a little more for rounding.
-  const double least = 1 + dot(x, x) - dot(x, h);
-  turn = (1 + 0x1p-40) / least *
-         (h + Vector{x.y * h.z + x.z * h.y, x.z * h.x + x.x * h.z, x.x * h.y + x.y * h.x});
-  slide_norm = norm(slide);
-  turn_norm = norm(turn);
-  const double reach = 2 * frame.reach;
-  half = {slide.x, slide.y, slide.z, reach * turn.x, reach * turn.y, reach * turn.z};
-}
-
 SolidBounds::SolidBounds(const SolidMeter& meter)
     : meter_(meter),
-      of_part_(meter.part()),
-      of_blank_(meter.blank()),
+      start_(motion_of({meter.frame().start, {}})),
       scale_(std::max(norm(meter.clearance().blank().box().high - meter.clearance().blank().box().low),
                       2 * meter.frame().reach)),
-      rounding_(0x1p-40 * (meter.far() + 8 * scale_)) {}
+      part_{meter.part(), meter.clearance().part(), true, meter.part_error()},
+      blank_{meter.blank(), meter.clearance().blank(), false, meter.blank_error()} {}
 
-KnownSolid SolidBounds::known(const SolidContact& contact, const Motion& motion) const {
-  const Vector n = (1 - 0x1p-50) * contact.normal, in_part = motion.turned_back(contact.normal);
-  KnownSolid made{ladder(meter_.clearance().part(), contact.part, in_part, true, scale_),
-                  ladder(meter_.clearance().blank(), contact.blank, -contact.normal, false, scale_),
-                  {},
-                  {},
-                  {},
-                  n,
-                  least_along(meter_.clearance().blank(), n)};
-  if (contact.part_triangle == kNoTriangle) return made;
-  // The plane of a disc is that of its triangle, in so far as rounding lets its normal be found.
-  const auto disc = [&](const solid::FlatPatches& patches, const solid::Mesh& mesh, std::uint32_t triangle,
-                        Vector place, Vector towards) {
-    const double radius = patches.disc(triangle, place, 0.25 * rounding_) - rounding_;
-    if (!(radius > 0)) return SolidDisc{};
-    const auto& t = mesh.triangles[triangle];
-    const Vector from = mesh.vertices[t[0]],
-                 across = cross(mesh.vertices[t[1]] - from, mesh.vertices[t[2]] - from);
-    const double side = dot(across, towards) < 0 ? -1 : 1;
-    return SolidDisc{place, side / norm(across) * across, radius};
-  };
-  made.part_disc = disc(of_part_, meter_.part(), contact.part_triangle, contact.part, in_part);
-  made.blank_disc = disc(of_blank_, meter_.blank(), contact.blank_triangle, contact.blank, contact.normal);
-  const auto of_part = edge_at(meter_.part(), contact.part_triangle, contact.part, rounding_),
-             of_blank = edge_at(meter_.blank(), contact.blank_triangle, contact.blank, rounding_);
-  if (of_part && of_blank) made.edges = {*of_part, *of_blank};
+/// The largest ball about a centre that lies on the right side of the surface of the file.
+std::optional<SolidBall> SolidBounds::ball(const Side& side, Vector centre) const {
+  if (side.tree.holds(centre) != side.material) return std::nullopt;
+  const double off = side.error + kRounding * (side.tree.largest() + norm(centre));
+  const double radius = side.tree.nearest(centre)->low - off;
+  if (!(radius > 0)) return std::nullopt;
+  return SolidBall{centre, radius};
+}
+
+/// Balls about places farther and farther from a contact, each as large as the surface leaves it: along its
+/// direction, and along the middle of the directions of the surface there.
+std::vector<SolidBall> SolidBounds::balls(const Side& side, Vector from, Vector direction) const {
+  const Vector middle = middle_normal(side.tree, from, kAtPlace * scale_);
+  std::vector<SolidBall> made;
+  std::vector<Vector> ways{direction};
+  for (const Vector way : {-middle, middle})
+    if (dot(way, direction) < kSameNormal && dot(way, way) > 0) ways.push_back(way);
+  SolidBall point;
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    const auto beside = ball(side, from + kPoint * scale_ * ways[k]);
+    if (!beside) continue;
+    if (beside->radius > point.radius) point = *beside;
+    for (double way = kSmallestBall * scale_; way <= 2 * scale_; way *= kLadder) {
+      const auto next = ball(side, from + way * ways[k]);
+      if (!next || !(next->radius > (1 - kMostLoss) * way)) break;
+      made.push_back(*next);
+    }
+  }
+  if (point.radius > 0) made.insert(made.begin(), point);
   return made;
 }
 
-SolidRow SolidBounds::row(const SolidBall& part, Vector normal, double least, const CellView& cell) const {
-  const SolidFrame& frame = meter_.frame();
-  const Vector p = cell.motion.turned(part.centre - frame.pivot), lever = cross(p, normal);
-  const Vector g = 1 / frame.reach * lever;
-  return {{{normal.x, normal.y, normal.z, g.x, g.y, g.z},
-           dot(normal, p) + dot(normal, cell.at) - part.radius - least + bend(normal, p, lever, cell)},
-          kInfinity};
+std::optional<SolidFace> SolidBounds::face(const Side& side, std::uint32_t triangle) const {
+  if (triangle == kNoTriangle) return std::nullopt;
+  const auto& t = side.mesh.triangles[triangle];
+  SolidFace made;
+  made.triangle = triangle;
+  for (std::size_t k = 0; k < 3; ++k) made.corner[k] = side.mesh.vertices[t[k]];
+  const Vector across = cross(made.corner[1] - made.corner[0], made.corner[2] - made.corner[0]);
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    longest = std::max(longest, norm(made.corner[(k + 1) % 3] - made.corner[k]));
+  const double area = norm(across), altitude = area / longest;
+  if (!(altitude * kMostSlender > longest)) return std::nullopt;
+  made.normal = 1 / area * across;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector along = made.corner[(k + 1) % 3] - made.corner[k];
+    made.inward[k] = 1 / norm(along) * cross(made.normal, along);
+  }
+  // A corner that is off by d turns the plane by 2 d / altitude at most, and a height far away by so much.
+  const double off = side.error + kRounding * (side.tree.largest() + longest);
+  made.loss = off * (2 + 8 * meter_.far() / altitude);
+  return made;
 }
 
-SolidRow SolidBounds::row(const SolidBall& part, const SolidBall& blank, const CellView& cell) const {
-  const SolidFrame& frame = meter_.frame();
-  const Vector p = cell.motion.turned(part.centre - frame.pivot), w = p + cell.at - blank.centre;
-  const double distance = norm(w), far = norm(p), y = cell.turn_norm, radii = part.radius + blank.radius;
-  // No pose of the cell moves the centre farther than this.
-  const double anyway = cell.slide_norm + 2 * y * far;
-  SolidRow row{{{}, distance - radii + anyway}, blank.radius};
-  if (!(distance > 0)) return row;
-  const Vector u = 1 / distance * w, lever = cross(p, u);
-  const double rest = 2 * y * y * far * (1 + y);
-  const auto along = [&](Vector e, Vector its_lever) {
-    return dot(absolute(e), cell.slide) + 2 * dot(absolute(its_lever), cell.turn) + rest;
-  };
-  const double nearer = along(u, lever);
-  if (!(distance > nearer)) return row;
-  const Vector e = any_across(u), f = cross(u, e);
-  const double across_e = along(e, cross(p, e)), across_f = along(f, cross(p, f));
-  const double curved =
-      (across_e * across_e + across_f * across_f) / (2 * (distance - nearer)) + bend(u, p, lever, cell);
-  if (!(curved < anyway)) return row;
-  const Vector g = 1 / frame.reach * lever;
-  row.bound = {{u.x, u.y, u.z, g.x, g.y, g.z}, distance - radii + curved};
-  return row;
-}
-
-std::optional<SolidRow> SolidBounds::row(const SolidBall& part, const SolidDisc& blank,
-                                         const CellView& cell) const {
-  const SolidFrame& frame = meter_.frame();
-  const double y = cell.turn_norm;
-  const Vector n = blank.normal, p = cell.motion.turned(part.centre - frame.pivot),
-               w = p + cell.at - blank.centre, lever = cross(p, n);
-  const double height = dot(n, w), rest = 2 * y * y * norm(p) * (1 + y);
-  const auto moves = [&](Vector e, Vector its_lever) {
-    return dot(absolute(e), cell.slide) + 2 * dot(absolute(its_lever), cell.turn) + rest;
-  };
-  // The ball's lowest point stays above the disc.
-  if (!(height - part.radius > moves(n, lever))) return std::nullopt;
-  const Vector e = any_across(n), f = cross(n, e);
-  const double off_e = std::abs(dot(e, w)) + moves(e, cross(p, e)),
-               off_f = std::abs(dot(f, w)) + moves(f, cross(p, f));
-  if (!(off_e * off_e + off_f * off_f < blank.radius * blank.radius)) return std::nullopt;
-  const Vector g = 1 / frame.reach * lever;
-  return SolidRow{
-      {{n.x, n.y, n.z, g.x, g.y, g.z}, height - part.radius + bend(n, p, lever, cell) + rounding_}};
-}
-
-std::optional<SolidRow> SolidBounds::row(const SolidDisc& part, const SolidBall& blank,
-                                         const CellView& cell) const {
-  // As the part sees it: the ball is turned back by the rotation, and its height over the disc is n . (a -
-  // c).
-  const SolidFrame& frame = meter_.frame();
-  const double y = cell.turn_norm;
-  const Vector n = cell.motion.turned(part.normal), c = blank.centre - cell.at,
-               w = cell.motion.turned(part.centre - frame.pivot) - c, lever = cross(c, n);
-  // A shift that is turned back differs from itself by this.
-  const double turned = 2 * y * cell.slide_norm, rest = 2 * y * y * norm(c) * (1 + y) + turned;
-  const auto moves = [&](Vector e, Vector its_lever) {
-    return dot(absolute(e), cell.slide) + 2 * dot(absolute(its_lever), cell.turn) + rest;
-  };
-  const double height = dot(n, w);
-  if (!(height - blank.radius > moves(n, lever))) return std::nullopt;
-  const Vector e = any_across(n), f = cross(n, e);
-  const double off_e = std::abs(dot(e, w)) + moves(e, cross(c, e)),
-               off_f = std::abs(dot(f, w)) + moves(f, cross(c, f));
-  if (!(off_e * off_e + off_f * off_f < part.radius * part.radius)) return std::nullopt;
-  const Vector g = 1 / frame.reach * lever;
-  return SolidRow{{{n.x, n.y, n.z, g.x, g.y, g.z},
-                   height - blank.radius + bend(-n, c, lever, cell) + turned + rounding_}};
-}
-
-std::optional<SolidRow> SolidBounds::row(const SolidEdge& part, const SolidEdge& blank,
-                                         const CellView& cell) const {
-  const SolidFrame& frame = meter_.frame();
-  const Vector a = cell.motion.turned(part.from - frame.pivot), ab = cell.motion.turned(part.to - part.from),
-               cd = blank.to - blank.from;
-  const double ab_length = norm(ab), cd_length = norm(cd);
-  const Vector e = 1 / ab_length * ab, f = 1 / cd_length * cd, across = cross(e, f);
-  const double sine = norm(across);
-  if (!(sine > kLeastSine)) return std::nullopt;
-  const Vector w = a + cell.at - blank.from;
-  const Vector n = (dot(across, w) < 0 ? -1 : 1) / sine * across;
-  // The places on the edges that are nearest at the middle of the cell: w + s e - t f is along n.
-  const Vector by_e = cross(n, e), by_f = cross(n, f);
-  const double s = -dot(w, by_f) / dot(e, by_f), t = dot(w, by_e) / dot(f, by_e);
-  const Vector p = a + s * e, lever = cross(p, n);
-  const double y = cell.turn_norm, rest = 2 * y * y * norm(p) * (1 + y), height = dot(n, w);
-  const auto moves = [&](Vector d, Vector its_lever) {
-    return dot(absolute(d), cell.slide) + 2 * dot(absolute(its_lever), cell.turn) + rest;
-  };
-  // As the part moves, they move along the edges so that nothing goes across, by no more than this.
-  const double of_part = moves(by_f, cross(p, by_f)) / sine, of_blank = moves(by_e, cross(p, by_e)) / sine;
-  if (!(of_part < std::min(s, ab_length - s)) || !(of_blank < std::min(t, cd_length - t)))
-    return std::nullopt;
-  // The part's edge turns, too: what that lifts its place, and what it moves it across.
-  const double lifts = of_part * (2 * dot(absolute(cross(e, n)), cell.turn) + 2 * y * y * (1 + y)),
-               sideways = of_part * 2 * y, nearer = moves(n, lever) + lifts;
-  if (!(height > nearer)) return std::nullopt;
-  const Vector g = 1 / frame.reach * lever;
-  return SolidRow{
-      {{n.x, n.y, n.z, g.x, g.y, g.z},
-       height + bend(n, p, lever, cell) + lifts + sideways * sideways / (2 * (height - nearer)) + rounding_}};
-}
-
-SolidRow SolidBounds::row(const KnownSolid& known, const CellView& cell) const {
-  const SolidFrame& frame = meter_.frame();
-  const double y = cell.turn_norm;
-  double best = kInfinity;
-  std::size_t of_part = 0, of_blank = 0;
-  for (std::size_t i = 0; i < known.part.size(); ++i) {
-    const SolidBall& part = known.part[i];
-    const Vector p = cell.motion.turned(part.centre - frame.pivot), place = p + cell.at;
-    const double far = norm(p), moves = cell.slide_norm + 2 * y * far;
-    for (std::size_t j = 0; j <= known.blank.size(); ++j) {
-      double level;
-      if (j == known.blank.size()) {
-        const double along = dot(known.normal, p);
-        level = along + dot(known.normal, cell.at) - part.radius - known.least + y * y * (far - along);
-      } else {
-        const Vector w = place - known.blank[j].centre;
-        const double distance = norm(w), bent = y * y * (far - dot(w, p) / std::max(distance, 1e-300));
-        level = distance - part.radius - known.blank[j].radius +
-                std::min(moves, moves * moves / (2 * distance) + bent);
-      }
-      if (level < best) best = level, of_part = i, of_blank = j;
+std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const Motion& motion) const {
+  const Vector n = contact.normal;
+  KnownSolid made;
+  const auto seen = [&](Vector p) { return start_.turned(p - meter_.frame().pivot); };
+  for (const SolidBall& one : balls(part_, contact.part, motion.turned_back(n)))
+    made.part.push_back({one, seen(one.centre)});
+  made.blank = balls(blank_, contact.blank, -n);
+  if (made.part.empty() || made.blank.empty()) return std::nullopt;
+  made.part_face = face(part_, contact.part_triangle);
+  made.blank_face = face(blank_, contact.blank_triangle);
+  made.plane.normal = n;
+  if (made.blank_face) {
+    // Contacts of one face have one plane.
+    const Vector of_face = made.blank_face->normal;
+    if (std::abs(dot(of_face, n)) > 1 - 0x1p-30) made.plane.normal = dot(of_face, n) < 0 ? -of_face : of_face;
+  }
+  made.plane.least =
+      least_along(blank_.tree, made.plane.normal) - blank_.error - 4 * kRounding * blank_.tree.largest();
+  if (made.part_face) {
+    SolidFace& f = *made.part_face;
+    f.normal = start_.turned(f.normal);
+    for (std::size_t k = 0; k < 3; ++k) {
+      f.corner[k] = seen(f.corner[k]);
+      f.inward[k] = start_.turned(f.inward[k]);
     }
   }
-  const SolidBall& part = known.part[of_part];
-  SolidRow chosen = of_blank == known.blank.size() ? row(part, known.normal, known.least, cell)
-                                                   : row(part, known.blank[of_blank], cell);
-  const auto take = [&](const std::optional<SolidRow>& other) {
-    if (other && other->bound.level < chosen.bound.level) chosen = *other;
+  return made;
+}
+
+std::optional<SolidForm> SolidBounds::form(const KnownSolid& known, SolidChoice choice,
+                                           const CellView& cell) const {
+  switch (choice.kind) {
+    case SolidTerm::Kind::ball: {
+      const KnownSolid::PartBall& part = known.part[choice.part];
+      const SolidBall& blank = known.blank[choice.blank];
+      const double l = norm(cell.turned.turned(part.seen) + cell.middle.at - blank.centre);
+      if (!(l > kRounding * cell.far)) return std::nullopt;
+      return SolidForm{distance(part.seen, blank.centre, l, part.ball.radius + blank.radius, cell),
+                       -blank.radius};
+    }
+    case SolidTerm::Kind::plane: {
+      const KnownSolid::PartBall& part = known.part[choice.part];
+      return SolidForm{height(known.plane.normal, part.seen, known.plane.least + part.ball.radius, cell),
+                       -kInfinity};
+    }
+    case SolidTerm::Kind::face: {
+      const KnownSolid::PartBall& part = known.part[choice.part];
+      const SolidFace& f = *known.blank_face;
+      const Vector p = part.seen, w = cell.turned.turned(p) + cell.middle.at - f.corner[0];
+      const Vector n = dot(f.normal, w) < 0 ? -f.normal : f.normal;
+      const double least = dot(n, f.corner[0]);
+      if (!height(n, p, least + f.loss, cell).never_negative(cell)) return std::nullopt;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (!height(f.inward[k], p, dot(f.inward[k], f.corner[k]) + f.loss, cell).never_negative(cell))
+          return std::nullopt;
+      return SolidForm{height(n, p, least + part.ball.radius - f.loss, cell), 0};
+    }
+    case SolidTerm::Kind::part_face:
+      break;
+  }
+  const SolidBall& blank = known.blank[choice.blank];
+  const SolidFace& f = *known.part_face;
+  const Vector c = blank.centre, w = c - cell.middle.at - cell.turned.turned(f.corner[0]);
+  const Vector n = dot(cell.turned.turned(f.normal), w) < 0 ? -f.normal : f.normal;
+  const double least = dot(n, f.corner[0]);
+  if (!height_seen(n, c, least + f.loss, cell).never_negative(cell)) return std::nullopt;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!height_seen(f.inward[k], c, dot(f.inward[k], f.corner[k]) + f.loss, cell).never_negative(cell))
+      return std::nullopt;
+  return SolidForm{height_seen(n, c, least + blank.radius - f.loss, cell), 0};
+}
+
+std::optional<SolidRow> SolidBounds::row(const KnownSolid& known, const CellView& cell) const {
+  const double y = cell.turn, slide = norm(cell.slide);
+  const Vector at = cell.middle.at;
+  /// The best of each kind, by what it says at the middle and about what it loses beside it.
+  struct Best {
+    double level = kInfinity;
+    SolidChoice choice;
   };
-  if (known.blank_disc.radius > 0)
-    for (const SolidBall& ball : known.part) take(row(ball, known.blank_disc, cell));
-  if (known.part_disc.radius > 0)
-    for (const SolidBall& ball : known.blank) take(row(known.part_disc, ball, cell));
-  if (known.edges) take(row(known.edges->first, known.edges->second, cell));
+  Best plain, face, part_face;
+  const auto take = [](Best& best, double level, SolidChoice choice) {
+    if (level < best.level) best = {level, choice};
+  };
+  for (std::uint16_t i = 0; i < known.part.size(); ++i) {
+    const double radius = known.part[i].ball.radius;
+    const Vector p = cell.turned.turned(known.part[i].seen), place = p + at;
+    const double far = norm(p), moves = slide + 2 * y * far;
+    const double along = dot(known.plane.normal, p);
+    take(plain, along + dot(known.plane.normal, at) - radius - known.plane.least + y * y * (far - along),
+         {SolidTerm::Kind::plane, i, 0});
+    for (std::uint16_t j = 0; j < known.blank.size(); ++j) {
+      const Vector w = place - known.blank[j].centre;
+      const double distance = norm(w), bent = y * y * (far - dot(w, p) / std::max(distance, 1e-300));
+      take(plain,
+           distance - radius - known.blank[j].radius + std::min(moves, moves * moves / (2 * distance) + bent),
+           {SolidTerm::Kind::ball, i, j});
+    }
+    if (!known.blank_face) continue;
+    const SolidFace& f = *known.blank_face;
+    const auto over = [&](std::size_t k) { return dot(f.inward[k], place - f.corner[k]) > 0; };
+    if (!over(0) || !over(1) || !over(2)) continue;
+    const double above = dot(f.normal, place - f.corner[0]);
+    take(face, std::abs(above) - radius + y * y * (far - std::copysign(dot(f.normal, p), above)),
+         {SolidTerm::Kind::face, i, 0});
+  }
+  if (known.part_face) {
+    const SolidFace& f = *known.part_face;
+    for (std::uint16_t j = 0; j < known.blank.size(); ++j) {
+      const Vector off = known.blank[j].centre - at, q = cell.turned.turned_back(off);
+      const auto over = [&](std::size_t k) { return dot(f.inward[k], q - f.corner[k]) > 0; };
+      if (!over(0) || !over(1) || !over(2)) continue;
+      const double above = dot(f.normal, q - f.corner[0]);
+      take(part_face,
+           std::abs(above) - known.blank[j].radius +
+               y * y * (norm(off) - std::copysign(dot(f.normal, q), above)),
+           {SolidTerm::Kind::part_face, 0, j});
+    }
+  }
+  std::optional<SolidRow> chosen;
+  for (const Best& best : {plain, face, part_face}) {
+    if (!(best.level < kInfinity)) continue;
+    const auto term = form(known, best.choice, cell);
+    if (!term) continue;
+    const LinearBound<6> tangent = term->form.tangent(cell);
+    if (!chosen || tangent.level < chosen->bound.level) chosen = {tangent, best.choice};
+  }
   return chosen;
 }
 

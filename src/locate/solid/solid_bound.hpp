@@ -1,94 +1,87 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
-#include <utility>
 #include <vector>
 
-#include "lekalo/solid/flat_patches.hpp"
-#include "locate/search/cell_program.hpp"
-#include "solid_meter.hpp"
+#include "lekalo/locate/solid_proof.hpp"
+#include "solid_form.hpp"
 
 namespace lekalo::locate {
 
-struct SolidBall {
-  solid::Vector centre;
-  double radius = 0;
-};
-
-/// A disc that lies on a surface, about the point of contact; the normal points into the part's material, or
-/// the blank's. Radius 0 where the contact is on a bend.
-struct SolidDisc {
-  solid::Vector centre, normal;
-  double radius = 0;
-};
-
-struct SolidEdge {
-  solid::Vector from, to;
-};
-
-/// A contact that was met at some pose, and what bounds the clearance by it at every pose: balls in the
-/// part's material (part coordinates), and balls and a half-space without material of the blank. The first
-/// ball of each kind is the point of contact itself. Any one of the part's with any one of the others makes a
-/// bound (docs/design/locate-solid.md); which is best depends on the box of poses.
-struct KnownSolid {
-  std::vector<SolidBall> part, blank;
-  SolidDisc part_disc, blank_disc;
-  /// The edges, where both points lie within one.
-  std::optional<std::pair<SolidEdge, SolidEdge>> edges;
-  /// No vertex of the blank has a smaller product with `normal`, a vector no longer than 1.
+/// A triangle that balls lie over; one of the part as seen from the pivot, turned as at the start.
+struct SolidFace {
+  std::uint32_t triangle = 0;
   solid::Vector normal;
+  /// The corners, and from each to the next one the direction that leads from the edge into the triangle.
+  std::array<solid::Vector, 3> corner, inward;
+  /// A height over it may be off by this for what its corners are off, mm.
+  double loss = 0;
+};
+
+/// A contact that was met at some pose, and what terms can be made of it. The smallest ball of each kind lies
+/// beside the point of contact itself. Which term is best depends on the box of poses.
+struct KnownSolid {
+  struct PartBall {
+    SolidBall ball;
+    solid::Vector seen;  ///< its centre from the pivot, turned as at the start
+  };
+  std::vector<PartBall> part;
+  std::vector<SolidBall> blank;
+  SolidPlane plane;
+  std::optional<SolidFace> part_face, blank_face;
+};
+
+/// One term of a contact: numbers among its balls, where it has some.
+struct SolidChoice {
+  SolidTerm::Kind kind = SolidTerm::Kind::plane;
+  std::uint16_t part = 0, blank = 0;
+};
+
+/// A term over a box. It bounds the clearance, and so does a sum of terms with multipliers, unless the bound
+/// is below `least` of one of them.
+struct SolidForm {
+  PoseForm form;
   double least = 0;
 };
 
-/// A box of poses as the bounds need it.
-struct CellView {
-  CellView(const SolidFrame& frame, const SolidCell& cell);
-
-  solid::Motion motion;  ///< of its middle
-  solid::Vector at;      ///< the pivot's place there
-  solid::Vector slide;   ///< half widths of the shift
-  /// A pose of the box is turned from its middle by a rotation whose y = tan(angle / 2) times the axis has
-  /// parts no larger than these.
-  solid::Vector turn;
-  double slide_norm = 0, turn_norm = 0;
-  /// The half widths of the program's unknowns.
-  Steps half{};
-};
-
-/// A linear bound of the clearance over a box of poses. A sum of bounds with multipliers holds unless it is
-/// below -radius for one of them.
 struct SolidRow {
   LinearBound<6> bound;
-  double radius = std::numeric_limits<double>::infinity();
+  SolidChoice choice;
 };
 
-/// Makes contacts known, and bounds boxes by them. Its answers depend on their arguments alone.
+/// Makes contacts known, and terms of them for boxes of poses (docs/formats.md, "Certificate of solids"). Its
+/// answers depend on their arguments alone.
 class SolidBounds {
  public:
   explicit SolidBounds(const SolidMeter& meter);
 
-  [[nodiscard]] KnownSolid known(const SolidContact& contact, const solid::Motion& motion) const;
-  [[nodiscard]] SolidRow row(const KnownSolid& known, const CellView& cell) const;
-  /// A bound may be too low by this for rounding, mm.
-  [[nodiscard]] double rounding() const noexcept { return rounding_; }
+  /// None if there is no ball on one of the two sides.
+  [[nodiscard]] std::optional<KnownSolid> known(const SolidContact& contact,
+                                                const solid::Motion& motion) const;
+  /// The term of a contact that says most about a box, and the row of the program that stands for it.
+  [[nodiscard]] std::optional<SolidRow> row(const KnownSolid& known, const CellView& cell) const;
+  /// A term for a box, or none where it does not hold all over it.
+  [[nodiscard]] std::optional<SolidForm> form(const KnownSolid& known, SolidChoice choice,
+                                              const CellView& cell) const;
 
  private:
-  [[nodiscard]] SolidRow row(const SolidBall& part, const SolidBall& blank, const CellView& cell) const;
-  [[nodiscard]] std::optional<SolidRow> row(const SolidBall& part, const SolidDisc& blank,
-                                            const CellView& cell) const;
-  [[nodiscard]] std::optional<SolidRow> row(const SolidDisc& part, const SolidBall& blank,
-                                            const CellView& cell) const;
-  [[nodiscard]] SolidRow row(const SolidBall& part, solid::Vector normal, double least,
-                             const CellView& cell) const;
-
-  [[nodiscard]] std::optional<SolidRow> row(const SolidEdge& part, const SolidEdge& blank,
-                                            const CellView& cell) const;
+  /// A mesh and its balls.
+  struct Side {
+    const solid::Mesh& mesh;
+    const solid::TriangleTree& tree;
+    bool material;  ///< balls lie in it, or outside
+    double error;   ///< the true surface may be off by this, mm
+  };
+  [[nodiscard]] std::optional<SolidBall> ball(const Side& side, solid::Vector centre) const;
+  [[nodiscard]] std::vector<SolidBall> balls(const Side& side, solid::Vector from,
+                                             solid::Vector direction) const;
+  [[nodiscard]] std::optional<SolidFace> face(const Side& side, std::uint32_t triangle) const;
 
   const SolidMeter& meter_;
-  solid::FlatPatches of_part_, of_blank_;
-  double scale_, rounding_;
+  solid::Motion start_;
+  double scale_;
+  Side part_, blank_;
 };
 
 }  // namespace lekalo::locate

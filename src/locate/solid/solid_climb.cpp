@@ -65,8 +65,8 @@ MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trus
     if (rows.empty()) break;
     const LinearSolution<6> solution = solve_cell(rows, frame.trusted(trust));
     if (!(solution.bound > best.value + enough)) break;
-    MeasuredSolid next = meter.measure(frame.moved(best.pose, solution.z, frame.window),
-                                       std::max(solution.bound, enough), kContacts, there);
+    MeasuredSolid next =
+        meter.measure(frame.moved(best.pose, solution.z), std::max(solution.bound, enough), kContacts, there);
     work += 2;
     const bool added = add(pool, there);
     if (next.value > best.value) {

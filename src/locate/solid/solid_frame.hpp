@@ -17,9 +17,18 @@ struct FramedPose {
   solid::Vector x, at;
 };
 
-/// A box of poses, by middle and half widths.
+/// A box of poses.
 struct SolidCell {
-  FramedPose middle, half;
+  FramedPose low, high;
+  [[nodiscard]] FramedPose middle() const { return {0.5 * (low.x + high.x), 0.5 * (low.at + high.at)}; }
+  [[nodiscard]] FramedPose half() const { return {0.5 * (high.x - low.x), 0.5 * (high.at - low.at)}; }
+  [[nodiscard]] FramedPose held(const FramedPose& pose) const {
+    const auto in = [](solid::Vector v, solid::Vector from, solid::Vector to) {
+      return solid::Vector{std::clamp(v.x, from.x, to.x), std::clamp(v.y, from.y, to.y),
+                           std::clamp(v.z, from.z, to.z)};
+    };
+    return {in(pose.x, low.x, high.x), in(pose.at, low.at, high.at)};
+  }
 };
 
 /// The freedoms in the order of the programs' unknowns: shift along x, y, z, and turn about them, all in mm.
@@ -50,22 +59,16 @@ struct SolidFrame {
     motion.shift = pose.at - motion.turned(pivot);
     return motion;
   }
-  /// Goes from a pose by steps that a program made, and stays in the window.
-  [[nodiscard]] FramedPose moved(const FramedPose& from, const Steps& z, const SolidCell& within) const {
+  /// Goes from a pose by steps that a program of its neighbourhood made, and stays in the window.
+  [[nodiscard]] FramedPose moved(const FramedPose& from, const Steps& z) const {
     const solid::Vector y = 0.5 / reach * solid::Vector{z[3], z[4], z[5]}, x = from.x;
-    const solid::Vector to = 1 / (1 - dot(y, x)) * (x + y + cross(y, x));
-    const auto held = [](solid::Vector v, solid::Vector middle, solid::Vector half) {
-      return solid::Vector{std::clamp(v.x, middle.x - half.x, middle.x + half.x),
-                           std::clamp(v.y, middle.y - half.y, middle.y + half.y),
-                           std::clamp(v.z, middle.z - half.z, middle.z + half.z)};
-    };
-    return {held(to, within.middle.x, within.half.x),
-            held(from.at + solid::Vector{z[0], z[1], z[2]}, within.middle.at, within.half.at)};
+    return window.held(
+        {1 / (1 - dot(y, x)) * (x + y + cross(y, x)), from.at + solid::Vector{z[0], z[1], z[2]}});
   }
   /// The half widths of a box of steps that leaves what is locked as it is.
   [[nodiscard]] Steps trusted(double half) const {
     const auto of = [half](double width) { return width > 0 ? half : 0; };
-    const FramedPose& w = window.half;
+    const FramedPose w = window.half();
     return {of(w.at.x), of(w.at.y), of(w.at.z), of(w.x.x), of(w.x.y), of(w.x.z)};
   }
 };

@@ -15,6 +15,8 @@ constexpr std::size_t kSamples = 96;
 constexpr std::size_t kMostCrossings = 16;
 /// Points nearer to each other than this part of the coordinates give no direction.
 constexpr double kNoDirection = 0x1p-40;
+/// The square root of 3, rounded up: how far a point is off at most for each of its coordinates.
+constexpr double kDiagonal = 1.7321;
 
 /// Vertices as far from each other as can be: each is the farthest from those before.
 std::vector<Vector> spread_vertices(const solid::Mesh& mesh) {
@@ -40,9 +42,11 @@ SolidMeter::SolidMeter(const SolidProblem& problem, const SolidFrame& frame)
       blank_(problem.blank),
       clearance_(problem.part, problem.blank),
       of_part_(spread_vertices(problem.part)),
-      of_blank_(spread_vertices(problem.blank)) {
-  const Vector at = frame.window.middle.at, half = frame.window.half.at;
-  far_ = 2 * (clearance_.part().largest() + clearance_.blank().largest()) + norm(at) + norm(half);
+      of_blank_(spread_vertices(problem.blank)),
+      part_error_(kDiagonal * problem.part_coordinate_error),
+      blank_error_(kDiagonal * problem.blank_coordinate_error) {
+  far_ = 2 * (clearance_.part().largest() + clearance_.blank().largest()) + norm(frame.window.middle().at) +
+         norm(frame.window.half().at);
 }
 
 SolidContact SolidMeter::contact(const Motion& motion, const NearPair& pair) const {
@@ -62,10 +66,11 @@ MeasuredSolid SolidMeter::measure(const FramedPose& pose, double most, std::size
                                   std::vector<SolidContact>& contacts) const {
   const Motion motion = frame_.motion(pose);
   std::vector<NearPair> pairs;
-  clearance_.nearest_by_piece(motion, most, count, pairs);
+  const double error = part_error_ + blank_error_;
+  clearance_.nearest_by_piece(motion, most + error, count, pairs);
   contacts.clear();
   MeasuredSolid measured{pose, most, true};
-  for (const NearPair& pair : pairs) measured.value = std::min(measured.value, pair.low);
+  for (const NearPair& pair : pairs) measured.value = std::min(measured.value, pair.low - error);
   for (const NearPair& pair : pairs) {
     const SolidContact made = contact(motion, pair);
     if (made.distance > 0) contacts.push_back(made);

@@ -21,8 +21,9 @@ struct SolidContact {
   std::uint32_t part_triangle = kNoTriangle, blank_triangle = kNoTriangle;
 };
 
-/// The objective at one pose: where the part is inside, a bound from below of the clearance. Elsewhere it
-/// is how deep points stick out, which says in which direction to go and no more.
+/// The objective at one pose: where the part is inside, a bound from below of the clearance, whatever the
+/// coordinates may be off. Elsewhere it is how deep points stick out, which says in which direction to go and
+/// no more.
 struct MeasuredSolid {
   FramedPose pose;
   double value = 0;
@@ -40,6 +41,9 @@ class SolidMeter {
   [[nodiscard]] const solid::Mesh& blank() const noexcept { return blank_; }
   /// A length of part and blank together that rounding follows, mm.
   [[nodiscard]] double far() const noexcept { return far_; }
+  /// No point of the surfaces is farther off that of the file, mm.
+  [[nodiscard]] double part_error() const noexcept { return part_error_; }
+  [[nodiscard]] double blank_error() const noexcept { return blank_error_; }
 
   /// Measures at a pose. Where the part is inside and all is `most` apart or more, the value is at least
   /// `most`, and nothing more is known. The contacts are the nearest ones of `count` pieces of the part, less
@@ -60,7 +64,7 @@ class SolidMeter {
   solid::MeshClearance clearance_;
   /// Vertices spread over the surfaces.
   std::vector<solid::Vector> of_part_, of_blank_;
-  double far_ = 0;
+  double far_ = 0, part_error_, blank_error_;
 };
 
 }  // namespace lekalo::locate

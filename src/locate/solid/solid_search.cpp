@@ -1,6 +1,8 @@
 #include "solid_search.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "lekalo/base/parallel.hpp"
 #include "solid_climb.hpp"
@@ -8,7 +10,10 @@
 namespace lekalo::locate {
 namespace {
 
+using solid::Motion;
 using solid::Vector;
+
+constexpr std::array<double Vector::*, 3> kAxes{&Vector::x, &Vector::y, &Vector::z};
 
 /// So many boxes are halved at a time.
 constexpr std::size_t kAtOnce = 4;
@@ -25,6 +30,12 @@ constexpr double kWorthClimbing = 1e-3;
 /// The progress listener is called after this many units of work.
 constexpr std::uint64_t kReportEvery = 256;
 
+/// Multipliers are whole numbers up to this, so that they take little room in files.
+constexpr double kWhole = 1e9;
+/// The window is written wider than it is by this part of its coordinates, so that rounding loses no pose of
+/// it: the rounding of a form (solid_form.cpp) has room for so much.
+constexpr double kOutwards = 0x1p-48;
+
 double value_at(const LinearBound<6>& bound, const Steps& z) {
   double value = bound.level;
   for (std::size_t i = 0; i < 6; ++i) value += bound.slope[i] * z[i];
@@ -36,11 +47,30 @@ double value_at(const LinearBound<6>& bound, const Steps& z) {
 SolidSearch::SolidSearch(const SolidMeter& meter, const SolidOptions& options)
     : meter_(meter), options_(options), bounds_(meter) {
   best_.value = -kInfinity;
+  meet_first();
+}
+
+/// Makes six half-spaces known that bound the blank, each with the part's foremost vertex, so that every box
+/// has a bound.
+void SolidSearch::meet_first() {
+  const Motion motion = meter_.frame().motion(meter_.frame().window.middle());
+  for (double Vector::*const axis : kAxes)
+    for (const double side : {-1.0, 1.0}) {
+      SolidContact contact;
+      contact.normal.*axis = side;
+      const auto before = [&](Vector a, Vector b) { return side * a.*axis < side * b.*axis; };
+      const auto& of_blank = meter_.blank().vertices;
+      const auto& of_part = meter_.part().vertices;
+      contact.blank = *std::min_element(of_blank.begin(), of_blank.end(), before);
+      contact.part = *std::min_element(of_part.begin(), of_part.end(),
+                                       [&](Vector a, Vector b) { return before(motion(a), motion(b)); });
+      if (auto made = bounds_.known(contact, motion)) known_.push_back(std::move(*made));
+    }
 }
 
 double SolidSearch::size(const SolidCell& cell) const {
   const double reach = 2 * meter_.frame().reach;
-  const Vector at = cell.half.at, x = cell.half.x;
+  const auto [x, at] = cell.half();
   return std::max({at.x, at.y, at.z, reach * x.x, reach * x.y, reach * x.z});
 }
 
@@ -48,31 +78,53 @@ double SolidSearch::size(const SolidCell& cell) const {
 /// meets there.
 void SolidSearch::bound(Node& node, Found& found) const {
   const SolidFrame& frame = meter_.frame();
-  const CellView view(frame, node.cell);
+  const CellView view(meter_, node.cell);
   const auto known = [&](std::uint32_t k) -> const KnownSolid& {
     return k < known_.size() ? known_[k] : found.known[k - known_.size()];
   };
+  const auto proved = [&](const std::vector<Term>& terms) {
+    PoseForm sum;
+    double whole = 0, least = -kInfinity;
+    for (const Term& term : terms) {
+      const auto one = bounds_.form(known(term.known), term.choice, view);
+      if (!one) return kInfinity;
+      sum.add(term.multiplier / kWhole, one->form);
+      whole += term.multiplier / kWhole;
+      least = std::max(least, one->least);
+    }
+    return whole > 0 ? std::max(least, sum.most(view) / whole) : kInfinity;
+  };
   std::vector<SolidRow> rows;
+  std::vector<std::uint32_t> of_row;
   std::vector<LinearBound<6>> program;
-  const auto add = [&](const SolidRow& row) {
+  const auto add = [&](const SolidRow& row, std::uint32_t k) {
     rows.push_back(row);
+    of_row.push_back(k);
     program.push_back(row.bound);
   };
-  for (const std::uint32_t k : node.known) add(bounds_.row(known(k), view));
+  for (const std::uint32_t k : node.known)
+    if (const auto row = bounds_.row(known(k), view)) add(*row, k);
+  node.upper = proved(node.terms);
   std::vector<SolidContact> contacts;
-  FramedPose pose = node.cell.middle;
+  std::vector<Term> terms;
+  FramedPose pose = view.middle;
   LinearSolution<6> solution;
   solution.bound = kInfinity;
   for (int round = 0;; ++round) {
     if (!rows.empty()) {
       solution = solve_cell(program, view.half);
       ++found.work;
-      double proved = solution.bound;
+      terms.clear();
       for (std::size_t j = 0; j < solution.rows; ++j)
-        proved = std::max(proved, -rows[solution.row[j]].radius);
-      node.upper = std::min(node.upper, proved + bounds_.rounding());
+        if (const double share = std::round(kWhole * solution.multiplier[j]); share > 0)
+          terms.push_back(
+              {of_row[solution.row[j]], rows[solution.row[j]].choice, static_cast<std::uint32_t>(share)});
+      if (const double upper = proved(terms); upper < node.upper) node.upper = upper, node.terms = terms;
       if (closed(node.upper)) return;
-      pose = frame.moved(node.cell.middle, solution.z, node.cell);
+      const Steps& z = solution.z;
+      const double turn = 0.5 / view.reach;
+      pose = node.cell.held(
+          {view.middle.x + turn * Vector{z[3], z[4], z[5]}, view.middle.at + Vector{z[0], z[1], z[2]}});
     }
     if (round == kRounds) break;
     const MeasuredSolid here =
@@ -84,12 +136,14 @@ void SolidSearch::bound(Node& node, Found& found) const {
     std::size_t added = 0;
     for (const SolidContact& contact : contacts) {
       if (added == kMostNew) break;
-      KnownSolid made = bounds_.known(contact, frame.motion(pose));
-      const SolidRow row = bounds_.row(made, view);
-      if (!(value_at(row.bound, solution.z) < solution.bound - kWorthKnowing * options_.gap)) continue;
-      add(row);
-      node.known.push_back(static_cast<std::uint32_t>(known_.size() + found.known.size()));
-      found.known.push_back(std::move(made));
+      auto made = bounds_.known(contact, frame.motion(pose));
+      if (!made) continue;
+      const auto row = bounds_.row(*made, view);
+      if (!row || !(value_at(row->bound, solution.z) < solution.bound - kWorthKnowing * options_.gap))
+        continue;
+      const auto number = static_cast<std::uint32_t>(known_.size() + found.known.size());
+      add(*row, number);
+      found.known.push_back(std::move(*made));
       ++added;
     }
     if (added == 0) break;
@@ -99,7 +153,7 @@ void SolidSearch::bound(Node& node, Found& found) const {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     double lowest = program[k].level;
     for (std::size_t i = 0; i < 6; ++i) lowest -= std::abs(program[k].slope[i]) * view.half[i];
-    if (lowest <= node.upper) ranked.emplace_back(program[k].level, node.known[k]);
+    if (lowest <= node.upper) ranked.emplace_back(program[k].level, of_row[k]);
   }
   std::sort(ranked.begin(), ranked.end());
   if (ranked.size() > kMostKnown) ranked.resize(kMostKnown);
@@ -119,33 +173,55 @@ void SolidSearch::learn(Node& node, Found& found) {
   if (climbed.value > best_.value) best_ = climbed;
 }
 
-std::array<SolidSearch::Node, 2> SolidSearch::halves(const Node& node) const {
+/// Halves a box along its widest side.
+std::array<SolidSearch::Node, 2> SolidSearch::halves(const Node& node) {
   const double reach = 2 * meter_.frame().reach;
-  double Vector::*const axes[] = {&Vector::x, &Vector::y, &Vector::z};
-  bool turns = false;
-  double Vector::*widest = &Vector::x;
+  const auto [x, at] = node.cell.half();
+  std::size_t widest = 0;
   double most = -1;
-  for (double Vector::*const axis : axes) {
-    if (node.cell.half.at.*axis > most) most = node.cell.half.at.*axis, widest = axis, turns = false;
-    if (reach * node.cell.half.x.*axis > most)
-      most = reach * node.cell.half.x.*axis, widest = axis, turns = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (at.*kAxes[k] > most) most = at.*kAxes[k], widest = k;
+    if (reach * x.*kAxes[k] > most) most = reach * x.*kAxes[k], widest = 3 + k;
   }
   std::array<Node, 2> half{node, node};
-  for (std::size_t k = 0; k < 2; ++k) {
-    FramedPose &middle = half[k].cell.middle, &width = half[k].cell.half;
-    double &m = turns ? middle.x.*widest : middle.at.*widest, &w = turns ? width.x.*widest : width.at.*widest;
-    w *= 0.5;
-    m += k == 0 ? -w : w;
-  }
+  const auto along = [&](FramedPose& pose) -> double& {
+    return widest < 3 ? pose.at.*kAxes[widest] : pose.x.*kAxes[widest - 3];
+  };
+  const double middle = 0.5 * (along(half[0].cell.low) + along(half[0].cell.high));
+  along(half[0].cell.high) = along(half[1].cell.low) = middle;
+  const auto first = static_cast<std::uint32_t>(tree_.size());
+  tree_[node.number] = {static_cast<Axis>(widest), middle, first, 0};
+  tree_.resize(tree_.size() + 2);
+  half[0].number = first;
+  half[1].number = first + 1;
   return half;
+}
+
+/// Takes over the terms of a box that is divided no more.
+void SolidSearch::keep(const Node& node) {
+  upper_ = std::max(upper_, node.upper);
+  tree_[node.number].first = static_cast<std::uint32_t>(terms_.size());
+  tree_[node.number].count = static_cast<std::uint32_t>(node.terms.size());
+  terms_.insert(terms_.end(), node.terms.begin(), node.terms.end());
 }
 
 void SolidSearch::run() {
   const auto lower = [](const Node& a, const Node& b) {
     return a.upper != b.upper ? a.upper < b.upper : a.number > b.number;
   };
-  std::vector<Node> open, batch{{meter_.frame().window, kInfinity, 0, {}}};
-  std::uint64_t numbers = 1;
+  std::vector<Node> open, batch{1};
+  batch[0].cell = meter_.frame().window;
+  for (std::uint32_t k = 0; k < known_.size(); ++k) batch[0].known.push_back(k);
+  // Boxes with turns both ways so wide have no bound.
+  for (std::size_t k = 0; k < batch.size();) {
+    if (CellView(meter_, batch[k].cell).least_scale >= 0.5) {
+      ++k;
+      continue;
+    }
+    auto [low, high] = halves(batch[k]);
+    batch[k] = std::move(low);
+    batch.push_back(std::move(high));
+  }
   upper_ = -kInfinity;
   finished_ = true;
   for (;;) {
@@ -155,14 +231,17 @@ void SolidSearch::run() {
     std::uint32_t base = static_cast<std::uint32_t>(known_.size());
     const std::uint32_t before = base;
     for (std::size_t k = 0; k < batch.size(); ++k) {
-      for (std::uint32_t& known : batch[k].known)
+      const auto renumber = [&](std::uint32_t& known) {
         if (known >= before) known += base - before;
+      };
+      for (std::uint32_t& known : batch[k].known) renumber(known);
+      for (Term& term : batch[k].terms) renumber(term.known);
       base += static_cast<std::uint32_t>(found[k].known.size());
       learn(batch[k], found[k]);
     }
     for (Node& node : batch) {
       if (closed(node.upper)) {
-        upper_ = std::max(upper_, node.upper);
+        keep(node);
         report(node.cell);
       } else {
         open.push_back(std::move(node));
@@ -179,13 +258,76 @@ void SolidSearch::run() {
       std::pop_heap(open.begin(), open.end(), lower);
       const Node node = std::move(open.back());
       open.pop_back();
-      for (Node& half : halves(node)) {
-        half.number = numbers++;
-        batch.push_back(std::move(half));
-      }
+      for (Node& half : halves(node)) batch.push_back(std::move(half));
     }
   }
-  for (const Node& node : open) upper_ = std::max(upper_, node.upper);
+  for (const Node& node : open) keep(node);
+}
+
+SolidProof SolidSearch::proof() const {
+  const SolidFrame& frame = meter_.frame();
+  SolidProof made;
+  made.pivot = frame.pivot;
+  SolidTree tree;
+  tree.quaternion = frame.start;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto wider = [](double& low, double& high, double by) {
+      if (by > 0) low -= by, high += by;
+    };
+    tree.low[k] = frame.window.low.at.*kAxes[k];
+    tree.high[k] = frame.window.high.at.*kAxes[k];
+    wider(tree.low[k], tree.high[k], kOutwards * meter_.far());
+    tree.low[3 + k] = frame.window.low.x.*kAxes[k];
+    tree.high[3 + k] = frame.window.high.x.*kAxes[k];
+    wider(tree.low[3 + k], tree.high[3 + k], kOutwards * tree.high[3 + k]);
+  }
+  // Each ball and plane that is used has one place in its table, in the order of their first use.
+  using Key = std::array<double, 4>;
+  std::map<Key, std::uint32_t> part, blank, planes;
+  const auto place = [](std::map<Key, std::uint32_t>& places, auto& table, const auto& one, Vector v,
+                        double number) {
+    const auto [at, added] =
+        places.try_emplace({v.x, v.y, v.z, number}, static_cast<std::uint32_t>(table.size()));
+    if (added) table.push_back(one);
+    return at->second;
+  };
+  const auto term_of = [&](const Term& term) {
+    const KnownSolid& known = known_[term.known];
+    SolidTerm written{term.choice.kind, 0, 0, term.multiplier};
+    if (term.choice.kind == SolidTerm::Kind::part_face) {
+      written.part = known.part_face->triangle;
+    } else {
+      const SolidBall& ball = known.part[term.choice.part].ball;
+      written.part = place(part, made.part_balls, ball, ball.centre, ball.radius);
+    }
+    if (term.choice.kind == SolidTerm::Kind::face) {
+      written.blank = known.blank_face->triangle;
+    } else if (term.choice.kind == SolidTerm::Kind::plane) {
+      written.blank = place(planes, made.planes, known.plane, known.plane.normal, known.plane.least);
+    } else {
+      const SolidBall& ball = known.blank[term.choice.blank];
+      written.blank = place(blank, made.blank_balls, ball, ball.centre, ball.radius);
+    }
+    return written;
+  };
+  std::vector<std::uint32_t> open{0};
+  while (!open.empty()) {
+    SolidTree::Node node = tree_[open.back()];
+    open.pop_back();
+    if (node.axis == Axis::leaf) {
+      const auto first = static_cast<std::uint32_t>(tree.terms.size());
+      for (std::uint32_t k = node.first; k < node.first + node.count; ++k)
+        tree.terms.push_back(term_of(terms_[k]));
+      node.first = first;
+    } else {
+      open.push_back(node.first + 1);
+      open.push_back(node.first);
+      node.first = 0;
+    }
+    tree.nodes.push_back(node);
+  }
+  made.trees.push_back(std::move(tree));
+  return made;
 }
 
 void SolidSearch::report(const SolidCell& closed_cell) {
@@ -194,8 +336,8 @@ void SolidSearch::report(const SolidCell& closed_cell) {
     const auto of = [](double a, double b) { return b > 0 ? a / b : 1.0; };
     return of(part.x, whole.x) * of(part.y, whole.y) * of(part.z, whole.z);
   };
-  const FramedPose& whole = meter_.frame().window.half;
-  closed_share_ += share(closed_cell.half.at, whole.at) * share(closed_cell.half.x, whole.x);
+  const FramedPose whole = meter_.frame().window.half(), closed = closed_cell.half();
+  closed_share_ += share(closed.at, whole.at) * share(closed.x, whole.x);
   if (work_ < next_report_) return;
   next_report_ = work_ + kReportEvery;
   options_.run.progress({work_, std::min(1.0, closed_share_)});

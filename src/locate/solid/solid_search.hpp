@@ -22,15 +22,27 @@ class SolidSearch {
   [[nodiscard]] bool finished() const noexcept { return finished_; }
   [[nodiscard]] std::uint64_t work() const noexcept { return work_; }
   [[nodiscard]] std::uint64_t boxes() const noexcept { return boxes_; }
+  /// The reason for the bound.
+  [[nodiscard]] SolidProof proof() const;
 
  private:
+  /// A term of one of known_.
+  struct Term {
+    std::uint32_t known = 0;
+    SolidChoice choice;
+    std::uint32_t multiplier = 0;
+  };
   struct Node {
     SolidCell cell;
-    double upper = 0;
-    std::uint64_t number = 0;
+    double upper = kInfinity;
+    /// Its place in tree_.
+    std::uint32_t number = 0;
     /// Those of known_ that may matter here.
     std::vector<std::uint32_t> known;
+    /// They prove the bound.
+    std::vector<Term> terms;
   };
+  using Axis = SolidTree::Axis;
   /// The finds of bounding a box, besides its bound.
   struct Found {
     std::vector<KnownSolid> known;
@@ -38,9 +50,11 @@ class SolidSearch {
     std::uint64_t work = 0;
   };
 
+  void meet_first();
   void bound(Node& node, Found& found) const;
   void learn(Node& node, Found& found);
-  [[nodiscard]] std::array<Node, 2> halves(const Node& node) const;
+  [[nodiscard]] std::array<Node, 2> halves(const Node& node);
+  void keep(const Node& node);
   [[nodiscard]] double size(const SolidCell& cell) const;
   [[nodiscard]] bool closed(double upper) const { return upper <= std::max(best_.value, 0.0) + options_.gap; }
   void report(const SolidCell& closed_cell);
@@ -49,6 +63,10 @@ class SolidSearch {
   const SolidOptions& options_;
   SolidBounds bounds_;
   std::vector<KnownSolid> known_;
+  /// The boxes so far. A split has the place of its low half in `first`, and the high half stands behind it.
+  std::vector<SolidTree::Node> tree_ = std::vector<SolidTree::Node>(1);
+  /// The terms of those that are closed.
+  std::vector<Term> terms_;
   MeasuredSolid best_;
   double upper_ = 0;
   bool finished_ = false;

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "lekalo/solid/vector.hpp"
+
+namespace lekalo::locate {
+
+/// The reason why no pose of a window has more clearance than a bound: a subdivision of the window into
+/// boxes, each with terms whose weighted sum is not above 0 anywhere in it, though each of them would be
+/// where the clearance is above the bound. docs/formats.md ("Certificate of solids") has the terms.
+
+/// A ball in the part's material (part coordinates), or one whose inside has none of the blank's (blank
+/// coordinates).
+struct SolidBall {
+  solid::Vector centre;
+  double radius = 0;  ///< mm, >= 0
+};
+
+/// A half-space without material of the blank: no vertex of it has a smaller product with the normal.
+struct SolidPlane {
+  solid::Vector normal;  ///< blank coordinates, of length 1 within rounding
+  double least = 0;      ///< mm
+};
+
+struct SolidTerm {
+  enum class Kind : std::uint8_t {
+    ball,      ///< a part ball and a blank ball
+    plane,     ///< a part ball and a plane
+    face,      ///< a part ball over a triangle of the blank
+    part_face  ///< a triangle of the part and a blank ball over it
+  };
+  Kind kind = Kind::ball;
+  /// The numbers of what the term is made of, in the tables of the proof or among the triangles of a mesh.
+  std::uint32_t part = 0, blank = 0;
+  std::uint32_t multiplier = 0;  ///< of any scale
+};
+
+/// A subdivision of a box of poses in preorder: a split is followed by its low half and its high half. A pose
+/// is the place of the pivot in the blank's frame and a Cayley vector: with x = tan(angle / 2) times the axis
+/// the part is turned by the rotation of the quaternion 1 + x after that of `quaternion`.
+struct SolidTree {
+  /// The freedoms in their order; mm, and no unit for those of the Cayley vector.
+  enum class Axis : std::uint8_t { x, y, z, turn_x, turn_y, turn_z, leaf };
+  struct Node {
+    Axis axis = Axis::leaf;
+    /// The place of the split.
+    double at = 0;
+    /// The terms of a leaf are terms[first, first + count).
+    std::uint32_t first = 0, count = 0;
+  };
+  std::array<double, 4> quaternion{1, 0, 0, 0};  ///< w, x, y, z
+  std::array<double, 6> low{}, high{};
+  std::vector<Node> nodes;
+  std::vector<SolidTerm> terms;
+};
+
+/// All of it. The tables hold what a term uses and nothing else.
+struct SolidProof {
+  solid::Vector pivot;  ///< part coordinates
+  std::vector<SolidBall> part_balls, blank_balls;
+  std::vector<SolidPlane> planes;
+  /// They cover the window. Empty when nothing is proved.
+  std::vector<SolidTree> trees;
+};
+
+}  // namespace lekalo::locate

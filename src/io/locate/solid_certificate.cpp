@@ -1,0 +1,86 @@
+#include "lekalo/io/locate/solid_certificate.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace lekalo::io {
+namespace {
+
+using locate::SolidTerm;
+using locate::SolidTree;
+using solid::Vector;
+
+constexpr std::array<const char*, 6> kAxes{"x", "y", "z", "turn_x", "turn_y", "turn_z"};
+
+const char* name_of(SolidTerm::Kind kind) {
+  switch (kind) {
+    case SolidTerm::Kind::ball:
+      return "ball";
+    case SolidTerm::Kind::plane:
+      return "plane";
+    case SolidTerm::Kind::face:
+      return "face";
+    case SolidTerm::Kind::part_face:
+      break;
+  }
+  return "part_face";
+}
+
+void write(JsonWriter& json, Vector v, double number) { json.list({v.x, v.y, v.z, number}); }
+
+void write(JsonWriter& json, const SolidTerm& term, const SolidNumbers& numbers) {
+  const bool of_part = term.kind == SolidTerm::Kind::part_face, of_blank = term.kind == SolidTerm::Kind::face;
+  json.list({name_of(term.kind), of_part ? numbers.part[term.part] : term.part,
+             of_blank ? numbers.blank[term.blank] : term.blank, term.multiplier});
+}
+
+void write(JsonWriter& json, const SolidTree& tree, const SolidTree::Node& node,
+           const SolidNumbers& numbers) {
+  if (node.axis != SolidTree::Axis::leaf) {
+    json.list({kAxes[static_cast<std::size_t>(node.axis)], node.at});
+    return;
+  }
+  json.begin_list();
+  for (std::uint32_t k = node.first; k < node.first + node.count; ++k) write(json, tree.terms[k], numbers);
+  json.end();
+}
+
+void write(JsonWriter& json, const SolidTree& tree, const SolidNumbers& numbers) {
+  json.begin_object().key("quaternion").list(tree.quaternion);
+  for (std::size_t k = 0; k < kAxes.size(); ++k) json.key(kAxes[k]).list({tree.low[k], tree.high[k]});
+  json.key("nodes").list_of_lines(tree.nodes, 4, 2,
+                                  [&](const SolidTree::Node& node) { write(json, tree, node, numbers); });
+  json.end();
+}
+
+}  // namespace
+
+void write_solid_certificate(JsonWriter& json, const locate::SolidProof& proof, const SolidNumbers& numbers) {
+  json.begin_object().key("pivot").list({proof.pivot.x, proof.pivot.y, proof.pivot.z});
+  const auto balls = [&](const char* key, const std::vector<locate::SolidBall>& all) {
+    json.key(key).list_of_lines(all, 4, 2,
+                                [&](const locate::SolidBall& b) { write(json, b.centre, b.radius); });
+  };
+  balls("part_balls", proof.part_balls);
+  balls("blank_balls", proof.blank_balls);
+  json.key("planes").list_of_lines(proof.planes, 4, 2,
+                                   [&](const locate::SolidPlane& p) { write(json, p.normal, p.least); });
+  json.key("trees").list(proof.trees, [&](const SolidTree& tree) { write(json, tree, numbers); });
+  json.end();
+}
+
+std::string solid_certificate_json(const locate::SolidProof& proof, const SolidNumbers& numbers) {
+  JsonWriter json(JsonLayout::spaced);
+  json.begin_object().key("format").object({{"name", "lekalo-certificate"}, {"version", 1}});
+  write_solid_certificate(json.line(0).key("certificate"), proof, numbers);
+  json.line(0).end();
+  return json.take() + "\n";
+}
+
+std::size_t proof_size(const locate::SolidProof& proof) {
+  std::size_t leaves = 0;
+  for (const SolidTree& tree : proof.trees) leaves += (tree.nodes.size() + 1) / 2;
+  return leaves;
+}
+
+}  // namespace lekalo::io

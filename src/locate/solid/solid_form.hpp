@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "locate/search/cell_program.hpp"
+#include "solid_meter.hpp"
+
+namespace lekalo::locate {
+
+/// A box of poses as its bounds need it.
+struct CellView {
+  CellView(const SolidMeter& meter, const SolidCell& cell);
+
+  FramedPose middle;
+  solid::Motion turned;  ///< the rotation of the middle, after that of the start
+  solid::Vector slide;   ///< half widths of the shift
+  /// A pose of the box is turned from its middle by no more than a rotation whose tan(angle / 2) is this.
+  double turn = 0;
+  /// No coordinate or length is larger, mm.
+  double far = 0;
+  /// The half widths of the program's unknowns: the shift and 2 reach times the step of x.
+  Steps half{};
+  double reach = 0;
+
+  /// The corners of the box of shifts, as seen from its middle.
+  std::vector<solid::Vector> corners;
+  /// The Bernstein coefficients of x_i and of its square over the box, so many: 1 for what is locked, or 3.
+  std::array<std::size_t, 3> count{};
+  std::array<std::array<double, 3>, 3> x{}, square{};
+  /// The least coefficient of 1 + |x|^2. Where it is not above 0 nothing can be bounded.
+  double least_scale = 0;
+};
+
+/// A function of poses times D = 1 + |x|^2. With t the place of the pivot as seen from the middle of a box it
+/// is
+///   D (constant + linear . t + square |t|^2) + sum of turned_ij (D R)_ij + t . (D R) lever,
+/// where D R = (1 - |x|^2) + 2 x cross + 2 x x^T is the rotation after the start's. It is quadratic in x, and
+/// for a fixed x convex in t, so it is nowhere in the box above the largest of its Bernstein coefficients at
+/// the corners of the box of shifts.
+struct PoseForm {
+  double constant = 0, square = 0;
+  solid::Vector linear, lever;
+  std::array<solid::Vector, 3> turned{};
+  /// No sum on the way to a coefficient is larger than this times a few.
+  double size = 0;
+
+  void add(double factor, const PoseForm& other) noexcept;
+
+  /// A bound of the function over the box, divided by D; infinite if there is none.
+  [[nodiscard]] double most(const CellView& cell) const;
+  /// Says if the function is nowhere in the box below 0.
+  [[nodiscard]] bool never_negative(const CellView& cell) const;
+  /// The tangent at the middle of the box, lifted to where it is above the coefficients.
+  [[nodiscard]] LinearBound<6> tangent(const CellView& cell) const;
+};
+
+/// n . (R p + t) - least, for an n of length 1 or less.
+[[nodiscard]] PoseForm height(solid::Vector n, solid::Vector p, double least, const CellView& cell);
+/// (R n) . (c - t) - least: the same of the blank's point c as the part sees it.
+[[nodiscard]] PoseForm height_seen(solid::Vector n, solid::Vector c, double least, const CellView& cell);
+/// (|w|^2 + l^2) / (2 l) - radii for w = R p + t - c and l > 0, which is |w| - radii where |w| = l, and more
+/// elsewhere.
+[[nodiscard]] PoseForm distance(solid::Vector p, solid::Vector c, double l, double radii,
+                                const CellView& cell);
+
+}  // namespace lekalo::locate
