@@ -78,7 +78,7 @@ class ClearanceMeter::Pass {
     for (std::size_t lot = 0; lot < lots_; ++lot) all[lot] = lot;
     find_bounds(all);
     begin_with_the_lowest();
-    refine();
+    while (refine()) continue;
     measure_all_below();
     return {best_.low, best_.high, meter_.cloud_.number(best_.point), best_.triangle, best_.place};
   }
@@ -146,8 +146,8 @@ class ClearanceMeter::Pass {
       if (bounds()[order[k]] < best_.high) best_.take(measure(order[k], best_.high));
   }
 
-  /// Makes cells where a brick's one bound leaves points to be measured.
-  void refine() {
+  /// Makes cells, or finer ones, where a brick's bounds leave points to be measured; says if there were any.
+  bool refine() {
     std::vector<std::uint32_t> bricks;
     std::vector<std::size_t> lots;
     for (std::size_t lot = 0; lot < lots_; ++lot) {
@@ -162,10 +162,11 @@ class ClearanceMeter::Pass {
       }
       if (bricks.size() > before) lots.push_back(lot);
     }
-    if (bricks.empty()) return;
-    meter_.field_.make_cells(bricks, meter_.threads_);
+    if (bricks.empty()) return false;
+    meter_.field_.make_cells(std::move(bricks), meter_.threads_);
     find_bounds(lots);
     begin_with_the_lowest();
+    return true;
   }
 
   void measure_all_below() {

@@ -53,7 +53,8 @@ DistanceField::DistanceField(const TriangleTree& tree, double cell, double margi
   const auto count = static_cast<std::size_t>(bricks_[0]) * static_cast<std::size_t>(bricks_[1]) *
                      static_cast<std::size_t>(bricks_[2]);
   least_.reserve(count);
-  cells_of_.assign(count, -1);
+  made_.assign(count, Made::nothing);
+  cells_at_.assign(count, 0);
   Walk walk(tree);
   for (int z = 0; z < bricks_[2]; ++z)
     for (int y = 0; y < bricks_[1]; ++y)
@@ -73,12 +74,14 @@ std::uint32_t DistanceField::brick_at(Place p) const noexcept {
   return static_cast<std::uint32_t>((z * bricks_[1] + y) * bricks_[0] + x);
 }
 
-float DistanceField::bound_in(const Cells& cells, Place p) const noexcept {
-  const int x = static_cast<int>(p.x), y = static_cast<int>(p.y), z = static_cast<int>(p.z);
-  const float u = p.x - static_cast<float>(x), v = p.y - static_cast<float>(y),
-              w = p.z - static_cast<float>(z);
-  const int i = x % kCells, j = y % kCells, k = z % kCells;
-  constexpr int kRow = kCorners, kLayer = kCorners * kCorners;
+template <int kAlong>
+float DistanceField::bound_in(const Cells<kAlong>& cells, Place p) const noexcept {
+  constexpr float kShare = static_cast<float>(kAlong) / kCells;  // of two, so that nothing is rounded
+  const float px = kShare * p.x, py = kShare * p.y, pz = kShare * p.z;
+  const int x = static_cast<int>(px), y = static_cast<int>(py), z = static_cast<int>(pz);
+  const float u = px - static_cast<float>(x), v = py - static_cast<float>(y), w = pz - static_cast<float>(z);
+  const int i = x % kAlong, j = y % kAlong, k = z % kAlong;
+  constexpr int kRow = kAlong + 1, kLayer = kRow * kRow;
   const float* d = &cells.distance[static_cast<std::size_t>(k * kLayer + j * kRow + i)];
   const auto between = [](float share, float a, float b) { return a + share * (b - a); };
   const float low = between(v, between(u, d[0], d[1]), between(u, d[kRow], d[kRow + 1]));
@@ -86,38 +89,52 @@ float DistanceField::bound_in(const Cells& cells, Place p) const noexcept {
       between(v, between(u, d[kLayer], d[kLayer + 1]), between(u, d[kLayer + kRow], d[kLayer + kRow + 1]));
   // The mean square of the way to the corners, as they are weighed, in cells.
   const float spread = u * (1 - u) + v * (1 - v) + w * (1 - w);
-  const float bend = cells.bend[static_cast<std::size_t>((k * kCells + j) * kCells + i)];
-  const float off = std::min(spread * bend, std::sqrt(spread) * static_cast<float>(cell_));
+  const float bend = cells.bend[static_cast<std::size_t>((k * kAlong + j) * kAlong + i)];
+  const float off = std::min(spread * bend, std::sqrt(spread) * static_cast<float>(cell_ / kShare));
   return between(w, low, high) - off - static_cast<float>(rounding_);
 }
 
-void DistanceField::make_cells(const std::vector<std::uint32_t>& bricks, unsigned threads) {
-  const std::size_t first = cells_.size();
-  std::vector<std::uint32_t> wanted;
+template float DistanceField::bound_in(const Cells<kCells / 2>& cells, Place p) const noexcept;
+template float DistanceField::bound_in(const Cells<kCells>& cells, Place p) const noexcept;
+
+void DistanceField::make_cells(std::vector<std::uint32_t> bricks, unsigned threads) {
+  std::sort(bricks.begin(), bricks.end());
+  bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
   for (const std::uint32_t brick : bricks) {
-    if (cells_of_[brick] >= 0) continue;
-    cells_of_[brick] = static_cast<std::int32_t>(first + wanted.size());
-    wanted.push_back(brick);
+    if (made_[brick] == Made::nothing) {
+      made_[brick] = Made::coarse;
+      cells_at_[brick] = static_cast<std::uint32_t>(coarse_.size());
+      coarse_.emplace_back();
+    } else if (made_[brick] == Made::coarse) {
+      made_[brick] = Made::fine;
+      cells_at_[brick] = static_cast<std::uint32_t>(fine_.size());
+      fine_.emplace_back();
+    }
   }
-  cells_.resize(first + wanted.size());
-  share_out(wanted.size(), threads, [&](std::size_t k) { fill(wanted[k], cells_[first + k]); });
+  share_out(bricks.size(), threads, [&](std::size_t k) {
+    const std::uint32_t brick = bricks[k], at = cells_at_[brick];
+    made_[brick] == Made::coarse ? fill(brick, coarse_[at]) : fill(brick, fine_[at]);
+  });
 }
 
-void DistanceField::fill(std::uint32_t brick, Cells& cells) const {
+template <int kAlong>
+void DistanceField::fill(std::uint32_t brick, Cells<kAlong>& cells) const {
+  constexpr int kCorners = kAlong + 1;
+  const double side = cell_ * kCells / kAlong;
   const auto number = static_cast<int>(brick);
-  const int x0 = number % bricks_[0] * kCells, y0 = number / bricks_[0] % bricks_[1] * kCells,
-            z0 = number / (bricks_[0] * bricks_[1]) * kCells;
+  const int x0 = number % bricks_[0] * kAlong, y0 = number / bricks_[0] % bricks_[1] * kAlong,
+            z0 = number / (bricks_[0] * bricks_[1]) * kAlong;
   Walk walk(*tree_);
   std::size_t at = 0;
   for (int z = 0; z < kCorners; ++z)
     for (int y = 0; y < kCorners; ++y)
       for (int x = 0; x < kCorners; ++x)
         cells.distance[at++] =
-            rounded_down(walk.bound(low_ + cell_ * Vector{double(x0 + x), double(y0 + y), double(z0 + z)}));
+            rounded_down(walk.bound(low_ + side * Vector{double(x0 + x), double(y0 + y), double(z0 + z)}));
   at = 0;
-  for (int z = 0; z < kCells; ++z) {
-    for (int y = 0; y < kCells; ++y) {
-      for (int x = 0; x < kCells; ++x) {
+  for (int z = 0; z < kAlong; ++z) {
+    for (int y = 0; y < kAlong; ++y) {
+      for (int x = 0; x < kAlong; ++x) {
         float least = std::numeric_limits<float>::infinity();
         for (const int corner : {0, 1, 2, 3, 4, 5, 6, 7})
           least = std::min(
@@ -125,9 +142,9 @@ void DistanceField::fill(std::uint32_t brick, Cells& cells) const {
                          ((z + corner / 4) * kCorners + y + corner / 2 % 2) * kCorners + x + corner % 2)]);
         // No place of the cell is farther than half its diagonal from a corner; the bound so found makes a
         // better one.
-        double within = least - 0.8661 * cell_;
-        if (within > 0) within = std::max(within, least - 0.375 * cell_ * cell_ / within);
-        cells.bend[at++] = within > 0 ? static_cast<float>(0.5 * cell_ * cell_ / within * (1 + 0x1p-20))
+        double within = least - 0.8661 * side;
+        if (within > 0) within = std::max(within, least - 0.375 * side * side / within);
+        cells.bend[at++] = within > 0 ? static_cast<float>(0.5 * side * side / within * (1 + 0x1p-20))
                                       : std::numeric_limits<float>::infinity();
       }
     }

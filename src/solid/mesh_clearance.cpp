@@ -9,41 +9,21 @@
 
 namespace lekalo::solid {
 
-/// A box along the axes by its middle and half widths.
-struct MiddleBox {
-  Vector middle, half;
-};
-
 namespace {
 
 /// Moving a point, differences and products with a unit vector are some forty roundings of 2^-53 of the
-/// coordinates.
-constexpr double kPairRounding = 0x1p-47;
+/// coordinates; making a box and its axes, and moving them, some hundred.
+constexpr double kRounding = 0x1p-46;
 /// The part is cut into this many pieces, if it has as many triangles.
 constexpr std::size_t kPieces = 64;
-
-Vector absolute(Vector p) { return {std::abs(p.x), std::abs(p.y), std::abs(p.z)}; }
-
-MiddleBox moved(const Motion& motion, const Box& box) {
-  const Vector half = 0.5 * (box.high - box.low);
-  const auto& r = motion.rotation;
-  return {motion(0.5 * (box.low + box.high)),
-          {dot(absolute(r[0]), half), dot(absolute(r[1]), half), dot(absolute(r[2]), half)}};
-}
-
-double squared_gap(const MiddleBox& a, const Box& b) {
-  const double x = std::max({0.0, b.low.x - a.middle.x - a.half.x, a.middle.x - a.half.x - b.high.x});
-  const double y = std::max({0.0, b.low.y - a.middle.y - a.half.y, a.middle.y - a.half.y - b.high.y});
-  const double z = std::max({0.0, b.low.z - a.middle.z - a.half.z, a.middle.z - a.half.z - b.high.z});
-  return x * x + y * y + z * z;
-}
-
-double size(Vector half) { return half.x + half.y + half.z; }
 
 /// The tree's nodes whose triangles are some `count` patches: the largest one is cut until there are as many.
 std::vector<std::uint32_t> cut_in_pieces(const TriangleTree& tree, std::size_t count) {
   const auto& nodes = tree.nodes();
-  const auto width = [&](std::uint32_t at) { return size(nodes[at].box.high - nodes[at].box.low); };
+  const auto width = [&](std::uint32_t at) {
+    const Vector size = nodes[at].box.high - nodes[at].box.low;
+    return size.x + size.y + size.z;
+  };
   std::vector<std::uint32_t> pieces;
   if (!nodes.empty()) pieces.push_back(0);
   while (pieces.size() < count) {
@@ -79,6 +59,8 @@ std::vector<Vector> surface_points(const Mesh& mesh) {
 MeshClearance::MeshClearance(const Mesh& part, const Mesh& blank, const std::vector<double>& widths)
     : part_(part, 1),
       blank_(blank, 1),
+      part_boxes_(oriented_boxes(part_)),
+      blank_boxes_(oriented_boxes(blank_)),
       pieces_(cut_in_pieces(part_, kPieces)),
       of_part_(surface_points(part)),
       of_blank_(surface_points(blank)) {
@@ -95,11 +77,12 @@ MeshClearance::MeshClearance(const Mesh& part, const Mesh& blank, const std::vec
 struct MeshClearance::Walk {
   Walk(const MeshClearance& from, const Motion& pose) : meter(from), motion(pose) {
     const double far = std::sqrt(3.0) * meter.part_.largest() + largest_coordinate(motion.shift);
-    rounding = kPairRounding * (far + meter.blank_.largest());
+    rounding = kRounding * (far + meter.blank_.largest());
   }
 
   void start(double most) {
-    limit = most;
+    // Pairs that are passed over are `most` apart whatever rounding hides.
+    limit = most + 2 * rounding;
     best.low = best.high = std::numeric_limits<double>::infinity();
     found = false;
   }
@@ -120,9 +103,9 @@ struct MeshClearance::Walk {
     found = true;
   }
 
-  /// Says if two boxes are so far apart that no pair in them is nearer than what is known.
+  /// Says if two boxes are so far apart that no pair in them is nearer than what is known, but for rounding.
   [[nodiscard]] bool apart(double gap, std::uint32_t of_blank) const {
-    const double most = limit + rounding + (meter.widest_.empty() ? 0 : meter.widest_[of_blank]);
+    const double most = limit - rounding + (meter.widest_.empty() ? 0 : meter.widest_[of_blank]);
     return !(most > 0) || gap >= most * most;
   }
 
@@ -130,7 +113,7 @@ struct MeshClearance::Walk {
     struct Open {
       double gap;
       std::uint32_t part, blank;
-      MiddleBox of_part;
+      OrientedBox of_part;
     };
     // Each step leaves one pair behind and takes one, so there are as many as both trees are high.
     std::array<Open, 128> stack;
@@ -140,8 +123,8 @@ struct MeshClearance::Walk {
     const auto push = [&](const Open& open) {
       if (!apart(open.gap, open.blank)) stack[count++] = open;
     };
-    const MiddleBox whole = moved(motion, of_parts[of_part].box);
-    push({squared_gap(whole, of_blanks[of_blank].box), of_part, of_blank, whole});
+    const OrientedBox whole = moved(motion, meter.part_boxes_[of_part]);
+    push({squared_gap(whole, meter.blank_boxes_[of_blank]), of_part, of_blank, whole});
     while (count > 0) {
       if (limit <= rounding) {
         // They cross, and no other pair is needed to know that.
@@ -157,17 +140,17 @@ struct MeshClearance::Walk {
         continue;
       }
       const bool cut_part =
-          b.right == 0 || (p.right != 0 && size(open.of_part.half) > 0.5 * size(b.box.high - b.box.low));
+          b.right == 0 || (p.right != 0 && open.of_part.size() > meter.blank_boxes_[open.blank].size());
       Open one = open, other = open;
       if (cut_part) {
         one.part = open.part + 1, other.part = p.right;
-        one.of_part = moved(motion, of_parts[one.part].box);
-        other.of_part = moved(motion, of_parts[other.part].box);
+        one.of_part = moved(motion, meter.part_boxes_[one.part]);
+        other.of_part = moved(motion, meter.part_boxes_[other.part]);
       } else {
         one.blank = open.blank + 1, other.blank = b.right;
       }
-      one.gap = squared_gap(one.of_part, of_blanks[one.blank].box);
-      other.gap = squared_gap(other.of_part, of_blanks[other.blank].box);
+      one.gap = squared_gap(one.of_part, meter.blank_boxes_[one.blank]);
+      other.gap = squared_gap(other.of_part, meter.blank_boxes_[other.blank]);
       if (other.gap < one.gap) std::swap(one, other);
       push(other);
       push(one);
@@ -177,7 +160,7 @@ struct MeshClearance::Walk {
   [[nodiscard]] NearPair pair() const {
     NearPair pair = best;
     // The pairs that were passed over are farther apart than the nearest, but for the rounding of the boxes.
-    pair.low = std::min(best.low, best.high) - rounding;
+    pair.low = std::min(best.low, best.high - rounding) - rounding;
     pair.high = best.high + rounding;
     return pair;
   }

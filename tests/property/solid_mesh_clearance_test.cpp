@@ -6,8 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
+#include "lekalo/base/stop.hpp"
 #include "support/cases.hpp"
 #include "support/solid_brute_force.hpp"
 #include "support/solid_cases.hpp"
@@ -72,12 +75,94 @@ TEST(MeshClearance, IsTheLeastDistanceOfAllPairsOfTriangles) {
       EXPECT_LE(pieces.size(), 10u);
       double least = 1e300;
       for (const solid::NearPair& piece : pieces) least = std::min(least, piece.high);
-      EXPECT_NEAR(least, found->high, 1e-11);
+      // Of those that cross any may be named.
+      EXPECT_NEAR(std::max(least, 0.0), std::max(found->high, 0.0), 1e-11);
       before = found;
     }
   }
   EXPECT_GT(apart, 2u);
   EXPECT_GT(crossing, 0u);
+}
+
+/// A mesh that no axis of the frame suits: squeezed, so that many of its triangles are thin, and turned far.
+Mesh squeezed(Mesh mesh, Random& random, const Motion& turn) {
+  const double flat = std::pow(0.1, random.uniform(0, 4));
+  for (Vector& p : mesh.vertices) p = turn({p.x, p.y, flat * p.z});
+  return mesh;
+}
+
+TEST(MeshClearance, IsTheLeastDistanceOfTurnedAndDegenerateMeshes) {
+  Random random(cases::seed(), 53);
+  std::size_t apart = 0;
+  for (std::size_t i = 0; i < cases::case_count(8); ++i) {
+    const Motion turn = cases::small_motion(random, 3, 20);
+    Mesh part = squeezed(cases::wavy_ball(6, 1, [](double, double) { return 0.0; }), random, turn),
+         blank = squeezed(cases::wavy_ball(7, 1, [](double, double) { return 3.0; }), random, turn);
+    // A corner twice, and three on a line.
+    part.triangles.push_back({0, 0, 5});
+    blank.vertices.push_back(0.5 * (blank.vertices[3] + blank.vertices[9]));
+    blank.triangles.push_back({3, 9, static_cast<std::uint32_t>(blank.vertices.size() - 1)});
+    const MeshClearance meter(part, blank);
+    for (const double off : {0.0, 2.0, 200.0}) {
+      const Motion motion = cases::small_motion(random, off > 100 ? 3 : 0.01 * off, off);
+      const auto exact = static_cast<double>(brute::clearance(part, blank, {}, motion));
+      const auto found = meter.nearest(motion);
+      ASSERT_TRUE(found);
+      EXPECT_LE(found->low, exact);
+      EXPECT_GE(found->high, exact - 1e-15);
+      if (exact > 1e-9) {
+        EXPECT_LT(found->high - found->low, 1e-6);
+        EXPECT_FALSE(meter.nearest(motion, exact - 1e-6));
+        ++apart;
+      }
+    }
+  }
+  EXPECT_GT(apart, 2u);
+}
+
+/// A cube about the origin whose faces are cut into `n` by `n` squares.
+Mesh fine_cube(double half, std::uint32_t n) {
+  Mesh mesh;
+  double Vector::*const axes[] = {&Vector::x, &Vector::y, &Vector::z};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const double side : {-half, half}) {
+      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+      for (std::uint32_t i = 0; i <= n; ++i)
+        for (std::uint32_t j = 0; j <= n; ++j) {
+          Vector p;
+          p.*axes[axis] = side;
+          p.*axes[(axis + 1) % 3] = half * (2.0 * i / n - 1);
+          p.*axes[(axis + 2) % 3] = half * (2.0 * j / n - 1);
+          mesh.vertices.push_back(p);
+        }
+      for (std::uint32_t i = 0; i < n; ++i)
+        for (std::uint32_t j = 0; j < n; ++j) {
+          const std::uint32_t k = first + i * (n + 1) + j;
+          mesh.triangles.push_back({k, k + n + 1, k + 1});
+          mesh.triangles.push_back({k + 1, k + n + 1, k + n + 2});
+        }
+    }
+  return closed_mesh(std::move(mesh)).value().mesh;
+}
+
+/// Every triangle of the faces is as near as any, and one of them is enough.
+TEST(MeshClearance, AnEvenStockIsNotLookedAtTriangleByTriangle) {
+  Random random(cases::seed(), 54);
+  const Motion turn = cases::small_motion(random, 3, 30);
+  Mesh part = fine_cube(20, 24), blank = fine_cube(21.5, 25);
+  for (Mesh* mesh : {&part, &blank})
+    for (Vector& p : mesh->vertices) p = turn(p);
+  const MeshClearance meter(part, blank);
+  RunControl run;
+  run.work_limit = 100'000;
+  const auto found = stoppable(run, [&] {
+    std::vector<solid::NearPair> pieces;
+    meter.nearest_by_piece({}, 10, 64, pieces);
+    return pieces;
+  });
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->size(), 64u);
+  for (const solid::NearPair& piece : *found) EXPECT_NEAR(piece.high, 1.5, 1e-10);
 }
 
 TEST(MeshClearance, KnownStockIsFound) {

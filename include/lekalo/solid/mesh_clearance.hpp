@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lekalo/solid/motion.hpp"
+#include "lekalo/solid/oriented_box.hpp"
 #include "lekalo/solid/triangle_tree.hpp"
 
 namespace lekalo::solid {
@@ -58,6 +59,8 @@ class MeshClearance {
   struct Walk;
 
   TriangleTree part_, blank_;
+  /// Of the trees' nodes.
+  std::vector<OrientedBox> part_boxes_, blank_boxes_;
   /// The widths of the blank's triangles in leaf order, and the widest of each of its nodes; both empty
   /// without widths.
   std::vector<double> width_, widest_;

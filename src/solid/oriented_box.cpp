@@ -1,0 +1,140 @@
+#include "lekalo/solid/oriented_box.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "lekalo/base/stop.hpp"
+
+namespace lekalo::solid {
+namespace {
+
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+/// Turns of two axes until nothing is left beside the diagonal; more than enough in double precision.
+constexpr int kSweeps = 8;
+
+/// Points by their number, their mean and how they are spread about it: the sum of the products of the ways
+/// there. It is put together from those of parts without a difference of large numbers.
+struct Spread {
+  double count = 0;
+  Vector mean;
+  Matrix products{};
+
+  void add(Vector way, double weight) {
+    const std::array<double, 3> v{way.x, way.y, way.z};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) products[i][j] += weight * (v[i] * v[j]);
+  }
+};
+
+Spread spread_of(const Corners& t) {
+  Spread made{3, 1.0 / 3 * (t[0] + t[1] + t[2]), {}};
+  for (const Vector p : t) made.add(p - made.mean, 1);
+  return made;
+}
+
+Spread joined(const Spread& a, const Spread& b) {
+  const double count = a.count + b.count;
+  const Vector way = b.mean - a.mean;
+  Spread made{count, a.mean + b.count / count * way, a.products};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) made.products[i][j] += b.products[i][j];
+  made.add(way, a.count * b.count / count);
+  return made;
+}
+
+/// The eigenvectors of a symmetric matrix, by turns in the planes of two axes (Jacobi's method).
+std::array<Vector, 3> main_axes(Matrix m) {
+  Matrix turns{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // its rows become the axes
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (const auto& [p, q] : {std::pair<std::size_t, std::size_t>(0, 1), {0, 2}, {1, 2}}) {
+      if (m[p][q] == 0) continue;
+      const double half = 0.5 * (m[q][q] - m[p][p]) / m[p][q];
+      const double t = (half < 0 ? -1 : 1) / (std::abs(half) + std::sqrt(half * half + 1));
+      const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+      const auto turn = [&](double& a, double& b) {
+        const double before = a;
+        a = c * before - s * b;
+        b = s * before + c * b;
+      };
+      for (std::size_t k = 0; k < 3; ++k) turn(m[p][k], m[q][k]);
+      for (std::size_t k = 0; k < 3; ++k) turn(m[k][p], m[k][q]);
+      for (std::size_t k = 0; k < 3; ++k) turn(turns[p][k], turns[q][k]);
+      m[p][q] = m[q][p] = 0;
+    }
+  }
+  // They are across each other but for the rounding of all turns, and are made so once more.
+  const auto unit = [](Vector v) { return 1 / norm(v) * v; };
+  const Vector x = unit({turns[0][0], turns[0][1], turns[0][2]}),
+               z = unit(cross(x, {turns[1][0], turns[1][1], turns[1][2]}));
+  return {x, cross(z, x), z};
+}
+
+}  // namespace
+
+std::vector<OrientedBox> oriented_boxes(const TriangleTree& tree) {
+  const auto& nodes = tree.nodes();
+  std::vector<Spread> spread(nodes.size());
+  std::vector<OrientedBox> boxes(nodes.size());
+  // Children come behind their parents.
+  for (std::size_t at = nodes.size(); at-- > 0;) {
+    const TriangleTree::Node& node = nodes[at];
+    ask(node.end - node.begin);
+    if (node.right != 0) {
+      spread[at] = joined(spread[at + 1], spread[node.right]);
+    } else {
+      spread[at] = spread_of(tree.corners(node.begin));
+      for (std::uint32_t k = node.begin + 1; k < node.end; ++k)
+        spread[at] = joined(spread[at], spread_of(tree.corners(k)));
+    }
+    const Vector mean = spread[at].mean;
+    OrientedBox& box = boxes[at];
+    box.axes = main_axes(spread[at].products);
+    std::array<double, 3> low, high;
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    for (std::uint32_t k = node.begin; k < node.end; ++k)
+      for (const Vector p : tree.corners(k))
+        for (std::size_t i = 0; i < 3; ++i) {
+          const double along = dot(box.axes[i], p - mean);
+          low[i] = std::min(low[i], along);
+          high[i] = std::max(high[i], along);
+        }
+    box.middle = mean;
+    for (std::size_t i = 0; i < 3; ++i) {
+      box.middle = box.middle + 0.5 * (low[i] + high[i]) * box.axes[i];
+      box.half[i] = 0.5 * (high[i] - low[i]);
+    }
+  }
+  return boxes;
+}
+
+OrientedBox moved(const Motion& motion, const OrientedBox& box) noexcept {
+  return {motion(box.middle),
+          {motion.turned(box.axes[0]), motion.turned(box.axes[1]), motion.turned(box.axes[2])},
+          box.half};
+}
+
+double squared_gap(const OrientedBox& a, const OrientedBox& b) noexcept {
+  const Vector way = b.middle - a.middle;
+  double along_a = 0;
+  std::array<double, 3> beyond_b;
+  for (std::size_t j = 0; j < 3; ++j) beyond_b[j] = std::abs(dot(b.axes[j], way)) - b.half[j];
+  for (std::size_t i = 0; i < 3; ++i) {
+    double beyond = std::abs(dot(a.axes[i], way)) - a.half[i];
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double shared = std::abs(dot(a.axes[i], b.axes[j]));
+      beyond -= shared * b.half[j];
+      beyond_b[j] -= shared * a.half[i];
+    }
+    if (beyond > 0) along_a += beyond * beyond;
+  }
+  double along_b = 0;
+  for (const double beyond : beyond_b)
+    if (beyond > 0) along_b += beyond * beyond;
+  return std::max(along_a, along_b);
+}
+
+}  // namespace lekalo::solid
