@@ -54,6 +54,7 @@ void draw_all(const std::string& stem, const draw::SolidScene& scene) {
   const double taken = processor_seconds() - start;
   if (!png) std::exit(EXIT_FAILURE);
   write(stem + ".png", *png);
+  write(stem + ".html", draw::solid_page(scene));
   fmt::print("{}: {} and {} triangles, PNG {:.2f} s, {} kB\n", stem, scene.part.triangles.size(),
              scene.blank.triangles.size(), taken, png->size() / 1000);
 }

@@ -48,4 +48,11 @@ struct SolidScene {
 [[nodiscard]] Result<std::string> solid_png(const SolidScene& scene, int width_px = 1600,
                                             unsigned threads = kUsualThreads);
 
+/// The scene as one page of HTML without links, which turns with mouse, finger and keys (WebGL2): part,
+/// blank, contacts, what nobody measured, where material is missing, and a section. It shows places to
+/// 1/65,535 of the size; figures are printed as in the picture. Whatever the texts hold is shown as text.
+/// \pre as of solid_png
+/// Same input, same bytes.
+[[nodiscard]] std::string solid_page(const SolidScene& scene);
+
 }  // namespace lekalo::draw

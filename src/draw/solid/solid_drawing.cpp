@@ -149,21 +149,17 @@ void draw_scale_bar(double scale, Point left, double most, Sheet& sheet) {
 
 double draw_solid_key(const SolidScene& scene, const SolidLook& look, const Rect& room, Sheet& sheet) {
   double y = room.y;
-  const auto key = [&](Colour fill, double alpha, const std::string& words, const char* kind) {
-    y += kReportLine + 0.3;
-    Paint paint = filled(fill, alpha);
-    paint.stroke = kBlankLine, paint.width = 0.25;
-    sheet.path(Rect{room.x, y - 2.3, 5.5, 2.6}.ring(), true, paint, "key");
-    sheet.text(room.x + 7.5, y, room.width - 7.5, words, {.size = kReportSmall, .kind = kind});
-  };
   if (!scene.allowances.empty() && look.greatest >= scene.min_allowance)
     y = draw_colour_scale(look.range, "allowance of the part", {room.x, y, room.width, 0}, kReportBody,
                           kReportSmall, sheet.items()) +
         1;
-  if (look.missing()) key(kOutside, 1, missing_text(scene, look), "missing");
-  if (scene.allowances.empty()) key(kPlainPart, 1, "part, placed", "key-part");
-  key(kGlass, 0.3, "blank, as glass", "key-blank");
-  if (!scene.unknown.empty()) key(kUnknownGlass, 0.6, "blank, not measured", "key-unknown");
+  for (const SolidKey& key : key_of(scene, look)) {
+    y += kReportLine + 0.3;
+    Paint paint = filled(key.colour, key.alpha);
+    paint.stroke = kBlankLine, paint.width = 0.25;
+    sheet.path(Rect{room.x, y - 2.3, 5.5, 2.6}.ring(), true, paint, "key");
+    sheet.text(room.x + 7.5, y, room.width - 7.5, key.words, {.size = kReportSmall, .kind = key.kind});
+  }
   if (look.contacts.empty()) return y;
   y += kReportLine + 0.3;
   draw_mark({room.x + 1.2, y - 1}, true, {"key", ""}, sheet);

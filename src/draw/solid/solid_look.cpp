@@ -28,31 +28,14 @@ Vector unit_or(Vector v, Vector other) {
   return length > 0 ? 1 / length * v : other;
 }
 
-Vector normal_of(const ShadedMesh& mesh, std::uint32_t triangle) {
-  const solid::Triangle& t = mesh.triangles[triangle];
-  return unit_or(mesh.normals[t[0]] + (mesh.normals[t[1]] + mesh.normals[t[2]]), {0, 0, 1});
-}
-
 std::optional<SolidFocus> focus_of(const SolidScene& scene, const SolidLook& look) {
   const std::vector<locate::SolidTouch>& contacts = scene.placement.contacts;
   if (!contacts.empty()) {
     const auto tightest =
         std::min_element(contacts.begin(), contacts.end(),
                          [](const auto& a, const auto& b) { return a.distance < b.distance; });
-    const Vector place = look.motion(tightest->part);
-    // The numbers of triangles may be those of a file, and count for nothing here.
-    Vector inner;
-    double nearest = 1e300;
-    for (std::uint32_t t = 0; t < look.part.surface.triangles.size(); ++t) {
-      const solid::Triangle& corners = look.part.surface.triangles[t];
-      const Vector middle = 1.0 / 3 *
-                            (look.part.surface.places[corners[0]] +
-                             (look.part.surface.places[corners[1]] + look.part.surface.places[corners[2]]));
-      if (const double off = norm(middle - place); off < nearest)
-        nearest = off, inner = normal_of(look.part.surface, t);
-    }
-    return SolidFocus{place, unit_or(tightest->blank - place, inner), tightest->distance,
-                      static_cast<std::size_t>(tightest - contacts.begin())};
+    const auto index = static_cast<std::size_t>(tightest - contacts.begin());
+    return SolidFocus{look.contacts[index], look.outward(scene, index), tightest->distance, index};
   }
   if (!look.missing()) return std::nullopt;
   const std::vector<std::uint32_t>& from = look.part.surface.from;
@@ -89,6 +72,19 @@ SolidLook::SolidLook(const SolidScene& scene) : motion(locate::motion_of(scene.p
   }
   for (const locate::SolidTouch& contact : scene.placement.contacts) contacts.push_back(motion(contact.part));
   focus = focus_of(scene, *this);
+}
+
+Vector SolidLook::outward(const SolidScene& scene, std::size_t contact) const {
+  const locate::SolidTouch& touch = scene.placement.contacts[contact];
+  const Vector place = contacts[contact], way = touch.blank - place;
+  if (norm(way) > 0) return unit_or(way, {});
+  // Of surfaces that touch, the part's own normal. Numbers of triangles may be those of a file, so the
+  // nearest vertex is looked for.
+  const std::vector<Vector>& places = part.surface.places;
+  const auto nearest = std::min_element(places.begin(), places.end(), [&](Vector a, Vector b) {
+    return dot(a - place, a - place) < dot(b - place, b - place);
+  });
+  return part.surface.normals[static_cast<std::size_t>(nearest - places.begin())];
 }
 
 namespace {
@@ -138,10 +134,20 @@ std::string clearance_text(const SolidScene& scene, const SolidLook& look) {
   return decimal(scene.placement.clearance, look.decimals, Rounding::down) + " mm";
 }
 
-std::string missing_text(const SolidScene& scene, const SolidLook& look) {
-  const std::string most = short_number_up(scene.min_allowance - look.least);
-  if (scene.min_allowance == 0) return fmt::format("outside the blank, by up to {} mm", most);
-  return fmt::format("less than {} mm, by up to {} mm", scene.min_allowance, most);
+std::vector<SolidKey> key_of(const SolidScene& scene, const SolidLook& look) {
+  std::vector<SolidKey> key;
+  if (look.missing()) {
+    const std::string most = short_number_up(scene.min_allowance - look.least);
+    key.push_back({kOutside, 1,
+                   scene.min_allowance == 0
+                       ? fmt::format("outside the blank, by up to {} mm", most)
+                       : fmt::format("less than {} mm, by up to {} mm", scene.min_allowance, most),
+                   "missing"});
+  }
+  if (scene.allowances.empty()) key.push_back({kPlainPart, 1, "part, placed", "key-part"});
+  key.push_back({kGlass, 0.3, "blank, as glass", "key-blank"});
+  if (!scene.unknown.empty()) key.push_back({kUnknownGlass, 0.6, "blank, not measured", "key-unknown"});
+  return key;
 }
 
 std::vector<SolidFigure> figures_of(const SolidScene& scene, const SolidLook& look) {

@@ -34,6 +34,8 @@ struct SolidLook {
   /// The places of the contacts on the part.
   std::vector<solid::Vector> contacts;
 
+  /// The direction of a contact from the part to the blank, of length 1.
+  [[nodiscard]] solid::Vector outward(const SolidScene& scene, std::size_t contact) const;
   /// True if the allowance is below the demand anywhere.
   [[nodiscard]] bool missing() const { return missing_; }
   [[nodiscard]] double value_of(double allowance) const {
@@ -58,7 +60,14 @@ struct SolidFigure {
 [[nodiscard]] std::vector<SolidFigure> figures_of(const SolidScene& scene, const SolidLook& look);
 /// The least allowance as it is printed, rounded down, or that the part sticks out.
 [[nodiscard]] std::string clearance_text(const SolidScene& scene, const SolidLook& look);
-/// The words for what is red.
-[[nodiscard]] std::string missing_text(const SolidScene& scene, const SolidLook& look);
+/// A colour and what it stands for.
+struct SolidKey {
+  Colour colour;
+  double alpha = 1;
+  std::string words;
+  const char* kind;
+};
+/// What the colours stand for, but for those of the scale.
+[[nodiscard]] std::vector<SolidKey> key_of(const SolidScene& scene, const SolidLook& look);
 
 }  // namespace lekalo::draw
