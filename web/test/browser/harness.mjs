@@ -64,7 +64,7 @@ export async function serve(layout) {
   return server;
 }
 
-export async function startBrowser() {
+export async function startBrowser(more = []) {
   if (!existsSync(browserPath))
     throw new Error(`${browserPath} is not there: run tools/setup.sh, or name a Chromium in CHROMIUM.`);
   return chromium.launch({
@@ -77,6 +77,7 @@ export async function startBrowser() {
       '--disable-features=LocalNetworkAccessChecks',
       '--force-color-profile=srgb',
       '--font-render-hinting=none',
+      ...more,
     ],
   });
 }
