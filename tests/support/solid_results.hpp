@@ -3,11 +3,15 @@
 // Results for solids as texts, which tests write by hand and change: a cube in a cube, whose best clearance
 // is known by argument.
 
-#include <map>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "lekalo/base/random.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "support/json.hpp"
 #include "support/solid_files.hpp"
@@ -105,6 +109,40 @@ inline SolidResultFiles cube_in_cube(Json certificate = nullptr, double bound = 
                  {"certificate_file", nullptr},
                  {"run", Json::object()}};
   return made;
+}
+
+/// Changes a number of a tree of values: by a digit, its sign, or to another one.
+inline Json changed(Json certificate, Random& random) {
+  std::vector<Json*> numbers;
+  const std::function<void(Json&)> walk = [&](Json& at) {
+    if (at.is_array() || at.is_object())
+      for (Json& item : at) walk(item);
+    else if (at.dump()[0] != '"')
+      numbers.push_back(&at);
+  };
+  walk(certificate);
+  Json& at = *numbers[random.below(numbers.size())];
+  const double value = at;
+  switch (random.below(6)) {
+    case 0:
+      at = -value;
+      break;
+    case 1:
+      at = value + random.uniform(-1, 1);
+      break;
+    case 2:
+      at = value * (1 + random.uniform(-1e-3, 1e-3));
+      break;
+    case 3:
+      at = std::nextafter(value, random.uniform(-10, 10));
+      break;
+    case 4:
+      at = static_cast<int>(random.below(13));
+      break;
+    default:
+      at = *numbers[random.below(numbers.size())];
+  }
+  return certificate;
 }
 
 }  // namespace lekalo::cases

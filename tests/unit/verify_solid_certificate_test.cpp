@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -16,6 +15,7 @@
 namespace lekalo::verify::verify_solid_certificate_test {
 namespace {
 
+using cases::changed;
 using cases::cube_in_cube;
 using cases::Json;
 using cases::one_leaf;
@@ -375,40 +375,6 @@ TEST(SolidCertificate, ItsWorkIsBounded) {
   ASSERT_FALSE(said);
   EXPECT_TRUE(said.error().out_of_work());
   EXPECT_EQ(files.told(), "confirmed");
-}
-
-/// Changes of one number of a certificate, by a digit, its sign, or its place.
-Json changed(Json certificate, Random& random) {
-  std::vector<Json*> numbers;
-  const std::function<void(Json&)> walk = [&](Json& at) {
-    if (at.is_array() || at.is_object())
-      for (Json& item : at) walk(item);
-    else if (at.dump()[0] != '"')
-      numbers.push_back(&at);
-  };
-  walk(certificate);
-  Json& at = *numbers[random.below(numbers.size())];
-  const double value = at;
-  switch (random.below(6)) {
-    case 0:
-      at = -value;
-      break;
-    case 1:
-      at = value + random.uniform(-1, 1);
-      break;
-    case 2:
-      at = value * (1 + random.uniform(-1e-3, 1e-3));
-      break;
-    case 3:
-      at = std::nextafter(value, random.uniform(-10, 10));
-      break;
-    case 4:
-      at = static_cast<int>(random.below(13));
-      break;
-    default:
-      at = *numbers[random.below(numbers.size())];
-  }
-  return certificate;
 }
 
 /// No certificate whatever proves less than the clearance that a pose has.
