@@ -98,6 +98,8 @@ TEST(PlaceSolid, RefusesWhatMakesNoSense) {
             "a window of shifts by up to -1 mm must be a number from 0 to 1e+09");
   EXPECT_EQ(refusal({mesh, mesh, {}, SolidFreedom::six, 1, 2}),
             "a window of turns by up to 2 rad must lie between 0 and a quarter turn");
+  EXPECT_EQ(refusal({mesh, mesh, {}, SolidFreedom::six, 1, 1, -0.5}),
+            "coordinates that are off by -0.5 mm must be off by a number from 0 to 1e+09");
   EXPECT_EQ(refusal({mesh, mesh, {{0, 0, 0, 0}, {}}}),
             "the start is no pose: its quaternion must be of length 1, and its shift finite");
 }
@@ -182,6 +184,23 @@ TEST(LocateSolid, ThreadsChangeNothing) {
   EXPECT_EQ(one.upper_bound, three.upper_bound);
   EXPECT_EQ(one.boxes, three.boxes);
   EXPECT_EQ(one.best.work, three.best.work);
+  const auto said = [](const locate::SolidProof& proof) {
+    std::vector<double> all;
+    for (const auto* balls : {&proof.part_balls, &proof.blank_balls})
+      for (const auto& [centre, radius] : *balls)
+        all.insert(all.end(), {centre.x, centre.y, centre.z, radius});
+    for (const auto& [n, least] : proof.planes) all.insert(all.end(), {n.x, n.y, n.z, least});
+    for (const locate::SolidTree& tree : proof.trees) {
+      for (const auto& node : tree.nodes)
+        all.insert(all.end(),
+                   {static_cast<double>(node.axis), node.at, double(node.first), double(node.count)});
+      for (const auto& term : tree.terms)
+        all.insert(all.end(), {static_cast<double>(term.kind), double(term.part), double(term.blank),
+                               double(term.multiplier)});
+    }
+    return all;
+  };
+  EXPECT_EQ(said(one.proof), said(three.proof));
 }
 
 TEST(LocateSolid, StoppedEarlyTheBoundHolds) {

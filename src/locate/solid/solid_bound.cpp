@@ -15,8 +15,9 @@ using solid::Vector;
 constexpr double kSmallestBall = 1.0 / 1024, kLadder = 3;
 /// A ball that stays away from the contact by more than this part of its way to the middle says little.
 constexpr double kMostLoss = 0.5;
-/// A point of contact is a ball as far inside as this part of part and blank together.
-constexpr double kPoint = 0x1p-25;
+/// A point of contact is a ball as far inside as this part of part and blank together, and as so many times
+/// what the surface may be off: farther in by far than the rounding of distances beside a corner.
+constexpr double kPoint = 0x1p-25, kErrors = 4;
 /// Triangles this near to a point, as a part of part and blank together, have it; normals are the same if
 /// their product is this.
 constexpr double kAtPlace = 0x1p-36, kSameNormal = 0.999;
@@ -127,7 +128,7 @@ std::vector<SolidBall> SolidBounds::balls(const Side& side, Vector from, Vector 
     if (dot(way, direction) < kSameNormal && dot(way, way) > 0) ways.push_back(way);
   SolidBall point;
   for (std::size_t k = 0; k < ways.size(); ++k) {
-    const auto beside = ball(side, from + kPoint * scale_ * ways[k]);
+    const auto beside = ball(side, from + (kPoint * scale_ + kErrors * side.error) * ways[k]);
     if (!beside) continue;
     if (beside->radius > point.radius) point = *beside;
     for (double way = kSmallestBall * scale_; way <= 2 * scale_; way *= kLadder) {
