@@ -16,8 +16,8 @@ class SolidCertificate {
                    const Decimal& bound, std::vector<std::string>& findings)
       : part_(part), blank_(blank), window_(window), bound_(bound), findings_(findings) {}
 
-  /// What it fails to prove goes to the findings; bad_input where the certificate is none.
-  /// Cost: a tree of boxes over each mesh, what is used of the tables, and some 20 us a leaf of balls.
+  /// Adds a finding for all that it fails to prove; bad_input where the certificate is none.
+  /// Cost: a tree of boxes over each mesh, what is used of the tables, and some 40 us a leaf of balls.
   [[nodiscard]] Result<void> check(Json certificate, const std::string& name);
 
   [[nodiscard]] std::size_t leaves() const { return leaves_; }

@@ -148,7 +148,7 @@ struct Facet {
   }
 };
 
-/// What doubles tell of the middle of the leaf. It proves nothing.
+/// Tells in doubles where things are at the middle of the leaf. It proves nothing.
 class Middle {
  public:
   Middle(const PoseBox& box, const LeafFrame& frame) : frame_(frame), pivot_(as<Span>(frame.pivot)) {

@@ -19,7 +19,7 @@ struct LeafTerm {
   Both multiplier;
 };
 
-/// What the leaves of one tree have in common. The placed part is T p = R(x) turn (p - pivot) + t.
+/// The leaves of one tree have this in common. The placed part is T p = R(x) turn (p - pivot) + t.
 struct LeafFrame {
   const SolidMesh& part;
   const SolidMesh& blank;

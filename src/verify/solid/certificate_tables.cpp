@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <optional>
+#include <utility>
 
 #include "lekalo/base/limits.hpp"
 #include "solid_document.hpp"
@@ -122,15 +124,15 @@ const Thing* CertificateTables::look(Row<Thing>& row, const char* key, std::size
   if (!row.seen) {
     row.seen = true;
     std::string none;
-    const auto [x, y, z, number_beside] = *numbers_of<4>(row.written, none, [] { return std::string(); });
-    row.thing = Thing{{both(x), both(y), both(z)}, both(number_beside)};
-    if (const auto wrong = fault(*row.thing)) {
+    const auto [x, y, z, last] = *numbers_of<4>(row.written, none, [] { return std::string(); });
+    auto thing = std::make_unique<Thing>(Thing{{both(x), both(y), both(z)}, both(last)});
+    if (const auto wrong = fault(*thing))
       findings_.push_back(
           fmt::format("certificate.{}[{}] is not what it has to be: {}", key, number, *wrong));
-      row.thing.reset();
-    }
+    else
+      row.thing = std::move(thing);
   }
-  return row.thing ? &*row.thing : nullptr;
+  return row.thing.get();
 }
 
 const Ball* CertificateTables::part_ball(std::size_t number) {

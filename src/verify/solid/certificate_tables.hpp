@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -46,7 +46,7 @@ class CertificateTables {
   struct Row {
     Json written;
     bool seen = false;
-    std::optional<Thing> thing = {};
+    std::unique_ptr<const Thing> thing = {};
   };
   template <class Thing>
   static void read(Json list, const char* key, bool has_radius, std::vector<Row<Thing>>& rows,
