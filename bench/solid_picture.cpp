@@ -10,6 +10,7 @@
 #include <string>
 
 #include "lekalo/draw/solid_picture.hpp"
+#include "lekalo/draw/solid_report.hpp"
 #include "lekalo/locate/solid_allowance.hpp"
 #include "support/solid_cases.hpp"
 
@@ -55,6 +56,14 @@ void draw_all(const std::string& stem, const draw::SolidScene& scene) {
   if (!png) std::exit(EXIT_FAILURE);
   write(stem + ".png", *png);
   write(stem + ".html", draw::solid_page(scene));
+  draw::SolidReport report;
+  report.scene = scene, report.shift = 5, report.turn_deg = 5,
+  report.certificate_boxes = scene.upper_bound ? 133 : 0;
+  report.inputs = {{"part", {scene.part_name, std::string(64, 'a')}, "mm"},
+                   {"blank", {scene.blank_name, std::string(64, 'b')}, "mm"}};
+  report.assumptions = {"The blank is taken as drawn: its file states no uncertainty."};
+  if (const auto page = draw::solid_report_png(report)) write(stem + "-report.png", *page);
+  write(stem + "-report.svg", draw::solid_report_svg(report));
   fmt::print("{}: {} and {} triangles, PNG {:.2f} s, {} kB\n", stem, scene.part.triangles.size(),
              scene.blank.triangles.size(), taken, png->size() / 1000);
 }

@@ -5,16 +5,14 @@
 #include <algorithm>
 
 #include "draw/paper/colour.hpp"
-#include "lekalo/base/version.hpp"
 #include "lekalo/io/text/words.hpp"
 
 namespace lekalo::draw {
 namespace {
 
-constexpr Rect kPageBody{12, 10, 186, 277};
 constexpr double kBetween = 5;
-constexpr Rect kLeft{kPageBody.x, 0, 0.5 * (kPageBody.width - kBetween), 0};
-constexpr Rect kRight{kPageBody.x + kLeft.width + kBetween, 0, kLeft.width, 0};
+constexpr Rect kLeft{kReportFrame.x, 0, 0.5 * (kReportFrame.width - kBetween), 0};
+constexpr Rect kRight{kReportFrame.x + kLeft.width + kBetween, 0, kLeft.width, 0};
 constexpr double kFooter = 4;
 constexpr double kLeastDrawing = 70, kUsualDrawing = 92, kMostDrawing = 150;  ///< heights, mm
 
@@ -30,14 +28,16 @@ class Page {
                                      report_.document.status, p.clearance, p.x, p.y, p.theta);
     scene_.items.push_back(PathItem{{kReportPage.ring()}, true, filled(kPaper), {"page", ""}});
     Sheet sheet(scene_.items);
-    const double top = header(sheet);
-    const double bottom = kPageBody.bottom() - kFooter;
+    const double top = draw_report_header("Placement of " + name("part"), "in the blank " + name("blank"),
+                                          report_.document.status, sheet);
+    const double bottom = kReportFrame.bottom() - kFooter;
     choose_rows(bottom - top);
     const double below = height_below();
     const double height = std::min(most_drawing(), bottom - top - below);
-    draw_placement(report_, look_, {kPageBody.x, top, kPageBody.width, height}, sheet);
+    draw_placement(report_, look_, {kReportFrame.x, top, kReportFrame.width, height}, sheet);
     sections(top + height + 3, sheet);
-    footer(sheet);
+    const io::LocateDocument& d = report_.document;
+    draw_report_footer(fmt::format("method {}, seed {}, work {}", d.method, d.seed, d.work), sheet);
     return std::move(scene_);
   }
 
@@ -48,31 +48,32 @@ class Page {
     return role;
   }
 
-  double header(Sheet& sheet) const {
-    const std::string& status = report_.document.status;
-    const double badge = 3.4 * kReportBoldWider * io::text_width(status) + 5;
-    const double left = kPageBody.right() - badge;
-    sheet.path(Rect{left, kPageBody.y, badge, 6.4}.ring(), true, filled(colour_of_status(status)),
-               "status-box");
-    sheet.text(left + badge / 2, kPageBody.y + 4.5, badge - 4, status,
-               {.size = 3.4, .colour = kPaper, .anchor = Anchor::middle, .bold = true, .kind = "status"});
-    const double room = left - kPageBody.x - 4;
-    sheet.text(kPageBody.x, kPageBody.y + 4.8, room, "Placement of " + name("part"),
-               {.size = 5, .bold = true, .kind = "title"});
-    sheet.text(kPageBody.x, kPageBody.y + 9.6, kPageBody.width, "in the blank " + name("blank"),
-               {.size = 3.4, .colour = kGrey, .kind = "subtitle"});
-    return kPageBody.y + 12;
-  }
-
   /// Draws everything below the drawing, and returns where it ends.
   double sections(double top, Sheet& sheet) const {
     const double left =
-        draw_proof(report_, kLeft, draw_numbers(report_, look_, kLeft, top, sheet) + 1.5, sheet);
+        draw_proof(report_.proof, kLeft, draw_numbers(report_, look_, kLeft, top, sheet) + 1.5, sheet);
     const double right = draw_contacts(
         report_, look_, kRight, draw_histogram(report_, look_, kRight, top, sheet) + 1.5, contacts_, sheet);
-    double y = draw_features(report_, look_, kPageBody, std::max(left, right) + 1.5, rows_, sheet) + 1.5;
-    y = draw_inputs(report_, kPageBody, y, sheet) + 1.5;
-    return draw_notes(report_, kPageBody, y, lines_, sheet);
+    double y = draw_features(report_, look_, kReportFrame, std::max(left, right) + 1.5, rows_, sheet) + 1.5;
+    y = draw_inputs(files(), kReportFrame, y, sheet) + 1.5;
+    return draw_notes(notes(), kReportFrame, y, lines_, sheet);
+  }
+  [[nodiscard]] std::vector<ReportFile> files() const {
+    std::vector<ReportFile> files;
+    for (const io::InputRecord& input : report_.document.inputs) {
+      std::string words = io::as_utf8(input.file.path);
+      if (input.unit)
+        words +=
+            fmt::format(", {} points in {}", input.points, *input.unit == LengthUnit::inch ? "inch" : "mm");
+      files.push_back({input.role, words, input.file.sha256});
+    }
+    return files;
+  }
+  [[nodiscard]] ReportNotes notes() const {
+    return {report_.document.warnings, report_.assumptions,
+            fmt::format("Allowance along the outline: distance to the blank's boundary; minima rounded down, "
+                        "maxima up, both within {} mm; means and shares from points at most {} mm apart.",
+                        short_number_up(report_.tolerance), short_number_up(report_.step))};
   }
   [[nodiscard]] double height_below() const {
     std::vector<Item> items;
@@ -80,7 +81,7 @@ class Page {
     return sections(0, scratch) + 3;
   }
   [[nodiscard]] double most_drawing() const {
-    return std::clamp(placement_height(report_, kPageBody.width), kLeastDrawing, kMostDrawing);
+    return std::clamp(placement_height(report_, kReportFrame.width), kLeastDrawing, kMostDrawing);
   }
   /// Keeps as much of the lists as leaves the drawing its usual height.
   void choose_rows(double room) {
@@ -90,15 +91,6 @@ class Page {
       if (most <= kFewest) break;
       --most;
     }
-  }
-
-  void footer(Sheet& sheet) const {
-    const io::LocateDocument& d = report_.document;
-    sheet.text(kPageBody.x, kPageBody.bottom(), kPageBody.width / 2, std::string("lekalo ") + kVersion,
-               {.size = kReportSmall, .colour = kGrey, .kind = "version"});
-    sheet.text(kPageBody.right(), kPageBody.bottom(), kPageBody.width / 2,
-               fmt::format("method {}, seed {}, work {}", d.method, d.seed, d.work),
-               {.size = kReportSmall, .colour = kGrey, .anchor = Anchor::end, .kind = "method"});
   }
 
   const Report& report_;

@@ -4,11 +4,9 @@
 #include "draw/paper/report_sheet.hpp"
 #include "draw/paper/view.hpp"
 #include "lekalo/draw/report.hpp"
+#include "report_parts.hpp"
 
 namespace lekalo::draw {
-
-/// The page is A4, upright.
-inline constexpr Rect kReportPage{0, 0, 210, 297};
 
 [[nodiscard]] Scene report_page(const Report& report);
 
@@ -38,12 +36,9 @@ double draw_histogram(const Report& report, const ReportLook& look, const Rect& 
                       Sheet& sheet);
 double draw_numbers(const Report& report, const ReportLook& look, const Rect& column, double top,
                     Sheet& sheet);
-double draw_proof(const Report& report, const Rect& column, double top, Sheet& sheet);
 double draw_contacts(const Report& report, const ReportLook& look, const Rect& column, double top,
                      std::size_t most_rows, Sheet& sheet);
 double draw_features(const Report& report, const ReportLook& look, const Rect& column, double top,
                      std::size_t most_rows, Sheet& sheet);
-double draw_inputs(const Report& report, const Rect& column, double top, Sheet& sheet);
-double draw_notes(const Report& report, const Rect& column, double top, std::size_t most_lines, Sheet& sheet);
 
 }  // namespace lekalo::draw

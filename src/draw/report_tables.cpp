@@ -10,74 +10,11 @@
 #include "report_page.hpp"
 
 namespace lekalo::draw {
-namespace {
-
-/// A column with its share of the table's width. Numbers are set against their right side.
-struct Column {
-  const char* title;
-  double share;
-  bool number = true;
-};
-
-class ReportTable {
- public:
-  ReportTable(std::vector<Column> columns, const Rect& column, Sheet& sheet)
-      : columns_(std::move(columns)), room_(column), sheet_(sheet) {
-    double sum = 0;
-    for (const Column& one : columns_) sum += one.share;
-    for (Column& one : columns_) one.share /= sum;
-  }
-  double titles(double y) {
-    std::vector<std::string> words;
-    for (const Column& one : columns_) words.emplace_back(one.title);
-    return row(y, words, {.size = kReportSmall, .colour = kGrey, .kind = "table-title"});
-  }
-  /// Draws a row of cells in order; an empty cell is left out.
-  double row(double y, const std::vector<std::string>& cells, const TextStyle& style, Colour last = kInk) {
-    double x = room_.x;
-    for (std::size_t k = 0; k < columns_.size(); ++k) {
-      const double width = columns_[k].share * room_.width;
-      TextStyle cell = style;
-      if (last != kInk && k + 1 == columns_.size()) cell.colour = last;
-      cell.anchor = columns_[k].number ? Anchor::end : Anchor::start;
-      sheet_.text(columns_[k].number ? x + width - 1 : x, y + kReportLine - 1, width - 2, cells[k], cell);
-      x += width;
-    }
-    return y + kReportLine;
-  }
-
- private:
-  std::vector<Column> columns_;
-  Rect room_;
-  Sheet& sheet_;
-};
-
-class Rows {
- public:
-  Rows(const Rect& column, double y, Sheet& sheet) : column_(column), y_(y), sheet_(sheet) {}
-  void add(const char* what, const std::string& value, const char* kind, Colour colour = kInk,
-           bool bold = false) {
-    y_ += kReportLine;
-    const double half = 0.42 * column_.width;
-    sheet_.text(column_.x, y_ - 1, half, what, {.colour = kGrey});
-    sheet_.text(column_.right(), y_ - 1, column_.width - half - 2, value,
-                {.colour = colour, .anchor = Anchor::end, .bold = bold, .kind = kind});
-  }
-  [[nodiscard]] double end() const { return y_; }
-
- private:
-  Rect column_;
-  double y_;
-  Sheet& sheet_;
-};
-
-}  // namespace
-
 double draw_numbers(const Report& report, const ReportLook& look, const Rect& column, double top,
                     Sheet& sheet) {
   const io::LocateDocument& d = report.document;
   const locate::Placement& p = d.placement;
-  Rows rows(column, sheet.heading(column, top, "Placement"), sheet);
+  ReportRows rows(column, sheet.heading(column, top, "Placement"), sheet);
   rows.add("minimum allowance", length_text(p.clearance, look.decimals, Rounding::down), "clearance",
            p.clearance < 0 ? kOutside : kInk, true);
   if (d.upper_bound) {
@@ -100,14 +37,6 @@ double draw_numbers(const Report& report, const ReportLook& look, const Rect& co
   rows.add("angle", decimal(p.theta * kDegreesPerRadian, 7) + "°", "theta-deg");
   if (report.document.mirrored) rows.add("mirrored", "in x, before turning", "mirrored");
   return rows.end();
-}
-
-double draw_proof(const Report& report, const Rect& column, double top, Sheet& sheet) {
-  double y = sheet.heading(column, top, "What is proved") + kReportSmall + 0.8;
-  for (const std::string& sentence : report.proof)
-    y = sheet.paragraph(column, y, sentence, {.size = kReportSmall, .kind = "proof"}, kReportSmallLine, 6) +
-        0.4;
-  return y - kReportSmall;
 }
 
 double draw_contacts(const Report& report, const ReportLook& look, const Rect& column, double top,
@@ -148,8 +77,8 @@ double draw_features(const Report& report, const ReportLook& look, const Rect& c
   const bool demands = std::any_of(rows.begin(), rows.end(), [](const FeatureRow& row) {
     return row.feature.minimum || row.feature.target || row.feature.maximum;
   });
-  std::vector<Column> columns{{"feature", 4, false}, {"edges", 1},  {"length", 1.7},
-                              {"minimum", 1.7},      {"mean", 1.7}, {"maximum", 1.7}};
+  std::vector<ReportColumn> columns{{"feature", 4, false}, {"edges", 1},  {"length", 1.7},
+                                    {"minimum", 1.7},      {"mean", 1.7}, {"maximum", 1.7}};
   if (demands) columns.insert(columns.end(), {{"demanded", 1.4}, {"target", 1.4}, {"at most", 1.4}});
   columns.push_back({"", 2.2});
   ReportTable table(columns, column, sheet);
@@ -194,54 +123,6 @@ double draw_features(const Report& report, const ReportLook& look, const Rect& c
     y += kReportLine;
   }
   return y;
-}
-
-double draw_inputs(const Report& report, const Rect& column, double top, Sheet& sheet) {
-  double y = sheet.heading(column, top, "Input files and SHA-256 of their bytes");
-  for (const io::InputRecord& input : report.document.inputs) {
-    y += kReportLine;
-    // A digest of 64 hexadecimal digits must not be shortened. The digits are at most 0.66 of the size wide.
-    constexpr double kDigestSize = 1.95, kDigest = 64 * 0.66 * kDigestSize + 1, kRole = 17;
-    sheet.text(column.x, y - 1, kRole - 1, input.role, {.size = kReportSmall, .colour = kGrey});
-    std::string words = io::as_utf8(input.file.path);
-    if (input.unit)
-      words +=
-          fmt::format(", {} points in {}", input.points, *input.unit == LengthUnit::inch ? "inch" : "mm");
-    sheet.text(column.x + kRole, y - 1, column.width - kRole - kDigest - 2, words,
-               {.size = kReportSmall, .kind = "input"});
-    sheet.text(column.right(), y - 1, kDigest, input.file.sha256,
-               {.size = kDigestSize, .colour = kGrey, .anchor = Anchor::end, .kind = "sha256"});
-  }
-  return y;
-}
-
-double draw_notes(const Report& report, const Rect& column, double top, std::size_t most_lines,
-                  Sheet& sheet) {
-  double y = sheet.heading(column, top, "Assumptions and warnings") + kReportSmall + 0.8;
-  std::size_t used = 0, left = report.assumptions.size() + report.document.warnings.size();
-  const auto add = [&](const std::string& sentence, Colour colour, const char* kind) {
-    // One line is kept for the sentence about those that find no room.
-    const std::size_t room = most_lines - used - (left > 1 ? 1 : 0);
-    if (used >= most_lines || room == 0) return;
-    y = sheet.paragraph(column, y, sentence, {.size = kReportSmall, .colour = colour, .kind = kind},
-                        kReportSmallLine, std::min<std::size_t>(room, 3), &used);
-    --left;
-  };
-  for (const std::string& warning : report.document.warnings) add("Note: " + warning, kInk, "warning");
-  for (const std::string& sentence : report.assumptions) add(sentence, kGrey, "assumption");
-  if (left > 0) {
-    sheet.text(column.x, y, column.width, fmt::format("and {} more, in the result", left),
-               {.size = kReportSmall, .colour = kGrey, .kind = "more-notes"});
-    y += kReportSmallLine;
-  }
-  const std::string measured = fmt::format(
-      "Allowance along the outline: distance to the blank's boundary; minima rounded down, maxima up, both "
-      "within {} "
-      "mm; means and shares from points at most {} mm apart.",
-      short_number_up(report.tolerance), short_number_up(report.step));
-  y = sheet.paragraph(column, y, measured, {.size = kReportSmall, .colour = kGrey, .kind = "assumption"},
-                      kReportSmallLine, 2);
-  return y - kReportSmall;
 }
 
 }  // namespace lekalo::draw

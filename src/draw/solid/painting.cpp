@@ -27,6 +27,14 @@ struct Light {
   double red = 0, green = 0, blue = 0;
 };
 
+/// The colours of the scale, which are asked for at every sample.
+std::array<Colour, kColourSteps> palette() {
+  std::array<Colour, kColourSteps> colours;
+  for (int step = 0; step < kColourSteps; ++step)
+    colours[static_cast<std::size_t>(step)] = scale_colour(step);
+  return colours;
+}
+
 Light mix(Light from, Colour to, double share) {
   return {from.red + share * (to.red - from.red), from.green + share * (to.green - from.green),
           from.blue + share * (to.blue - from.blue)};
@@ -160,9 +168,12 @@ class Painter {
         const Vector normal =
             w[0] * mesh.normals[t[0]] + (w[1] * mesh.normals[t[1]] + w[2] * mesh.normals[t[2]]);
         Colour colour = kPlainPart;
-        if (!part_.values.empty())
-          colour = colour_of_value(w[0] * part_.values[t[0]] +
-                                   (w[1] * part_.values[t[1]] + w[2] * part_.values[t[2]]));
+        if (!part_.values.empty()) {
+          const double value =
+              w[0] * part_.values[t[0]] + (w[1] * part_.values[t[1]] + w[2] * part_.values[t[2]]);
+          colour =
+              value < kLeastValue ? kOutside : palette_[static_cast<std::size_t>(scale_step(value, 0, 1))];
+        }
         band.light[at] = lit(colour, normal, view_);
       });
     }
@@ -236,6 +247,7 @@ class Painter {
 
   static Light light_at(const Band& band, std::size_t at) {
     Light light = band.light[at];
+    if (band.lines[at] == 0 && band.clear[at] == 1) return light;
     const unsigned char lines = band.lines[at];
     if ((lines & kPartLine) != 0) light = mix(light, kInk, 0.7);
     light = mix(light, kGlass, 1 - band.clear[at]);
@@ -248,6 +260,7 @@ class Painter {
   const PaintedPart& part_;
   const PaintedBlank& blank_;
   const SpaceView& view_;
+  const std::array<Colour, kColourSteps> palette_ = palette();
   int columns_, rows_;
   std::vector<ScreenPoint> part_screen_, blank_screen_, marks_;
   std::vector<Line> lines_;

@@ -16,13 +16,6 @@ using geom::Point;
 using solid::Vector;
 
 constexpr std::size_t kMostLabels = 16;
-constexpr double kLabel = 25;  ///< width of the columns of labels at both sides, mm of paper
-
-struct Mark {
-  std::size_t contact = 0;
-  Point at;
-  bool seen = true;
-};
 
 void draw_mark(Point at, bool seen, const Meaning& meaning, Sheet& sheet) {
   Paint paint = filled(kPaper, seen ? 1 : 0.35);
@@ -37,35 +30,35 @@ class ContactLabels {
   ContactLabels(const SolidScene& scene, const SolidLook& look, const Rect& frame, Sheet& sheet)
       : scene_(scene), look_(look), frame_(frame), sheet_(sheet) {}
 
-  void draw(std::vector<Mark> marks) {
+  void draw(std::vector<ContactMark> marks) {
     // The tightest contacts have labels, if not all can.
     std::stable_sort(marks.begin(), marks.end(),
-                     [&](const Mark& a, const Mark& b) { return distance(a) < distance(b); });
+                     [&](const ContactMark& a, const ContactMark& b) { return distance(a) < distance(b); });
     for (auto mark = marks.rbegin(); mark != marks.rend(); ++mark) dot(*mark);
     if (marks.size() > kMostLabels) marks.resize(kMostLabels);
-    std::vector<Mark> left, right;
+    std::vector<ContactMark> left, right;
     std::stable_sort(marks.begin(), marks.end(),
-                     [](const Mark& a, const Mark& b) { return a.at.x < b.at.x; });
+                     [](const ContactMark& a, const ContactMark& b) { return a.at.x < b.at.x; });
     for (std::size_t k = 0; k < marks.size(); ++k) (2 * k < marks.size() ? left : right).push_back(marks[k]);
     column(left, frame_.x, Anchor::start);
     column(right, frame_.right(), Anchor::end);
   }
 
  private:
-  [[nodiscard]] double distance(const Mark& mark) const {
+  [[nodiscard]] double distance(const ContactMark& mark) const {
     return scene_.placement.contacts[mark.contact].distance;
   }
-  void dot(const Mark& mark) {
+  void dot(const ContactMark& mark) {
     draw_mark(mark.at, mark.seen,
               {mark.seen ? "contact" : "hidden-contact", std::to_string(mark.contact + 1)}, sheet_);
   }
-  void column(std::vector<Mark>& marks, double x, Anchor anchor) {
+  void column(std::vector<ContactMark>& marks, double x, Anchor anchor) {
     constexpr double kStep = 5.6;
     std::stable_sort(marks.begin(), marks.end(),
-                     [](const Mark& a, const Mark& b) { return a.at.y < b.at.y; });
+                     [](const ContactMark& a, const ContactMark& b) { return a.at.y < b.at.y; });
     // From above each label goes as near to its mark as those above let it, then from below.
     std::vector<double> y;
-    for (const Mark& mark : marks) {
+    for (const ContactMark& mark : marks) {
       const double least = y.empty() ? frame_.y + 4 : y.back() + kStep;
       y.push_back(std::max(least, mark.at.y + 1));
     }
@@ -77,7 +70,7 @@ class ContactLabels {
       const std::string words =
           fmt::format("{}: {} mm", marks[k].contact + 1, decimal(distance(marks[k]), look_.table_decimals));
       const bool tightest = look_.focus && look_.focus->contact == marks[k].contact;
-      const double width = kLabel - 2,
+      const double width = kContactLabel - 2,
                    drawn = std::min(width, kReportBody * kReportBoldWider * io::text_width(words)) + 1;
       const Point from{at_left ? x + drawn : x - drawn, y[k] - 1}, to = marks[k].at;
       sheet_.path({from, to}, false, stroked(kPaper, 0.7), "leader-halo");
@@ -97,6 +90,53 @@ class ContactLabels {
   Sheet& sheet_;
 };
 
+}  // namespace
+
+SpaceView fitted(const SolidLook& look, SpaceView view, const Rect& image, double fine) {
+  std::vector<Vector> places = look.part.surface.places;
+  places.insert(places.end(), look.blank.surface.places.begin(), look.blank.surface.places.end());
+  fit(view, places, fine * image.width, fine * image.height, 2 * fine);
+  return view;
+}
+
+std::vector<ContactMark> draw_solids(const SolidLook& look, const SpaceView& fitted_view, const Rect& image,
+                                     double fine, unsigned threads, Sheet& sheet) {
+  const int columns = static_cast<int>(std::lround(fine * image.width)),
+            rows = static_cast<int>(std::lround(fine * image.height));
+  Painting painting = paint(look.part, look.blank, fitted_view, columns, rows, look.contacts, threads);
+  sheet.items().push_back(
+      ImageItem{{image.x, image.y}, image.width, image.height, std::move(painting.pixels), {"solids", ""}});
+  std::vector<ContactMark> marks;
+  for (std::size_t k = 0; k < look.contacts.size(); ++k) {
+    const ScreenPoint at = fitted_view(look.contacts[k]);
+    marks.push_back({k, {image.x + at.x / fine, image.y + at.y / fine}, painting.seen[k]});
+  }
+  return marks;
+}
+
+void draw_contact_lengths(const SolidScene& scene, const SolidLook& look, std::vector<ContactMark> marks,
+                          const Rect& frame, Sheet& sheet) {
+  ContactLabels(scene, look, frame, sheet).draw(std::move(marks));
+}
+
+void draw_contact_numbers(const std::vector<ContactMark>& marks, Sheet& sheet) {
+  constexpr double kRadius = 1.45;
+  for (std::size_t k = marks.size(); k-- > 0;) {
+    const ContactMark& mark = marks[k];
+    Paint paint = filled(kPaper, mark.seen ? 0.95 : 0.45);
+    paint.stroke = mark.seen ? kInk : kGrey, paint.width = mark.seen ? 0.3 : 0.2;
+    const std::string number = std::to_string(mark.contact + 1);
+    sheet.items().push_back(
+        DotItem{mark.at, kRadius, paint, {mark.seen ? "contact" : "hidden-contact", number}});
+    sheet.text(mark.at.x, mark.at.y + 0.72, 2 * kRadius, number,
+               {.size = 2,
+                .colour = mark.seen ? kInk : kGrey,
+                .anchor = Anchor::middle,
+                .bold = mark.seen,
+                .kind = "contact-number"});
+  }
+}
+
 void draw_axes(const SpaceView& view, Point origin, Sheet& sheet) {
   constexpr double kLength = 7;
   const struct {
@@ -111,32 +151,6 @@ void draw_axes(const SpaceView& view, Point origin, Sheet& sheet) {
     sheet.text(beyond.x, beyond.y + 0.85, 5, name,
                {.size = kReportSmall, .colour = kGrey, .anchor = Anchor::middle, .kind = "axis"});
   }
-}
-
-}  // namespace
-
-void draw_view(const SolidScene& scene, const SolidLook& look, SpaceView view, const Rect& frame, double fine,
-               unsigned threads, Sheet& sheet) {
-  Rect image = frame;
-  if (!look.contacts.empty()) image.x += kLabel, image.width -= 2 * kLabel;
-  const int columns = static_cast<int>(std::lround(fine * image.width)),
-            rows = static_cast<int>(std::lround(fine * image.height));
-  std::vector<Vector> places = look.part.surface.places;
-  places.insert(places.end(), look.blank.surface.places.begin(), look.blank.surface.places.end());
-  fit(view, places, columns, rows, 2 * fine);
-  Painting painting = paint(look.part, look.blank, view, columns, rows, look.contacts, threads);
-  sheet.items().push_back(
-      ImageItem{{image.x, image.y}, image.width, image.height, std::move(painting.pixels), {"solids", ""}});
-  std::vector<Mark> marks;
-  for (std::size_t k = 0; k < look.contacts.size(); ++k) {
-    const ScreenPoint at = view(look.contacts[k]);
-    marks.push_back({k,
-                     {image.x + image.width * at.x / columns, image.y + image.height * at.y / rows},
-                     painting.seen[k]});
-  }
-  draw_axes(view, {frame.x + 9, frame.bottom() - 12}, sheet);
-  draw_scale_bar(view.scale * image.width / columns, {frame.x + 1, frame.bottom() - 0.6}, 36, sheet);
-  ContactLabels(scene, look, frame, sheet).draw(std::move(marks));
 }
 
 void draw_scale_bar(double scale, Point left, double most, Sheet& sheet) {

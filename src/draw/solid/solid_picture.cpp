@@ -30,7 +30,12 @@ constexpr double kSections = 46;  ///< their height under the drawing
 class SolidComposer {
  public:
   SolidComposer(const SolidScene& scene, double pixels_per_mm, unsigned threads)
-      : scene_(scene), look_(scene), fine_(pixels_per_mm), threads_(threads), sheet_(page_.items) {}
+      : scene_(scene),
+        look_(scene),
+        facing_(facing(look_)),
+        fine_(pixels_per_mm),
+        threads_(threads),
+        sheet_(page_.items) {}
 
   Scene compose() && {
     page_.width = kSolidPage.width, page_.height = kSolidPage.height;
@@ -43,7 +48,13 @@ class SolidComposer {
       room.height -= kSections + 4;
       draw_sections({room.x, room.bottom() + 4, room.width, kSections});
     }
-    draw_view(scene_, look_, facing(look_), room, fine_, threads_, sheet_);
+    Rect image = room;
+    if (!look_.contacts.empty()) image.x += kContactLabel, image.width -= 2 * kContactLabel;
+    const SpaceView view = fitted(look_, facing_, image, fine_);
+    std::vector<ContactMark> marks = draw_solids(look_, view, image, fine_, threads_, sheet_);
+    draw_axes(view, {room.x + 9, room.bottom() - 12}, sheet_);
+    draw_scale_bar(view.scale / fine_, {room.x + 1, room.bottom() - 0.6}, 36, sheet_);
+    draw_contact_lengths(scene_, look_, std::move(marks), room, sheet_);
     draw_panel();
     return std::move(page_);
   }
@@ -55,14 +66,11 @@ class SolidComposer {
     const Vector beside = cross(focus.outward, {0, 0, 1});
     SpaceView view = seen_from(norm(beside) > 0.2 ? beside : cross(focus.outward, {1, 0, 0}));
     // The section is seen from the viewer's side.
-    if (dot(view.towards, facing(look_).towards) < 0) view = seen_from(-view.towards);
+    if (dot(view.towards, facing_.towards) < 0) view = seen_from(-view.towards);
     const double width = (room.width - 6) / 2;
     const Rect left{room.x, room.y, width, room.height - 5},
         right{room.right() - width, room.y, width, left.height};
-    SpaceView whole = view;
-    std::vector<Vector> places = look_.part.surface.places;
-    places.insert(places.end(), look_.blank.surface.places.begin(), look_.blank.surface.places.end());
-    fit(whole, places, fine_ * left.width, fine_ * left.height, fine_ * 2);
+    SpaceView whole = fitted(look_, view, left, fine_);
     through_focus(whole);
     draw_section(whole, left, false);
     SpaceView close = view;
@@ -176,6 +184,7 @@ class SolidComposer {
 
   const SolidScene& scene_;
   SolidLook look_;
+  SpaceView facing_;
   double fine_;  ///< pixels of a millimetre of paper
   unsigned threads_;
   Scene page_;
