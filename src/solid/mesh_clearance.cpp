@@ -13,7 +13,7 @@ namespace {
 
 /// Moving a point, differences and products with a unit vector are some forty roundings of 2^-53 of the
 /// coordinates; making a box and its axes, and moving them, some hundred.
-constexpr double kRounding = 0x1p-46;
+constexpr double kPairRounding = 0x1p-46;
 /// The part is cut into this many pieces, if it has as many triangles.
 constexpr std::size_t kPieces = 64;
 
@@ -77,7 +77,7 @@ MeshClearance::MeshClearance(const Mesh& part, const Mesh& blank, const std::vec
 struct MeshClearance::Walk {
   Walk(const MeshClearance& from, const Motion& pose) : meter(from), motion(pose) {
     const double far = std::sqrt(3.0) * meter.part_.largest() + largest_coordinate(motion.shift);
-    rounding = kRounding * (far + meter.blank_.largest());
+    rounding = kPairRounding * (far + meter.blank_.largest());
   }
 
   void start(double most) {
