@@ -67,8 +67,13 @@ TEST(SolidCheck, WhatIsNotInsideHasNoClearance) {
             "refuted; inside is false, but there is a clearance; shortfall is null");
   EXPECT_EQ(told([&](Json& r) { outside(r), r["shortfall"] = 0; }),
             "refuted; there is a shortfall, but no clearance");
-  // A part that touches from inside: neither is shown.
-  EXPECT_EQ(told([&](Json& r) { outside(r), r["x"] = r["window"]["x"] = 1; }), "incomplete");
+  // A part that touches is not inside.
+  EXPECT_EQ(told([&](Json& r) { outside(r), r["x"] = r["window"]["x"] = 1; }), "unproved");
+  EXPECT_EQ(told([&](Json& r) {
+              outside(r), r["x"] = r["window"]["x"] = 1;
+              r["inside"] = true, r["clearance"] = r["shortfall"] = 0;
+            }),
+            "refuted; inside is true, but the part touches the blank's surface");
 }
 
 TEST(SolidCheck, NumbersThatFollowFromOthersAreHeldAgainstThem) {

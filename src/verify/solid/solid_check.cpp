@@ -78,10 +78,6 @@ class SolidCheck {
     report_.findings.push_back(fmt::format(format, std::forward<Args>(args)...));
   }
   void note(std::string sentence) { report_.notes.push_back(std::move(sentence)); }
-  void leave_open(std::string sentence) {
-    open_ = true;
-    note(std::move(sentence));
-  }
 
   Result<std::optional<SolidMesh>> read_input(const char* role, const Document& document,
                                               const WrittenSolid& written);
@@ -104,8 +100,9 @@ Result<std::optional<SolidMesh>> SolidCheck::read_input(const char* role, const 
                                                         const WrittenSolid& written) {
   LEKALO_TRY(SolidReading reading, read_solid(document, written.unit));
   if (reading.open) {
-    leave_open(fmt::format("what is said of the {} was not rechecked: {} is not read here, because {}", role,
-                           document.name, *reading.open));
+    open_ = true;
+    note(fmt::format("what is said of the {} was not rechecked: {} is not read here, because {}", role,
+                     document.name, *reading.open));
     return std::nullopt;
   }
   if (reading.mesh.triangles.size() != written.triangles)
@@ -121,18 +118,18 @@ Result<Json> SolidCheck::certificate_of() const {
   return read_solid_certificate_document(*inputs_.certificate);
 }
 
+/// A part that touches the blank's surface is not inside.
 void SolidCheck::check_clearance(const SolidPair& pair) {
-  const SolidAnswer answer = pair.check(d_.clearance.value_or(Decimal{}));
-  if (d_.inside) {
-    report_.clearance_low = fmt::format("{}", answer.least.low);
-    report_.clearance_high = fmt::format("{}", answer.least.high);
-    if (answer.fault) find("{}", *answer.fault);
-  } else if (!answer.fault && !answer.open) {
-    find("inside is false, but the part lies in the blank");
+  const bool is_number = d_.clearance && sgn(d_.clearance->digits) > 0;
+  const SolidAnswer answer = pair.check(is_number ? *d_.clearance : Decimal{});
+  if (!d_.inside) {
+    if (!answer.fault && !answer.open) find("inside is false, but the part lies in the blank");
+    return;
   }
-  if (answer.open)
-    leave_open(fmt::format("that the part lies {}in the blank was not rechecked: {}", d_.inside ? "" : "not ",
-                           *answer.open));
+  report_.clearance_low = fmt::format("{}", answer.least.low);
+  report_.clearance_high = fmt::format("{}", answer.least.high);
+  if (answer.fault) find("{}", *answer.fault);
+  if (answer.open) find("inside is true, but the part touches the blank's surface");
 }
 
 void SolidCheck::check_contacts(const SolidPair& pair, const SolidMesh& part, const SolidMesh& blank) {
