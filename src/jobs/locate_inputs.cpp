@@ -93,6 +93,11 @@ Result<void> read_outlines(const LocateJob& job, LocateInputs& in) {
 Result<void> read_earlier(const LocateJob& job, LocateInputs& in) {
   if (!job.earlier) return {};
   LEKALO_TRY(in.earlier, io::read_result(job.earlier->bytes, job.earlier->name));
+  if (in.earlier->solid_pose)
+    return failure(ErrorCode::bad_input,
+                   fmt::format("{}: this is a result for solids; an outline in the plane is compared with a "
+                               "result for outlines",
+                               job.earlier->name));
   const locate::Placement& pose = in.earlier->placement;
   if (std::abs(pose.theta) <= geom::kMaxAngle &&
       std::max(std::abs(pose.x), std::abs(pose.y)) <= limits::kLargestCoordinate)

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <cmath>
 
 #include "io/shape/region_text.hpp"
@@ -11,6 +12,7 @@
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/io/text/json_writer.hpp"
+#include "result_lines.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -18,19 +20,9 @@ namespace {
 using detail::JsonKind;
 using detail::JsonTree;
 using detail::JsonValue;
-
-/// A field of the document itself, on a line of its own.
-JsonWriter& line_of(JsonWriter& json, const char* key) { return json.line(2).key(key); }
-
-void lines(JsonWriter& json, std::initializer_list<JsonField> fields) {
-  for (const JsonField& one : fields) json.line(2).field(one.key, one.value);
-}
-
-/// A list with a line for each item, which `write_item` writes.
-template <class Items, class WriteItem>
-void list_of_lines(JsonWriter& json, const Items& items, const WriteItem& write_item) {
-  json.list_of_lines(items, 4, 2, write_item);
-}
+using detail::line_of;
+using detail::lines;
+using detail::list_of_lines;
 
 void write(JsonWriter& json, geom::Point p) { json.list({p.x, p.y}); }
 
@@ -424,6 +416,19 @@ class FieldReader {
     complain(key, "true or false");
     return false;
   }
+  template <std::size_t N>
+  std::array<double, N> numbers(JsonValue object, const char* key) {
+    std::array<double, N> all{};
+    const auto list = object.find(key);
+    std::size_t count = 0;
+    if (list && list->kind() == JsonKind::list)
+      for (const JsonValue item : *list) {
+        if (count < N && item.is_number()) all[count] = item.number();
+        count = item.is_number() ? count + 1 : N + 1;
+      }
+    if (count != N) complain(key, "a list of numbers");
+    return all;
+  }
   FileRecord file(JsonValue object) { return {text(object, "path"), text(object, "sha256")}; }
   std::optional<FileRecord> optional_file(std::optional<JsonValue> object) {
     if (is_null(object)) return std::nullopt;
@@ -543,9 +548,14 @@ Result<WrittenResult> read_result(std::string_view bytes, const std::string& nam
   else
     for (const JsonValue input : *inputs)
       result.inputs.push_back({read.text(input, "role"), read.file(input), std::nullopt, 0, {}});
-  result.placement = {read.number(root, "x"), read.number(root, "y"), read.number(root, "theta"),
-                      read.number(root, "clearance")};
-  result.mirrored = read.truth(root, "mirrored");
+  if (root.find("quaternion")) {
+    result.solid_pose = {read.numbers<4>(root, "quaternion"),
+                         {read.number(root, "x"), read.number(root, "y"), read.number(root, "z")}};
+  } else {
+    result.placement = {read.number(root, "x"), read.number(root, "y"), read.number(root, "theta"),
+                        read.number(root, "clearance")};
+    result.mirrored = read.truth(root, "mirrored");
+  }
   result.certificate_file = read.optional_file(root.find("certificate_file"));
   result.deviations = read.optional_file(root.find("deviations"));
   if (const auto nc = root.find("nc"); !is_null(nc))

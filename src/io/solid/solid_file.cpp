@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "io/text/refusal.hpp"
@@ -127,6 +128,16 @@ Result<void> read_points(std::string_view bytes, SolidBuilder& made) {
 const FileFormat* solid_format_by_content(std::string_view bytes) {
   const SolidFormat* const format = format_by_content(bytes);
   return format == nullptr ? nullptr : format->file;
+}
+
+bool is_only_solid(std::string_view bytes, const std::string& name) {
+  constexpr FileFormat kOthers[] = {
+      {"STEP", {".step", ".stp"}}, {"IGES", {".iges", ".igs"}}, {"3MF", {".3mf"}}, {"OFF", {".off"}}};
+  if (const FileFormat* const format = solid_format_by_content(bytes))
+    return format == &kStlFormat || format == &kObjFormat;
+  return kStlFormat.is_named_so(name) || kObjFormat.is_named_so(name) ||
+         std::any_of(std::begin(kOthers), std::end(kOthers),
+                     [&](const FileFormat& other) { return other.is_named_so(name); });
 }
 
 Result<SolidFile> parse_solid(std::string_view bytes, const std::string& name, const SolidOptions& options) {

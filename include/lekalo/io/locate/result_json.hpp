@@ -16,6 +16,7 @@
 #include "lekalo/locate/demand.hpp"
 #include "lekalo/locate/placement.hpp"
 #include "lekalo/locate/proof.hpp"
+#include "lekalo/locate/solid.hpp"
 #include "lekalo/nc/rewrite.hpp"
 
 namespace lekalo::io {
@@ -162,6 +163,8 @@ struct WrittenResult {
   std::vector<InputRecord> inputs;  ///< role and file only
   locate::Placement placement;
   bool mirrored = false;
+  /// The pose in a result for solids, which has neither `placement` nor `mirrored`.
+  std::optional<locate::SolidPose> solid_pose;
   std::optional<FileRecord> certificate_file, nc_output, deviations;
 
   /// The first input with this role, or nullptr.

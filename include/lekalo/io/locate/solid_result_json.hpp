@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lekalo/io/locate/result_json.hpp"
+#include "lekalo/io/solid/solid_file.hpp"
+#include "lekalo/locate/solid.hpp"
+
+namespace lekalo::io {
+
+/// The result document of `lekalo locate` for solids (docs/formats.md, "Results for solids"). Triangles have
+/// the numbers of their file.
+
+/// One file that the result was made from. `unit` and `triangles` are for solids only.
+struct SolidInputRecord {
+  std::string role;  ///< "part", "blank" or "start"
+  FileRecord file;
+  std::optional<SolidUnit> unit;
+  std::size_t triangles = 0;
+};
+
+/// The poses that were looked at: see locate::SolidProblem.
+struct SolidWindow {
+  locate::SolidPose start;
+  solid::Vector pivot;  ///< the point of the part whose place may differ by `shift`; part coordinates, mm
+  double shift = 0;     ///< mm
+  double turn_deg = 0;
+};
+
+struct SolidDocument {
+  std::string status;  ///< optimal, stopped, infeasible, unproved
+  std::string method;  ///< certified, climb
+  std::vector<SolidInputRecord> inputs;
+  std::vector<std::string> warnings;
+  std::uint64_t work = 0;
+  locate::SolidFreedom freedom = locate::SolidFreedom::six;
+  SolidWindow window;
+  locate::SolidPose pose;
+  /// The least allowance, mm. There is none where the part is not inside the blank.
+  std::optional<double> clearance;
+  /// There is none of a method that proves nothing, mm.
+  std::optional<double> upper_bound;
+  double min_allowance = 0;
+  std::vector<locate::SolidTouch> contacts;
+  std::optional<FileRecord> certificate_file;
+  /// The boxes of the certificate, wherever it is.
+  std::size_t certificate_boxes = 0;
+  /// The time of this run; the only field that is not a function of the input.
+  double seconds = 0;
+  unsigned threads = 1;
+
+  [[nodiscard]] bool inside() const noexcept { return clearance.has_value(); }
+  /// What is missing of the demanded allowance, mm; none where the part is not inside.
+  [[nodiscard]] std::optional<double> shortfall() const noexcept;
+};
+
+/// The document as JSON text, in the form of that of outlines. \pre every number is finite
+[[nodiscard]] std::string result_json(const SolidDocument& document);
+
+/// Names as they stand in results.
+[[nodiscard]] const char* name_of(locate::SolidFreedom freedom) noexcept;
+[[nodiscard]] const char* name_of(SolidUnit unit) noexcept;
+
+}  // namespace lekalo::io

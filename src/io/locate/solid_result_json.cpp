@@ -1,0 +1,125 @@
+#include "lekalo/io/locate/solid_result_json.hpp"
+
+#include <algorithm>
+
+#include "lekalo/base/rounding.hpp"
+#include "lekalo/base/version.hpp"
+#include "result_lines.hpp"
+
+namespace lekalo::io {
+namespace {
+
+using detail::line_of;
+using detail::lines;
+using detail::list_of_lines;
+
+void write(JsonWriter& json, solid::Vector p) { json.list({p.x, p.y, p.z}); }
+
+void write(JsonWriter& json, const SolidInputRecord& input) {
+  json.begin_object().fields(
+      {{"role", input.role}, {"path", input.file.path}, {"sha256", input.file.sha256}});
+  if (input.unit) json.fields({{"units", name_of(*input.unit)}, {"triangles", input.triangles}});
+  json.end();
+}
+
+void write(JsonWriter& json, const SolidWindow& window) {
+  json.begin_object().key("quaternion").list(window.start.quaternion);
+  const solid::Vector& at = window.start.shift;
+  json.fields({{"x", at.x}, {"y", at.y}, {"z", at.z}});
+  write(json.key("pivot"), window.pivot);
+  json.fields({{"shift", window.shift}, {"turn_deg", window.turn_deg}}).end();
+}
+
+void write(JsonWriter& json, const locate::SolidTouch& touch) {
+  write(json.begin_object().key("part_point"), touch.part);
+  write(json.key("blank_point"), touch.blank);
+  json.fields({{"part_triangle", touch.part_triangle},
+               {"blank_triangle", touch.blank_triangle},
+               {"distance", touch.distance},
+               {"multiplier", touch.multiplier}});
+  json.end();
+}
+
+void write_head(JsonWriter& json, const SolidDocument& d) {
+  line_of(json, "format").object({{"name", "lekalo-locate"}, {"version", 1}});
+  lines(json, {{"status", d.status}, {"units", "mm"}});
+  list_of_lines(line_of(json, "inputs"), d.inputs, [&](const SolidInputRecord& one) { write(json, one); });
+  list_of_lines(line_of(json, "warnings"), d.warnings, [&](const std::string& one) { json.value(one); });
+  lines(json, {{"seed", 0}, {"work", d.work}, {"version", kVersion}, {"method", d.method}});
+  lines(json, {{"freedom", name_of(d.freedom)}});
+  write(line_of(json, "window"), d.window);
+}
+
+void write_placement(JsonWriter& json, const SolidDocument& d) {
+  std::optional<double> gap;
+  if (d.upper_bound && d.clearance) gap = difference_rounded_up(*d.upper_bound, *d.clearance);
+  line_of(json, "quaternion").list(d.pose.quaternion);
+  const solid::Vector& at = d.pose.shift;
+  lines(json, {{"x", at.x},
+               {"y", at.y},
+               {"z", at.z},
+               {"inside", d.inside()},
+               {"clearance", d.clearance},
+               {"upper_bound", d.upper_bound},
+               {"gap", gap},
+               {"min_allowance", d.min_allowance},
+               {"shortfall", d.shortfall()}});
+  list_of_lines(line_of(json, "contacts"), d.contacts,
+                [&](const locate::SolidTouch& one) { write(json, one); });
+  lines(json, {{"unknown_area_mm2", 0}});
+}
+
+void write_proof(JsonWriter& json, const SolidDocument& d) {
+  lines(json, {{"certificate", nullptr}});
+  line_of(json, "certificate_file");
+  if (d.certificate_file)
+    json.object({{"path", d.certificate_file->path},
+                 {"sha256", d.certificate_file->sha256},
+                 {"boxes", d.certificate_boxes}});
+  else
+    json.value(nullptr);
+}
+
+}  // namespace
+
+std::optional<double> SolidDocument::shortfall() const noexcept {
+  if (!clearance) return std::nullopt;
+  return std::max(0.0, difference_rounded_up(min_allowance, *clearance));
+}
+
+std::string result_json(const SolidDocument& d) {
+  JsonWriter json(JsonLayout::spaced);
+  json.begin_object();
+  write_head(json, d);
+  write_placement(json, d);
+  write_proof(json, d);
+  line_of(json, "run").object({{"seconds", d.seconds}, {"threads", d.threads}});
+  json.line(0).end();
+  return json.take() + "\n";
+}
+
+const char* name_of(locate::SolidFreedom freedom) noexcept {
+  switch (freedom) {
+    case locate::SolidFreedom::xyz:
+      return "xyz";
+    case locate::SolidFreedom::c_xyz:
+      return "c-xyz";
+    case locate::SolidFreedom::six:
+      break;
+  }
+  return "six";
+}
+
+const char* name_of(SolidUnit unit) noexcept {
+  switch (unit) {
+    case SolidUnit::inch:
+      return "inch";
+    case SolidUnit::metre:
+      return "m";
+    case SolidUnit::millimetre:
+      break;
+  }
+  return "mm";
+}
+
+}  // namespace lekalo::io
