@@ -2,11 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/geom/trig.hpp"
 
 namespace lekalo::cli {
 namespace {
@@ -186,6 +188,77 @@ std::string program_lines(const io::LocateDocument& d) {
   return text;
 }
 
+std::string headline(const io::SolidDocument& d) {
+  if (d.status == "infeasible")
+    return d.min_allowance > 0
+               ? fmt::format(
+                     "No placement in the window reaches the demanded allowance of {} mm; this is "
+                     "proved.",
+                     d.min_allowance)
+               : "No placement in the window has the part inside the blank; this is proved.";
+  if (!d.inside()) return "No placement was found that has the part inside the blank.";
+  if (d.status == "optimal") return "The best placement was found and proved.";
+  if (d.status == "stopped") return "Stopped early: a placement that holds, maybe not the best.";
+  return fmt::format("The placement that --method {} found; it proves nothing about others.", d.method);
+}
+
+/// The rotation as people turn things: by an angle about an axis.
+std::string turn_line(const std::array<double, 4>& quaternion) {
+  const auto [w, x, y, z] = quaternion;
+  const double sine = std::hypot(x, y, z), side = w < 0 ? -1 : 1;
+  if (sine == 0) return "  turned by          nothing\n";
+  return fmt::format("  turned by          {:.6f} degrees about the axis ({:.6f}, {:.6f}, {:.6f})\n",
+                     degrees(2 * geom::direction_angle(side * w, sine)), side * x / sine, side * y / sine,
+                     side * z / sine);
+}
+
+std::string pose_lines(const io::SolidDocument& d) {
+  const solid::Vector at = d.pose.shift;
+  return fmt::format("  the part lies at   x = {:.6f} mm, y = {:.6f} mm, z = {:.6f} mm\n", at.x, at.y, at.z) +
+         turn_line(d.pose.quaternion) + "  minimum allowance  " +
+         (d.clearance ? mm_down(*d.clearance) : "none: the part sticks out of the blank") + "\n";
+}
+
+std::string window_text(const io::SolidDocument& d) {
+  std::string text = fmt::format("within {} mm", d.window.shift);
+  if (d.freedom == locate::SolidFreedom::c_xyz)
+    text += fmt::format(" and {} degrees about z", d.window.turn_deg);
+  else if (d.freedom == locate::SolidFreedom::six)
+    text += fmt::format(" and {} degrees", d.window.turn_deg);
+  return text + " of the start";
+}
+
+std::string bound_line(const io::SolidDocument& d) {
+  if (!d.upper_bound) return "";
+  return fmt::format("  proved             no placement {} has more than {}\n", window_text(d),
+                     mm_up(*d.upper_bound));
+}
+
+std::string demand_line(const io::SolidDocument& d) {
+  if (!d.inside())
+    return "  to be tried        a wider window (--shift, --tilt), another start (--start), other --units\n";
+  if (!(*d.shortfall() > 0))
+    return d.min_allowance > 0 ? fmt::format("  demanded           {} mm: met\n", d.min_allowance) : "";
+  const bool open = !d.upper_bound || *d.upper_bound >= d.min_allowance;
+  return fmt::format("  demanded           {} mm: {} are missing{}\n", d.min_allowance, mm_up(*d.shortfall()),
+                     open ? "; it is open whether another placement has them" : "");
+}
+
+std::string contact_lines(const io::SolidDocument& d) {
+  std::string text;
+  for (const locate::SolidTouch& touch : d.contacts)
+    text += fmt::format("{}({:.3f}, {:.3f}, {:.3f})", text.empty() ? "  nearest at         blank " : ", ",
+                        touch.blank.x, touch.blank.y, touch.blank.z);
+  return text.empty() ? text : text + "\n";
+}
+
+std::string note_lines(const std::vector<std::string>& warnings, const std::vector<std::string>& written) {
+  std::string text;
+  for (const std::string& warning : warnings) text += "  note               " + warning + "\n";
+  for (const std::string& path : written) text += "  wrote              " + path + "\n";
+  return text;
+}
+
 }  // namespace
 
 std::string decimals_down(double value, int decimals) {
@@ -203,12 +276,14 @@ std::string decimals_up(double value, int decimals) {
 }
 
 std::string locate_summary(const io::LocateDocument& d, const std::vector<std::string>& written) {
-  std::string text = headline(d) + "\n" + pose_lines(d) + bound_line(d) + demand_line(d) + criteria_lines(d) +
-                     scan_lines(d) + contact_lines(d) + alternative_lines(d) + trim_line(d) +
-                     comparison_lines(d) + deviation_line(d) + program_lines(d);
-  for (const std::string& warning : d.warnings) text += "  note               " + warning + "\n";
-  for (const std::string& path : written) text += "  wrote              " + path + "\n";
-  return text;
+  return headline(d) + "\n" + pose_lines(d) + bound_line(d) + demand_line(d) + criteria_lines(d) +
+         scan_lines(d) + contact_lines(d) + alternative_lines(d) + trim_line(d) + comparison_lines(d) +
+         deviation_line(d) + program_lines(d) + note_lines(d.warnings, written);
+}
+
+std::string solid_summary(const io::SolidDocument& d, const std::vector<std::string>& written) {
+  return headline(d) + "\n" + pose_lines(d) + bound_line(d) + demand_line(d) + contact_lines(d) +
+         note_lines(d.warnings, written);
 }
 
 void tell(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stderr); }

@@ -7,12 +7,12 @@
 #include <limits>
 #include <optional>
 
+#include "handed_out.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/io/text/sha256.hpp"
-#include "lekalo/io/text/words.hpp"
 #include "lekalo/locate/allowance.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "locate_checked.hpp"
@@ -21,9 +21,6 @@
 
 namespace lekalo::jobs {
 namespace {
-
-/// Proofs of up to this many intervals or boxes stand in the result itself.
-constexpr std::size_t kInlineProof = 10'000;
 
 io::FileRecord record_of(const File& file) { return {file.name, io::sha256(file.bytes)}; }
 
@@ -48,13 +45,8 @@ void warn_of_names(const LocateJob& job, std::vector<std::string>& warnings) {
   const auto name_of_file = [](const std::optional<File>& file) { return file ? file->name : std::string(); };
   for (const std::string& name :
        {job.part.name, job.blank.name, name_of_file(job.program), name_of_file(job.earlier),
-        job.outputs.program, job.outputs.certificate, job.outputs.deviations}) {
-    if (io::as_utf8(name) != name) {
-      warnings.push_back("the file name " + io::as_utf8(name) +
-                         " is not UTF-8, so the result holds it with replaced characters and verify must be "
-                         "told where the file is");
-    }
-  }
+        job.outputs.program, job.outputs.certificate, job.outputs.deviations})
+    if (const auto warning = warning_of_name(name)) warnings.push_back(*warning);
 }
 
 io::DemandRecord record_of(const locate::Demands& asked, locate::DemandResult&& r) {
@@ -145,8 +137,7 @@ void place_proof(const LocateJob& job, Located& made) {
 }
 
 /// Puts the bytes about to be handed out before the independent checker. Where a proof was made it has to
-/// hold, also one that is too long to be kept. Claims that the checker leaves
-/// open, which a note of it names, are no reason to withhold a result.
+/// hold, also one that is too long to be kept.
 Result<void> self_check(const LocateJob& job, const Located& made) {
   verify::LocateInputs inputs{
       {"result", made.result}, {job.part.name, job.part.bytes}, {job.blank.name, job.blank.bytes}, {}};
@@ -169,16 +160,7 @@ Result<void> self_check(const LocateJob& job, const Located& made) {
   const auto wanted = job.options.method != LocateMethod::certified ? verify::Verdict::unproved
                       : leaves_choice_open(made.document)           ? verify::Verdict::incomplete
                                                                     : verify::Verdict::confirmed;
-  const bool left_open =
-      report && wanted == verify::Verdict::confirmed &&
-      (report->verdict == verify::Verdict::incomplete || report->verdict == verify::Verdict::stated_regions);
-  if (left_open || (report && report->verdict == wanted)) return {};
-  const std::string why =
-      !report ? "self-check: " + report.error().message
-              : "self-check refuted the result: " +
-                    (report->findings.empty() ? "the proof is not complete" : report->findings.front());
-  return failure(ErrorCode::refuted,
-                 why + "; no file was written, and this is a mistake of lekalo worth reporting");
+  return held_against(report, wanted);
 }
 
 /// The search rounds a clearance down by more than the written pose loses, so that a part that just fits

@@ -1,12 +1,13 @@
 #include "locate_command.hpp"
 
-#include <array>
 #include <chrono>
 #include <optional>
+#include <utility>
 
 #include "interrupt.hpp"
 #include "lekalo/disk/files.hpp"
 #include "lekalo/jobs/locate.hpp"
+#include "lekalo/jobs/locate_solid.hpp"
 #include "outputs.hpp"
 #include "summary.hpp"
 
@@ -24,10 +25,8 @@ Result<void> read_if_named(const std::string& path, std::optional<jobs::File>& t
   return {};
 }
 
-Result<jobs::LocateJob> read_files(const LocateOptions& o) {
-  jobs::LocateJob job{{}, {}, {}, {}, {}, {}, o.job, o.outputs, o.warnings};
-  LEKALO_TRY(job.part, read_named(o.part));
-  LEKALO_TRY(job.blank, read_named(o.blank));
+Result<jobs::LocateJob> read_files(const LocateOptions& o, jobs::File part, jobs::File blank) {
+  jobs::LocateJob job{std::move(part), std::move(blank), {}, {}, {}, {}, o.job, o.outputs, o.warnings};
   LEKALO_CHECK(read_if_named(o.nc, job.program));
   LEKALO_CHECK(read_if_named(o.allow, job.allow));
   LEKALO_CHECK(read_if_named(o.features, job.features));
@@ -35,7 +34,18 @@ Result<jobs::LocateJob> read_files(const LocateOptions& o) {
   return job;
 }
 
-Result<jobs::Located> located(const jobs::LocateJob& job, const LocateOptions& o) {
+Result<jobs::SolidLocateJob> read_solids(const LocateOptions& o, jobs::File part, jobs::File blank) {
+  jobs::SolidLocateJob job{std::move(part), std::move(blank), {}, o.solid, {}, o.warnings};
+  LEKALO_CHECK(read_if_named(o.start, job.start));
+  job.outputs.certificate = o.outputs.certificate;
+  job.outputs.allowances = o.outputs.allowances;
+  job.outputs.picture = !o.picture.empty();
+  return job;
+}
+
+/// Does a job of localisation, with progress, Ctrl-C and the limits of time and work.
+template <class Job, class Work>
+auto searched(const Job& job, const LocateOptions& o, const Work& work) {
   if (o.seconds) StopRequests::end_at(*o.seconds);
   std::optional<ProgressLine> line;
   RunControl run;
@@ -45,32 +55,58 @@ Result<jobs::Located> located(const jobs::LocateJob& job, const LocateOptions& o
     if (!line) line.emplace("searching");
     line->show(progress);
   };
-  return jobs::locate(job, run, [] {
+  return work(job, run, [] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   });
 }
 
+struct Output {
+  const std::string *path, *bytes;
+};
+
 /// All files, or none: they get their names only after stdout has taken the result. Returns their names.
-Result<std::vector<std::string>> write_all(const LocateOptions& o, const jobs::Located& made) {
-  const std::array<std::pair<const std::string*, const std::string*>, 8> documents{
-      {{&o.output, &made.result},
-       {&o.outputs.certificate, &made.certificate},
-       {&o.picture, &made.picture},
-       {&o.report, &made.report},
-       {&o.allowances, &made.allowances},
-       {&o.drawing, &made.drawing},
-       {&o.outputs.deviations, &made.deviations},
-       {&o.outputs.program, &made.program}}};
+Result<std::vector<std::string>> write_all(const LocateOptions& o, const std::string& result,
+                                           const std::vector<Output>& documents) {
   disk::AtomicFiles files;
   std::vector<std::string> written;
   for (const auto& [path, bytes] : documents) {
-    if (path->empty() || (bytes == &made.program && !made.document.nc)) continue;
+    if (path->empty()) continue;
     LEKALO_CHECK(files.add(*path, *bytes));
     written.push_back(*path);
   }
-  if (o.json) LEKALO_CHECK(print(made.result));
+  if (o.json) LEKALO_CHECK(print(result));
   LEKALO_CHECK(files.commit());
   return written;
+}
+
+Result<int> locate_outline(const LocateOptions& o, jobs::File part, jobs::File blank) {
+  LEKALO_TRY(const jobs::LocateJob job, read_files(o, std::move(part), std::move(blank)));
+  LEKALO_TRY(const jobs::Located made, searched(job, o, jobs::locate));
+  const ToTheEnd to_the_end;
+  std::vector<Output> documents{{&o.output, &made.result},
+                                {&o.outputs.certificate, &made.certificate},
+                                {&o.picture, &made.picture},
+                                {&o.report, &made.report},
+                                {&o.allowances, &made.allowances},
+                                {&o.drawing, &made.drawing},
+                                {&o.outputs.deviations, &made.deviations}};
+  if (made.document.nc) documents.push_back({&o.outputs.program, &made.program});
+  LEKALO_TRY(const std::vector<std::string> written, write_all(o, made.result, documents));
+  tell(locate_summary(made.document, written));
+  return made.holds() ? 0 : 1;
+}
+
+Result<int> locate_solid(const LocateOptions& o, jobs::File part, jobs::File blank) {
+  LEKALO_TRY(const jobs::SolidLocateJob job, read_solids(o, std::move(part), std::move(blank)));
+  LEKALO_TRY(const jobs::LocatedSolid made, searched(job, o, jobs::locate_solid));
+  const ToTheEnd to_the_end;
+  const std::vector<Output> documents{{&o.output, &made.result},
+                                      {&o.outputs.certificate, &made.certificate},
+                                      {&o.picture, &made.picture},
+                                      {&o.allowances, &made.allowances}};
+  LEKALO_TRY(const std::vector<std::string> written, write_all(o, made.result, documents));
+  tell(solid_summary(made.document, written));
+  return made.holds() ? 0 : 1;
 }
 
 }  // namespace
@@ -89,13 +125,15 @@ Result<int> run_locate(const LocateOptions& o) {
                               {"--nc", o.nc},
                               {"--allow", o.allow},
                               {"--compare", o.compare},
-                              {"--features", o.features}}));
-  LEKALO_TRY(const jobs::LocateJob job, read_files(o));
-  LEKALO_TRY(const jobs::Located made, located(job, o));
-  const ToTheEnd to_the_end;
-  LEKALO_TRY(const std::vector<std::string> written, write_all(o, made));
-  tell(locate_summary(made.document, written));
-  return made.holds() ? 0 : 1;
+                              {"--features", o.features},
+                              {"--start", o.start}}));
+  LEKALO_TRY(jobs::File part, read_named(o.part));
+  LEKALO_TRY(jobs::File blank, read_named(o.blank));
+  LEKALO_TRY(const bool solids, jobs::are_solids(part, blank));
+  if (const std::string& wrong = solids ? o.not_for_solids : o.not_for_outlines; !wrong.empty())
+    return failure(ErrorCode::usage, wrong + " (see lekalo locate --help)");
+  return solids ? locate_solid(o, std::move(part), std::move(blank))
+                : locate_outline(o, std::move(part), std::move(blank));
 }
 
 }  // namespace lekalo::cli

@@ -33,6 +33,7 @@ Result<void> check_words(const VerifyOptions& o, Kind kind) {
       {"--features", !o.features.empty(), {}},
       {"--nc", !o.program.empty(), {}},
       {"--compare", !o.earlier.empty(), {}},
+      {"--start", !o.start.empty(), {}},
       {"--certificate", !o.certificate.empty(), {}},
       {"--layout",
        !o.layout.empty(),

@@ -32,15 +32,16 @@ struct Place {
   const char *option, *role;
   std::string VerifyOptions::*path;
 };
-constexpr std::array<Place, 9> kPlaces{{{"--part", "part", &VerifyOptions::part},
-                                        {"--blank", "blank", &VerifyOptions::blank},
-                                        {"--features", "features", &VerifyOptions::features},
-                                        {"--nc", "nc", &VerifyOptions::program},
-                                        {"--compare", "last-result", &VerifyOptions::earlier},
-                                        {"--certificate", "certificate", &VerifyOptions::certificate},
-                                        {"--pocket", "pocket", &VerifyOptions::pocket},
-                                        {"--program", "program", &VerifyOptions::cut_program},
-                                        {"--layout", "layout", &VerifyOptions::layout}}};
+constexpr std::array<Place, 10> kPlaces{{{"--part", "part", &VerifyOptions::part},
+                                         {"--blank", "blank", &VerifyOptions::blank},
+                                         {"--features", "features", &VerifyOptions::features},
+                                         {"--nc", "nc", &VerifyOptions::program},
+                                         {"--compare", "last-result", &VerifyOptions::earlier},
+                                         {"--start", "start", &VerifyOptions::start},
+                                         {"--certificate", "certificate", &VerifyOptions::certificate},
+                                         {"--pocket", "pocket", &VerifyOptions::pocket},
+                                         {"--program", "program", &VerifyOptions::cut_program},
+                                         {"--layout", "layout", &VerifyOptions::layout}}};
 
 std::string given_instead(const VerifyOptions& o, const std::string& role) {
   for (const Place& place : kPlaces)

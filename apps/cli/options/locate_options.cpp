@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -12,8 +13,25 @@ namespace {
 
 using Method = jobs::LocateMethod;
 
-constexpr std::array kLocateMethods{Word<Method>{"certified", Method::certified},
-                                    Word<Method>{"ipopt", Method::ipopt}, Word<Method>{"icp", Method::icp}};
+/// What a word means where the files are outlines in the plane, and where they are solids.
+template <class Outline, class Solid>
+struct Either {
+  std::optional<Outline> outline;
+  std::optional<Solid> solid;
+};
+using EitherMethod = Either<Method, jobs::SolidMethod>;
+using EitherUnit = Either<LengthUnit, io::SolidUnit>;
+constexpr std::array kLocateMethods{
+    Word<EitherMethod>{"certified", {Method::certified, jobs::SolidMethod::certified}},
+    Word<EitherMethod>{"ipopt", {Method::ipopt, std::nullopt}},
+    Word<EitherMethod>{"icp", {Method::icp, std::nullopt}},
+    Word<EitherMethod>{"climb", {std::nullopt, jobs::SolidMethod::climb}}};
+constexpr std::array kLocateUnits{Word<EitherUnit>{"mm", {LengthUnit::millimetre, io::SolidUnit::millimetre}},
+                                  Word<EitherUnit>{"inch", {LengthUnit::inch, io::SolidUnit::inch}},
+                                  Word<EitherUnit>{"m", {std::nullopt, io::SolidUnit::metre}}};
+constexpr std::array kFreedoms{Word<locate::SolidFreedom>{"xyz", locate::SolidFreedom::xyz},
+                               Word<locate::SolidFreedom>{"c-xyz", locate::SolidFreedom::c_xyz},
+                               Word<locate::SolidFreedom>{"six", locate::SolidFreedom::six}};
 constexpr std::array kStartRules{
     Word<locate::StartRule>{"random", locate::StartRule::random},
     Word<locate::StartRule>{"centroids", locate::StartRule::centroids},
@@ -33,7 +51,7 @@ struct LocateWords {
       alternatives, nc, nc_out, nc_mode, nc_angle_decimals, control, allow, chord_tolerance, wcs, scan_frame,
       output, certificate, picture, report, allowances, drawing, deviations, compare, mirror, lock_x, lock_y,
       features, criterion, give_up, trade_off, join, curve, repair, uncertainty, coverage, min_radius,
-      max_dip, step, drop_outliers, simplify, slice_height, slice_thickness;
+      max_dip, step, drop_outliers, simplify, slice_height, slice_thickness, freedom, tilt, shift, start;
   std::vector<std::string> part_layers, blank_layers;
   std::vector<std::string> window;
   bool json = false, strict = false;
@@ -50,6 +68,7 @@ void read_window(const std::vector<std::string>& words, WordReader& read, Locate
   read.number("--window", words[1], -kLargestWindowAngle, kLargestWindowAngle, wanted, o.job.window_to_deg);
   read.require(o.job.window_from_deg <= o.job.window_to_deg,
                fmt::format("--window: the first angle, {}, is above the second, {}", words[0], words[1]));
+  o.solid.window_from_deg = o.job.window_from_deg, o.solid.window_to_deg = o.job.window_to_deg;
   if (o.job.window_to_deg - o.job.window_from_deg > 360 - kClosedWindow) {
     o.job.window_from_deg = 0;
     o.job.window_to_deg = 360;
@@ -77,9 +96,11 @@ void read_criterion(const std::string& word, WordReader& read, locate::Criterion
 
 void read_search(const LocateWords& words, WordReader& read, LocateOptions& o) {
   read_window(words.window, read, o);
-  if (!words.gap.empty())
+  if (!words.gap.empty()) {
     read.number("--gap", words.gap, kSmallestLength, kLargestLength, "a length in mm above 0",
                 o.job.gap.emplace());
+    o.solid.gap = *o.job.gap;
+  }
   read.choice("--mirror", words.mirror, kMirrors, o.job.mirror);
   for (const auto& [option, word, to] :
        {std::tuple{"--lock-x", &words.lock_x, &o.job.locked.x}, {"--lock-y", &words.lock_y, &o.job.locked.y}})
@@ -96,7 +117,7 @@ void read_search(const LocateWords& words, WordReader& read, LocateOptions& o) {
               "a whole number from 2 to 100", o.job.trade_off);
   read.number("--min-allowance", words.min_allowance, 0.0, kLargestLength, "a length in mm of 0 or more",
               o.job.min_allowance);
-  read.choice("--method", words.method, kLocateMethods, o.job.method);
+  o.solid.min_allowance = o.job.min_allowance;
   read.number("--starts", words.starts, 1, 1'000'000, "a whole number from 1 to 1000000", o.job.starts);
   read.choice("--start-rule", words.start_rule, kStartRules, o.job.start_rule);
   constexpr auto kLargest = std::numeric_limits<std::uint64_t>::max();
@@ -110,6 +131,13 @@ void read_search(const LocateWords& words, WordReader& read, LocateOptions& o) {
   if (!words.time.empty()) {
     read.number("--time", words.time, 1e-6, kLongestTime, "a time in seconds above 0", o.seconds.emplace());
   }
+}
+
+void read_solid_search(const LocateWords& words, WordReader& read, LocateOptions& o) {
+  read.choice("--freedom", words.freedom, kFreedoms, o.solid.freedom);
+  read.number("--tilt", words.tilt, 0.0, 90.0, "an angle from 0 to 90 degrees", o.solid.tilt_deg);
+  read.number("--shift", words.shift, 0.0, kLargestLength, "a length in mm of 0 or more", o.solid.shift);
+  o.start = words.start;
 }
 
 void read_shapes(const LocateWords& words, WordReader& read, LocateOptions& o) {
@@ -210,8 +238,8 @@ void read_outputs(const LocateWords& words, WordReader& read, LocateOptions& o) 
 
 /// A file that a method cannot make is refused; a number that it does not look at is only worth a word.
 void check_method(const LocateWords& words, WordReader& read, LocateOptions& o) {
-  const bool certified = o.job.method == Method::certified;
-  const std::string method = name_of(o.job.method);
+  const std::string method = words.method.empty() ? "certified" : words.method;
+  const bool certified = method == "certified";
   read.require(certified || o.outputs.certificate.empty(),
                "--certificate: --method " + method + " proves nothing, only --method certified does");
   read.require(certified || !o.job.alternatives,
@@ -225,18 +253,82 @@ void check_method(const LocateWords& words, WordReader& read, LocateOptions& o) 
   no_effect(!words.work.empty() && o.job.method == Method::icp, "--work");
 }
 
-Result<LocateOptions> to_options(const LocateWords& words) {
+/// The options that solids have, too, and those that they alone have; all others are for outlines.
+constexpr std::array<std::string_view, 14> kOfBoth{
+    "--part", "--blank", "--units",  "--window",  "--gap",         "--method",     "--work",
+    "--time", "--json",  "--output", "--picture", "--certificate", "--allowances", "--min-allowance"};
+constexpr std::array<std::string_view, 4> kOfSolids{"--freedom", "--tilt", "--shift", "--start"};
+
+bool is_typed(const FormOption& option) {
+  if (const auto* const flag = std::get_if<bool*>(&option.to)) return **flag;
+  if (const auto* const word = std::get_if<std::string*>(&option.to)) return !(*word)->empty();
+  return !std::get<std::vector<std::string>*>(option.to)->empty();
+}
+
+/// One sentence about all of them; empty where there are none.
+std::string only_for(const std::vector<std::string>& words, const char* what) {
+  std::string text;
+  for (std::size_t k = 0; k < words.size(); ++k)
+    text += (k == 0 ? "" : k + 1 == words.size() ? " and " : ", ") + words[k];
+  return text.empty() ? text : text + (words.size() == 1 ? " is for " : " are for ") + what;
+}
+
+/// Reads the words that are not for both outlines and solids. Which of them the files are is told when they
+/// are read, so a sentence about what cannot be obeyed then is kept until then.
+void read_for_either(const LocateWords& words, const std::vector<FormOption>& options, WordReader& read,
+                     LocateOptions& o) {
+  std::vector<std::string> of_outlines, of_solids;
+  for (const FormOption& option : options) {
+    const std::string name = option.names.substr(option.names.rfind(',') + 1);
+    if (!is_typed(option) || std::count(kOfBoth.begin(), kOfBoth.end(), name) > 0) continue;
+    (std::count(kOfSolids.begin(), kOfSolids.end(), name) > 0 ? of_solids : of_outlines).push_back(name);
+  }
+  EitherMethod method{Method::certified, jobs::SolidMethod::certified};
+  read.choice("--method", words.method, kLocateMethods, method);
+  if (!method.outline) of_solids.push_back("--method " + words.method);
+  if (!method.solid) of_outlines.push_back("--method " + words.method);
+  o.job.method = method.outline.value_or(o.job.method);
+  o.solid.method = method.solid.value_or(o.solid.method);
+  EitherUnit unit{LengthUnit::millimetre, io::SolidUnit::millimetre};
+  read.choice("--units", words.units, kLocateUnits, unit);
+  if (!unit.outline) of_solids.push_back("--units " + words.units);
+  if (words.picture.ends_with(".svg")) of_outlines.push_back("--picture " + words.picture);
+  if (!words.units.empty()) o.job.part.units = unit.outline, o.solid.units = unit.solid;
+  o.not_for_outlines = only_for(of_solids, "solids, and the files are outlines in the plane");
+  o.not_for_solids = only_for(of_outlines, "outlines in the plane, and the files are solids");
+}
+
+/// The rotation of solids is looked at in one window, which depends on their freedom.
+void check_turns(const LocateWords& words, LocateOptions& o) {
+  constexpr double kWidest = 180;
+  const auto complain = [&](bool wrong, const char* sentence) {
+    if (wrong) o.not_for_solids += (o.not_for_solids.empty() ? "" : "; ") + std::string(sentence);
+  };
+  const bool window = !words.window.empty(), about_z = o.solid.freedom == locate::SolidFreedom::c_xyz;
+  complain(
+      window && !about_z,
+      "--window, the turn about z, goes with --freedom c-xyz; --tilt DEG is how far the part may be turned "
+      "about any axis");
+  complain(window && about_z && o.solid.window_to_deg - o.solid.window_from_deg > kWidest,
+           "--window: the turns of a solid lie at most 180 degrees apart");
+  complain(!words.tilt.empty() && o.solid.freedom != locate::SolidFreedom::six,
+           "--tilt goes with --freedom six");
+}
+
+Result<LocateOptions> to_options(const LocateWords& words, const std::vector<FormOption>& options) {
   LocateOptions o;
   WordReader read;
   o.part = words.part;
   o.blank = words.blank;
-  if (!words.units.empty()) read.choice("--units", words.units, kUnits, o.job.part.units.emplace());
+  read_for_either(words, options, read, o);
   if (!words.trim.empty()) {
     read.number("--trim", words.trim, kSmallestLength, kLargestLength, "a length in mm above 0",
                 o.job.trim.emplace());
   }
   read_shapes(words, read, o);
   read_search(words, read, o);
+  read_solid_search(words, read, o);
+  check_turns(words, o);
   read_program(words, read, o);
   read_outputs(words, read, o);
   check_method(words, read, o);
@@ -252,6 +344,7 @@ constexpr const char* kLocateFooter =
     "  lekalo locate --part part.dxf --blank probed.xyz --trim 0.05 --nc part.ngc --nc-out here.ngc "
     "\\\n"
     "                --nc-mode coordinates --scan-frame wcs -o result.json\n"
+    "  lekalo locate --part part.stl --blank casting.stl --tilt 3 -o result.json\n"
     "\n"
     "Exit codes: 0 a placement, 1 there is none with this allowance, 2 wrong command line, 3 bad input "
     "or "
@@ -264,11 +357,12 @@ constexpr const char* kLocateFooter =
 void add_input_options(Form& form, LocateWords& w) {
   const OptionAdder add(form, "What to place");
   add("--part", w.part, "FILE",
-      fmt::format("The part: points (.csv .txt .xyz), drawing ({}), or .json: regions, primitives",
+      fmt::format("The part: points (.csv .txt .xyz), drawing ({}), .json: regions, primitives; or a solid "
+                  "(.stl .obj .ply)",
                   io::drawing_endings(" ")))
       .required = true;
   add("--blank", w.blank, "FILE",
-      "The blank: its outline in the same formats, or a scan (also .ply, see below)")
+      "The blank: its outline in the same formats, or a scan (also .ply, see below); or a solid")
       .required = true;
   add("--part-layers", w.part_layers, "NAME", "Layers of the part's drawing [all that are shown]");
   add("--blank-layers", w.blank_layers, "NAME", "Layers of the blank's drawing [all that are shown]");
@@ -276,7 +370,8 @@ void add_input_options(Form& form, LocateWords& w) {
   add("--curve-tolerance", w.curve, "MM", "Lines and arcs may be this far from an ellipse or spline [0.001]");
   add("--repair", w.repair, "MM", "Mends of a drawing move no outline further; the rest is set aside [0.2]");
   add("--strict", w.strict, "Refuse a drawing of which anything would be mended or set aside");
-  add("--units", w.units, list_of(kUnits, "|"), "Unit of contour files that do not name theirs [mm]");
+  add("--units", w.units, list_of(kLocateUnits, "|"),
+      "Unit of contours that do not name theirs, and of solids [mm]");
   add("--trim", w.trim, "MM",
       "Cut dents of the blank up to this deep inwards to a convex contour; the loss is reported");
   add("--compare", w.compare, "FILE", "Result of an earlier probing: report the shift since then");
@@ -299,10 +394,12 @@ void add_scan_options(Form& form, LocateWords& w) {
 void add_search_options(Form& form, LocateWords& w) {
   const OptionAdder add(form, "How to search");
   add("--min-allowance", w.min_allowance, "MM", "Least material demanded between part and blank surface [0]");
-  add("--window", w.window, "DEG", "Only angles from the first to the second, degrees [0 360]").count = 2;
+  add("--window", w.window, "DEG",
+      "Only angles from the first to the second, degrees [0 360; -5 5 for solids]")
+      .count = 2;
   add("--gap", w.gap, "MM",
       "Stop when no other placement can be better by more than this [1e-9; 1e-3 where a shape is not "
-      "convex]");
+      "convex; 0.01 for solids]");
   add("--mirror", w.mirror, list_of(kMirrors, "|"), "Whether the part must or may lie mirrored [no]");
   add("--lock-x", w.lock_x, "MM", "x of the placement is given");
   add("--lock-y", w.lock_y, "MM", "y of the placement is given");
@@ -316,12 +413,25 @@ void add_search_options(Form& form, LocateWords& w) {
   add("--trade-off", w.trade_off, "N", "Also N points of the curve of smallest against largest allowance");
   add("--alternatives", w.alternatives, "MM", "Also list other placements that lose at most this");
   add("--method", w.method, list_of(kLocateMethods, "|"),
-      "certified proves its result; ipopt and icp are there for comparison [certified]");
+      "certified proves its result; ipopt and icp are there for comparison; climb is a quick placement of "
+      "a solid without a bound [certified]");
   add("--starts", w.starts, "N", "Starts of --method ipopt [10]");
   add("--start-rule", w.start_rule, list_of(kStartRules, "|"), "Where --method ipopt starts [random]");
   add("--seed", w.seed, "S", "Seed of all random choices [0]");
-  add("--work", w.work, "N", "Stop after N units of work (linear programs, or starts) with the best so far");
+  add("--work", w.work, "N",
+      "Stop after N units of work (linear programs, starts, boxes) with the best so far");
   add("--time", w.time, "SECONDS", "Stop after this time with the best so far; not reproducible");
+}
+
+void add_solid_options(Form& form, LocateWords& w) {
+  const OptionAdder add(form, "Solids");
+  add("--freedom", w.freedom, list_of(kFreedoms, "|"),
+      "The part is shifted; also turned about z by --window; or turned about any axis by --tilt [six]");
+  add("--tilt", w.tilt, "DEG", "How far the part may be turned from the start, about any axis [5]");
+  add("--shift", w.shift, "MM",
+      "How far the middle of the part may move from the start, along each axis [5]");
+  add("--start", w.start, "FILE",
+      "Result of an earlier placement, whose pose is the start [the part where its file has it]");
 }
 
 void add_program_options(Form& form, LocateWords& w) {
@@ -344,12 +454,13 @@ void add_program_options(Form& form, LocateWords& w) {
 void add_output_options(Form& form, LocateWords& w) {
   const OptionAdder add(form, "Output");
   add("-o,--output", w.output, "FILE", "Write the result as JSON to this file");
-  add("--picture", w.picture, "FILE", "Draw blank, part and allowance: .svg or .png");
+  add("--picture", w.picture, "FILE", "Draw blank, part and allowance: .svg or .png, solids as .png");
   add("--report", w.report, "FILE",
       "One page with placement, features, histogram, contacts and what is proved: .svg, .pdf or .png");
   add("--drawing", w.drawing, "FILE",
       "The blank and the part as it lies, on layers BLANK and PART: .dxf or .svg");
-  add("--allowances", w.allowances, "FILE", "CSV: the allowance along the part's outline");
+  add("--allowances", w.allowances, "FILE",
+      "CSV: the allowance along the part's outline, or at the corners of a solid");
   add("--certificate", w.certificate, "FILE", "Write the proof to this file instead of into the result");
   add("--deviations", w.deviations, "FILE",
       "CSV: signed distance of every probed point from the placed part");
@@ -363,10 +474,13 @@ Typed add_locate_form(Form& form) {
   add_input_options(form, *words);
   add_scan_options(form, *words);
   add_search_options(form, *words);
+  add_solid_options(form, *words);
   add_program_options(form, *words);
   add_output_options(form, *words);
   form.footer = kLocateFooter;
-  return [words] { return to_options(*words).map([](LocateOptions&& o) { return Command(std::move(o)); }); };
+  return [words, options = form.options] {
+    return to_options(*words, options).map([](LocateOptions&& o) { return Command(std::move(o)); });
+  };
 }
 
 }  // namespace lekalo::cli

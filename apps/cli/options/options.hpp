@@ -12,6 +12,7 @@
 #include "lekalo/io/formats/part_file.hpp"
 #include "lekalo/jobs/export.hpp"
 #include "lekalo/jobs/locate.hpp"
+#include "lekalo/jobs/locate_solid.hpp"
 #include "lekalo/jobs/nest.hpp"
 #include "lekalo/jobs/order_words.hpp"
 #include "lekalo/jobs/pocket.hpp"
@@ -22,10 +23,14 @@ namespace lekalo::cli {
 
 /// Holds what `lekalo locate` was asked for, checked. An empty path means: not asked for.
 struct LocateOptions {
-  std::string part, blank, nc, allow, compare, features;
+  std::string part, blank, nc, allow, compare, features, start;
   std::string output, picture, report, allowances, drawing;  ///< the other outputs are named in `outputs`
   jobs::LocateOptions job;
   jobs::LocateOutputs outputs;
+  jobs::SolidLocateOptions solid;
+  /// A sentence about words that cannot be obeyed where the files are outlines, and one where they are
+  /// solids; empty: there are none.
+  std::string not_for_outlines, not_for_solids;
   std::uint64_t work = std::numeric_limits<std::uint64_t>::max();
   std::optional<double> seconds;
   bool json = false;
@@ -41,7 +46,7 @@ struct EarlierFile {
 struct VerifyOptions {
   std::string result;
   /// Instead of the paths in the result; may be empty.
-  std::string part, blank, features, program, earlier, certificate;
+  std::string part, blank, features, program, earlier, start, certificate;
   /// Files that one which is no placement was made from; may be empty.
   std::string layout, pocket;
   /// The place where the program of a report is now; may be empty.

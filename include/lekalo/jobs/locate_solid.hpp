@@ -1,0 +1,90 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/base/parallel.hpp"
+#include "lekalo/base/run_control.hpp"
+#include "lekalo/io/locate/solid_result_json.hpp"
+#include "lekalo/jobs/file.hpp"
+#include "lekalo/jobs/locate.hpp"
+
+namespace lekalo::jobs {
+
+/// `certified` searches the whole window; `climb` goes from the start to a placement that no small motion
+/// makes better, and proves nothing.
+enum class SolidMethod { certified, climb };
+/// Returns the method's name as it stands in results.
+[[nodiscard]] const char* name_of(SolidMethod method) noexcept;
+
+/// The way a solid is to be placed.
+/// \pre numbers are in the ranges said here
+struct SolidLocateOptions {
+  /// The unit of both files, millimetres without.
+  std::optional<io::SolidUnit> units;
+  locate::SolidFreedom freedom = locate::SolidFreedom::six;
+  /// The middle of the part's box may move by this along each axis, mm, >= 0.
+  double shift = 5;
+  /// With `six`: the part may be turned by up to this from the start about any axis, degrees, from 0 to 90.
+  double tilt_deg = 5;
+  /// With `c_xyz`: the turns about the z axis that are looked at, from -720 to 720, ascending, 180 apart or
+  /// less.
+  double window_from_deg = -5, window_to_deg = 5;
+  double gap = 1e-2;         ///< see locate::SolidOptions, mm, > 0
+  double min_allowance = 0;  ///< mm, >= 0
+  SolidMethod method = SolidMethod::certified;
+  /// They change the time and nothing else.
+  unsigned threads = kUsualThreads;
+};
+
+/// The documents that are made beside the result.
+struct SolidLocateOutputs {
+  /// The name of a certificate file. When it is empty, the proof stands in the result, if it is not too long.
+  std::string certificate;
+  /// The allowance at every corner of the part as CSV.
+  bool allowances = false;
+  bool picture = false;  ///< PNG
+};
+
+struct SolidLocateJob {
+  File part, blank;
+  /// An earlier result for solids, whose pose is the start. Without one the part begins where its file has
+  /// it.
+  std::optional<File> start = {};
+  SolidLocateOptions options = {};
+  SolidLocateOutputs outputs = {};
+  /// The warnings that the caller has to give; the result repeats them first.
+  std::vector<std::string> warnings = {};
+};
+
+/// A placement that the independent checker has confirmed. Documents that were not asked for are empty.
+struct LocatedSolid {
+  io::SolidDocument document;
+  /// The bytes of `document`, which are what was checked.
+  std::string result;
+  std::string certificate, allowances, picture;
+
+  /// True if the answer is yes: the part lies in the blank and has the allowance.
+  [[nodiscard]] bool holds() const noexcept { return document.inside() && !(*document.shortfall() > 0); }
+};
+
+/// Says which job a part and a blank are for: true if both are solids, for locate_solid, and false if neither
+/// is, for locate. A PLY or points beside an outline are a scan in the plane. bad_input for one of each, and
+/// for points where a solid has to be.
+[[nodiscard]] Result<bool> are_solids(const File& part, const File& blank);
+
+/// Places a solid in a blank, both closed meshes taken as drawn. Before anything is handed out the very bytes
+/// of the result are put before the checker of verify/verify.hpp, as in locate().
+///
+/// Deterministic: only SolidDocument::seconds and ::threads are not functions of the job. `run` is for the
+/// search: its unit of work is a box bounded, a program solved or a pose measured.
+///
+/// Errors: bad_input as of io::parse_solid and solid::closed_mesh, for points, and for a start that is no
+/// result for solids; usage as of locate::locate_solid; environment where a drawing library fails; refuted
+/// where the checker does not confirm the result, which is a mistake of ours.
+[[nodiscard]] Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& run = {},
+                                                const Stopwatch& stopwatch = {});
+
+}  // namespace lekalo::jobs

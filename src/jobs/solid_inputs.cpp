@@ -1,0 +1,137 @@
+#include "solid_inputs.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "lekalo/base/angle.hpp"
+#include "lekalo/base/limits.hpp"
+#include "lekalo/geom/trig.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+using locate::SolidFreedom;
+using locate::SolidPose;
+using solid::Vector;
+
+enum class Kind : std::uint8_t { outline, scan, points, solid };
+
+Kind kind_of(const File& file) {
+  if (io::is_only_solid(file.bytes, file.name)) return Kind::solid;
+  const io::FileFormat* const format = io::solid_format_by_content(file.bytes);
+  if (format == &io::kPlyFormat) return Kind::scan;
+  return format == &io::kPointsFormat ? Kind::points : Kind::outline;
+}
+
+tl::unexpected<Error> refuse_points(const std::string& name) {
+  return failure(
+      ErrorCode::bad_input,
+      fmt::format("{}: points are not a closed surface, so nothing says where the material is; mesh "
+                  "them in the program that they come from, and export STL, PLY or OBJ",
+                  name));
+}
+
+tl::unexpected<Error> refuse_pair(const std::string& solid, const std::string& outline) {
+  return failure(ErrorCode::bad_input,
+                 fmt::format("{} is a solid and {} is none; give both as solids (STL, PLY, OBJ), or both as "
+                             "outlines in the plane",
+                             solid, outline));
+}
+
+Result<void> read_solid(const File& file, const io::SolidOptions& how, solid::Mesh& mesh, ReadSolid& read,
+                        std::vector<std::string>& notices) {
+  LEKALO_TRY(io::SolidFile parsed, io::parse_solid(file.bytes, file.name, how));
+  if (parsed.mesh.triangles.empty() && !parsed.mesh.vertices.empty()) return refuse_points(file.name);
+  notices.insert(notices.end(), parsed.notices.begin(), parsed.notices.end());
+  read.unit = parsed.unit, read.coordinate_error = parsed.coordinate_error;
+  read.triangles = parsed.mesh.triangles.size();
+  Result<solid::ClosedMesh> closed = solid::closed_mesh(std::move(parsed.mesh));
+  if (!closed) return failure(closed.error().code, fmt::format("{}: {}", file.name, closed.error().message));
+  for (const std::string& notice : closed->notices) notices.push_back(file.name + ": " + notice);
+  mesh = std::move(closed->mesh);
+  read.numbers = std::move(closed->numbers);
+  return {};
+}
+
+Result<void> read_start(const std::optional<File>& file, SolidPose& start) {
+  if (!file) return {};
+  LEKALO_TRY(const io::WrittenResult earlier, io::read_result(file->bytes, file->name));
+  if (!earlier.solid_pose)
+    return failure(ErrorCode::bad_input,
+                   fmt::format("{}: this is a result for outlines in the plane; a solid starts from a result "
+                               "for solids",
+                               file->name));
+  start = *earlier.solid_pose;
+  double square = 0;
+  for (const double q : start.quaternion) square += q * q;
+  const Vector at = start.shift;
+  if (std::abs(square - 1) < 1e-6 &&
+      std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) <= limits::kLargestCoordinate)
+    return {};
+  return failure(
+      ErrorCode::bad_input,
+      fmt::format("{}: the pose ({}, {}, {}) mm with the quaternion [{}, {}, {}, {}] is out of all "
+                  "measure",
+                  file->name, at.x, at.y, at.z, start.quaternion[0], start.quaternion[1], start.quaternion[2],
+                  start.quaternion[3]));
+}
+
+/// The pose with the part turned about the vertical through the place of one of its points.
+SolidPose turned_about_vertical(const SolidPose& pose, Vector pivot, double degrees) {
+  if (degrees == 0) return pose;
+  const geom::SinCos half = geom::sincos(0.5 * degrees * kDegree);
+  const double c = half.cosine, s = half.sine;
+  const auto [w, x, y, z] = pose.quaternion;
+  SolidPose turned{{c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w}, {}};
+  turned.shift = motion_of(pose)(pivot) - motion_of(turned).turned(pivot);
+  return turned;
+}
+
+/// An angle whose tangent, as the search computes it, is not below that of the angle in degrees, which the
+/// result states.
+double radians_up(double degrees) {
+  if (degrees == 0) return 0;
+  return std::min(degrees * kDegree * (1 + 0x1p-50) + 4 * geom::kSinCosError, 0.5 * kPi);
+}
+
+void set_window(const SolidLocateOptions& o, SolidInputs& in) {
+  locate::SolidProblem& p = in.problem;
+  const solid::Box box = box_of(p.part.vertices);
+  in.pivot = 0.5 * (box.low + box.high);
+  p.freedom = o.freedom, p.shift = o.shift;
+  if (o.freedom == SolidFreedom::six) in.turn_deg = o.tilt_deg;
+  if (o.freedom == SolidFreedom::c_xyz) {
+    const double middle = 0.5 * (o.window_from_deg + o.window_to_deg);
+    in.turn_deg = std::max(o.window_to_deg - middle, middle - o.window_from_deg);
+    p.start = turned_about_vertical(p.start, in.pivot, middle);
+  }
+  p.turn = radians_up(in.turn_deg);
+}
+
+}  // namespace
+
+Result<bool> are_solids(const File& part, const File& blank) {
+  const Kind of_part = kind_of(part), of_blank = kind_of(blank);
+  if (of_part != Kind::solid && of_blank != Kind::solid && of_part != Kind::scan) return false;
+  if (of_part == Kind::points) return refuse_points(part.name);
+  if (of_blank == Kind::points) return refuse_points(blank.name);
+  if (of_part == Kind::outline) return refuse_pair(blank.name, part.name);
+  if (of_blank == Kind::outline) return refuse_pair(part.name, blank.name);
+  return true;
+}
+
+Result<SolidInputs> read_inputs(const SolidLocateJob& job) {
+  SolidInputs in;
+  const io::SolidOptions how{job.options.units};
+  LEKALO_CHECK(read_solid(job.part, how, in.problem.part, in.part, in.notices));
+  LEKALO_CHECK(read_solid(job.blank, how, in.problem.blank, in.blank, in.notices));
+  LEKALO_CHECK(read_start(job.start, in.problem.start));
+  set_window(job.options, in);
+  return in;
+}
+
+}  // namespace lekalo::jobs

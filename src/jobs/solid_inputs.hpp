@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lekalo/jobs/locate_solid.hpp"
+
+namespace lekalo::jobs {
+
+/// What a file of a solid held beside its triangles.
+struct ReadSolid {
+  io::SolidUnit unit = io::SolidUnit::millimetre;
+  std::size_t triangles = 0;  ///< of the file
+  /// The number in the file of each triangle of the mesh.
+  std::vector<std::uint32_t> numbers;
+  double coordinate_error = 0;  ///< mm
+};
+
+/// The files of a job, read.
+struct SolidInputs {
+  locate::SolidProblem problem;
+  solid::Vector pivot;  ///< of its window
+  double turn_deg = 0;  ///< the half width of its turns
+  ReadSolid part, blank;
+  std::vector<std::string> notices;
+};
+
+/// Reads each file once and closes the meshes. The start is turned to the middle of the turns looked at.
+[[nodiscard]] Result<SolidInputs> read_inputs(const SolidLocateJob& job);
+
+}  // namespace lekalo::jobs

@@ -1,0 +1,189 @@
+#include <csignal>
+
+#include "e2e/cli_run.hpp"
+#include "support/solid_cases.hpp"
+#include "support/solid_files.hpp"
+
+/// `lekalo locate` for solids, as a person runs it.
+namespace lekalo::test::cli_solids_test {
+namespace {
+
+const solid::Mesh kPart = cases::block({-20, -15, -10}, {20, 15, 10});
+const solid::Mesh kBlank = cases::block({-22, -17, -13}, {24, 17, 11});
+
+class Solids : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_bytes(folder_ / "part.stl", solid_files::stl_binary(kPart));
+    write_bytes(folder_ / "casting.ply", solid_files::ply<float>(kBlank, solid_files::PlyForm::little));
+  }
+  [[nodiscard]] Ran locate(const Words& more) const {
+    return run(folder_.path(), Words{"locate", "--part", "part.stl", "--blank", "casting.ply"} + more);
+  }
+  [[nodiscard]] Ran verify(const std::string& result) const {
+    return run(folder_.path(), {"verify", result});
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Solids, APlacementIsFoundToldAndConfirmed) {
+  const Ran ran =
+      locate({"--min-allowance", "1.9", "--gap", "0.05", "-o", "r.json", "--json", "--allowances", "a.csv"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const Json result = ran.json();
+  EXPECT_NEAR(result["clearance"], 2, 0.05);
+  EXPECT_LE(result["clearance"], 2.0);
+  EXPECT_EQ(read_bytes(folder_ / "r.json"), ran.out);
+  for (const char* words : {"the part lies at   x = ", "turned by  ", "minimum allowance  1.9", "1.9 mm: met",
+                            "nearest at         blank (", "wrote              r.json",
+                            "wrote              a.csv", "part.stl: the file does not say its unit"})
+    EXPECT_NE(ran.err.find(words), std::string::npos) << words << " is not in\n" << ran.err;
+  EXPECT_EQ(read_bytes(folder_ / "a.csv").rfind("index,x_part,", 0), 0U);
+  EXPECT_LE(verify("r.json").status, 1);
+}
+
+TEST_F(Solids, AQuickPlacementProvesNothing) {
+  const Ran ran = locate({"--method", "climb", "-o", "r.json", "--json"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(ran.json()["status"], "unproved");
+  EXPECT_NE(ran.err.find("it proves nothing about others"), std::string::npos) << ran.err;
+  EXPECT_EQ(ran.err.find("no placement"), std::string::npos) << ran.err;
+  const Ran verified = verify("r.json");
+  EXPECT_EQ(verified.status, 1) << verified.err;
+  EXPECT_NE(verified.err.find("Unproved"), std::string::npos) << verified.err;
+}
+
+TEST_F(Solids, ADemandThatIsMissedIsExitStatusOne) {
+  const Ran ran = locate({"--min-allowance", "3", "--method", "climb", "-o", "r.json"});
+  EXPECT_EQ(ran.status, 1);
+  EXPECT_NE(ran.err.find("are missing"), std::string::npos) << ran.err;
+  EXPECT_TRUE(fs::exists(folder_ / "r.json"));
+}
+
+TEST_F(Solids, APartThatDoesNotFitIsToldWithWhatToTry) {
+  write_bytes(folder_ / "casting.ply", solid_files::obj(cases::block({100, -17, -13}, {146, 17, 11})));
+  const Ran ran = locate({"--json", "-o", "r.json"});
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  EXPECT_EQ(ran.json()["inside"], false);
+  for (const char* words : {"inside the blank", "the part sticks out of the blank", "--shift"})
+    EXPECT_NE(ran.err.find(words), std::string::npos) << ran.err;
+  EXPECT_LE(verify("r.json").status, 1);
+}
+
+TEST_F(Solids, AnEarlierResultIsTheStart) {
+  ASSERT_EQ(locate({"--method", "climb", "-o", "r.json"}).status, 0);
+  const Ran again =
+      locate({"--method", "climb", "--start", "r.json", "--shift", "0.1", "--tilt", "0.1", "--json"});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(again.json()["inputs"][2]["role"], "start");
+  EXPECT_EQ(again.json()["window"]["x"], Json::parse(read_bytes(folder_ / "r.json"))["x"]);
+}
+
+TEST_F(Solids, InterruptedTheSearchKeepsItsBest) {
+  Random random(5);
+  const cases::SolidCase slow = cases::turned_part(random, 48);
+  write_bytes(folder_ / "part.stl", solid_files::stl_binary(slow.part));
+  write_bytes(folder_ / "casting.ply", solid_files::ply<float>(slow.blank, solid_files::PlyForm::little));
+  Program program(folder_.path(), {"locate", "--part", "part.stl", "--blank", "casting.ply", "--gap", "1e-6",
+                                   "-o", "r.json"});
+  program.send_after_work(SIGINT, 0.3);
+  const Ran ran = program.wait();
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_LE(verify("r.json").status, 1);
+  const Ran timed = locate({"--gap", "1e-6", "--time", "0.3", "--json"});
+  EXPECT_EQ(timed.status, 0) << timed.err;
+  EXPECT_TRUE(timed.json()["inside"].get<bool>());
+}
+
+struct Refused {
+  std::string title;
+  Words words;
+  int status;
+  Words named;
+};
+
+class SolidWords : public Solids, public testing::WithParamInterface<Refused> {};
+
+TEST_P(SolidWords, AreRefusedInOneSentenceAndNothingIsWritten) {
+  const Refused& refused = GetParam();
+  write_plate(folder_);
+  write_bytes(folder_ / "cloud.xyz", solid_files::points(kBlank.vertices));
+  write_bytes(folder_ / "empty.stl", "");
+  solid::Mesh open = kBlank;
+  open.triangles.pop_back();
+  write_bytes(folder_ / "open.stl", solid_files::stl_text(open));
+  const auto before = folder_.files();
+  const Ran ran = run(folder_.path(), Words{"locate"} + refused.words + Words{"-o", "r.json"});
+  EXPECT_EQ(ran.status, refused.status) << ran.err;
+  EXPECT_EQ(ran.err.find('\n'), ran.err.size() - 1) << ran.err;
+  for (const std::string& word : refused.named) EXPECT_NE(ran.err.find(word), std::string::npos) << ran.err;
+  EXPECT_TRUE(folder_.files() == before);
+}
+
+const Words kSolids{"--part", "part.stl", "--blank", "casting.ply"};
+const Words kOutlines{"--part", "part.csv", "--blank", "blank.csv"};
+
+std::string test_name(const testing::TestParamInfo<Refused>& of) {
+  std::string name;
+  for (const char c : of.param.title) name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, SolidWords,
+    testing::Values(
+        Refused{"an outline in a solid",
+                {"--part", "part.csv", "--blank", "open.stl"},
+                3,
+                {"open.stl is a solid"}},
+        Refused{
+            "a solid in an outline", {"--part", "part.stl", "--blank", "blank.csv"}, 3, {"both as solids"}},
+        Refused{"points as a blank",
+                {"--part", "part.stl", "--blank", "cloud.xyz"},
+                3,
+                {"cloud.xyz: points are not a closed surface"}},
+        Refused{"an open mesh",
+                {"--part", "part.stl", "--blank", "open.stl"},
+                3,
+                {"open.stl: the surface is open", "triangle", "close it"}},
+        Refused{"an empty file", {"--part", "empty.stl", "--blank", "casting.ply"}, 3, {"empty.stl"}},
+        Refused{"words of the plane",
+                kSolids + Words{"--mirror", "yes", "--trim", "1", "--seed", "4"},
+                2,
+                {"--trim, --mirror and --seed are for outlines"}},
+        Refused{
+            "a method of the plane", kSolids + Words{"--method", "icp"}, 2, {"--method icp is for outlines"}},
+        Refused{"words of solids",
+                kOutlines + Words{"--freedom", "xyz", "--shift", "3", "--tilt", "2"},
+                2,
+                {"--freedom, --tilt and --shift are for solids"}},
+        Refused{"a method of solids",
+                kOutlines + Words{"--method", "climb"},
+                2,
+                {"--method climb is for solids"}},
+        Refused{"metres in the plane", kOutlines + Words{"--units", "m"}, 2, {"--units m is for solids"}},
+        Refused{"a freedom nobody knows",
+                kSolids + Words{"--freedom", "five"},
+                2,
+                {"--freedom", "xyz, c-xyz, six"}},
+        Refused{"a tilt beyond a quarter turn", kSolids + Words{"--tilt", "91"}, 2, {"--tilt", "90"}},
+        Refused{"a negative shift", kSolids + Words{"--shift", "-1"}, 2, {"--shift"}},
+        Refused{"a window with six freedoms", kSolids + Words{"--window", "-5", "5"}, 2, {"c-xyz", "--tilt"}},
+        Refused{"a window of more than half a turn",
+                kSolids + Words{"--freedom", "c-xyz", "--window", "0", "181"},
+                2,
+                {"--window", "180"}},
+        Refused{"a tilt about z", kSolids + Words{"--freedom", "c-xyz", "--tilt", "1"}, 2, {"--freedom six"}},
+        Refused{"a certificate of a climb",
+                kSolids + Words{"--method", "climb", "--certificate", "c.json"},
+                2,
+                {"--certificate", "climb"}},
+        Refused{"a start that is no result", kSolids + Words{"--start", "part.csv"}, 3, {"part.csv"}},
+        Refused{"the result over the start",
+                kSolids + Words{"--start", "s.json", "--certificate", "s.json"},
+                2,
+                {"--start"}}),
+    test_name);
+
+}  // namespace
+}  // namespace lekalo::test::cli_solids_test

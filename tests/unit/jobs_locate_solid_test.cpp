@@ -1,0 +1,338 @@
+#include "lekalo/jobs/locate_solid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lekalo/base/angle.hpp"
+#include "lekalo/io/text/sha256.hpp"
+#include "lekalo/jobs/verify.hpp"
+#include "support/json.hpp"
+#include "support/solid_cases.hpp"
+#include "support/solid_files.hpp"
+
+namespace lekalo::jobs::jobs_locate_solid_test {
+namespace {
+
+using locate::SolidFreedom;
+
+/// A block of 40 x 30 x 20 in one with 3 mm more at both ends of x and 2 mm elsewhere, as text.
+SolidLocateJob block_job() {
+  SolidLocateJob job;
+  job.part = {"folder/part.stl", solid_files::stl_text(cases::block({-20, -15, -10}, {20, 15, 10}))};
+  job.blank = {"casting.obj", solid_files::obj(cases::block({-22, -17, -13}, {24, 17, 11}))};
+  job.options.method = SolidMethod::climb;
+  return job;
+}
+
+/// Bodies of 20 faces, the blank's 2 mm farther out; the part is turned by up to 3 degrees.
+SolidLocateJob convex_job(std::uint64_t seed = 3) {
+  Random random(seed);
+  const cases::SolidCase made = cases::convex_in_convex(random, 20, 2);
+  SolidLocateJob job;
+  job.part = {"part.stl", solid_files::stl_text(made.part)};
+  job.blank = {"casting.ply", solid_files::ply<double>(made.blank, solid_files::PlyForm::little)};
+  return job;
+}
+
+LocatedSolid made(const SolidLocateJob& job) {
+  Result<LocatedSolid> result = locate_solid(job);
+  EXPECT_TRUE(result.has_value()) << (result ? "" : result.error().message);
+  return result ? std::move(*result) : LocatedSolid{};
+}
+
+Error refusal(const SolidLocateJob& job) {
+  const Result<LocatedSolid> result = locate_solid(job);
+  EXPECT_FALSE(result.has_value());
+  return result ? Error{} : result.error();
+}
+
+bool says(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+
+bool warns(const LocatedSolid& located, const std::string& what) {
+  const auto& warnings = located.document.warnings;
+  return std::any_of(warnings.begin(), warnings.end(), [&](const auto& one) { return says(one, what); });
+}
+
+/// The verdict of `lekalo verify` on the result, from the files of the job.
+verify::Verdict verdict(const SolidLocateJob& job, const LocatedSolid& located) {
+  const Result<Verified> done =
+      verify({"result.json", located.result},
+             [&](const std::string& role, const std::string&) -> Result<std::optional<File>> {
+               if (role == "certificate") return File{"c.json", located.certificate};
+               if (role == "part") return job.part;
+               if (role == "start") return job.start;
+               return role == "blank" ? std::optional(job.blank) : std::nullopt;
+             });
+  EXPECT_TRUE(done.has_value()) << (done ? "" : done.error().message);
+  return done ? done->report.verdict : verify::Verdict::refuted;
+}
+
+/// The angle of a rotation in degrees.
+double angle(const locate::SolidPose& pose) {
+  const auto [w, x, y, z] = pose.quaternion;
+  return 2 * std::atan2(std::hypot(x, y, z), std::abs(w)) * kDegreesPerRadian;
+}
+
+TEST(JobsLocateSolid, BytesGoInAndACheckedDocumentComesOut) {
+  const SolidLocateJob job = block_job();
+  const LocatedSolid located = made(job);
+  const auto json = cases::Json::parse(located.result);
+  EXPECT_EQ(located.result, io::result_json(located.document));
+  EXPECT_EQ(json["status"], "unproved");
+  EXPECT_EQ(json["method"], "climb");
+  EXPECT_EQ(json["freedom"], "six");
+  EXPECT_EQ(json["inside"], true);
+  EXPECT_TRUE(json["upper_bound"].is_null());
+  EXPECT_TRUE(json["certificate"].is_null());
+  EXPECT_NEAR(json["clearance"], 2, 1e-3);
+  EXPECT_LE(json["clearance"], 2.0);
+  EXPECT_EQ(json["inputs"][0]["path"], "folder/part.stl");
+  EXPECT_EQ(json["inputs"][0]["triangles"], 12);
+  EXPECT_EQ(json["inputs"][1]["sha256"], io::sha256(job.blank.bytes));
+  EXPECT_EQ(json["inputs"][1]["units"], "mm");
+  EXPECT_TRUE(located.holds());
+  EXPECT_EQ(verdict(job, located), verify::Verdict::unproved);
+}
+
+TEST(JobsLocateSolid, TheFieldsOfTheResultStandInTheirOrder) {
+  const auto json = cases::Json::parse(made(block_job()).result);
+  EXPECT_EQ(json.keys(), (std::vector<std::string>{"format",
+                                                   "status",
+                                                   "units",
+                                                   "inputs",
+                                                   "warnings",
+                                                   "seed",
+                                                   "work",
+                                                   "version",
+                                                   "method",
+                                                   "freedom",
+                                                   "window",
+                                                   "quaternion",
+                                                   "x",
+                                                   "y",
+                                                   "z",
+                                                   "inside",
+                                                   "clearance",
+                                                   "upper_bound",
+                                                   "gap",
+                                                   "min_allowance",
+                                                   "shortfall",
+                                                   "contacts",
+                                                   "unknown_area_mm2",
+                                                   "certificate",
+                                                   "certificate_file",
+                                                   "run"}));
+}
+
+TEST(JobsLocateSolid, ThePartIsFoundWhereItWasTurnedAway) {
+  const SolidLocateJob job = convex_job();
+  const LocatedSolid located = made(job);
+  ASSERT_TRUE(located.document.inside());
+  EXPECT_NEAR(*located.document.clearance, 2, 0.0101);
+  EXPECT_LE(*located.document.clearance, 2.0);
+  EXPECT_NE(verdict(job, located), verify::Verdict::refuted);
+}
+
+TEST(JobsLocateSolid, OnlyTheFreedomsAskedForAreUsed) {
+  SolidLocateJob job = block_job();
+  job.options.freedom = SolidFreedom::xyz;
+  EXPECT_EQ(made(job).document.pose.quaternion, (std::array<double, 4>{1, 0, 0, 0}));
+  job.options.freedom = SolidFreedom::c_xyz;
+  const auto turned = made(job).document.pose.quaternion;
+  EXPECT_EQ(turned[1], 0);
+  EXPECT_EQ(turned[2], 0);
+}
+
+TEST(JobsLocateSolid, TheWindowOfTurnsIsAboutItsMiddle) {
+  SolidLocateJob job = block_job();
+  job.options.freedom = SolidFreedom::c_xyz;
+  job.options.window_from_deg = 178, job.options.window_to_deg = 184;
+  const LocatedSolid located = made(job);
+  EXPECT_NEAR(angle(located.document.window.start), 179, 1e-9);
+  EXPECT_EQ(located.document.window.turn_deg, 3);
+  ASSERT_TRUE(located.document.inside());
+  EXPECT_NEAR(*located.document.clearance, 2, 1e-3);
+  EXPECT_NEAR(angle(located.document.pose), 180, 0.01);
+  EXPECT_NE(verdict(job, located), verify::Verdict::refuted);
+}
+
+TEST(JobsLocateSolid, AnEarlierResultIsAStart) {
+  SolidLocateJob job = block_job();
+  job.blank.bytes = solid_files::obj(cases::block({78, -17, -13}, {124, 17, 11}));
+  const LocatedSolid far = made(job);
+  EXPECT_FALSE(far.document.inside());
+  EXPECT_FALSE(far.holds());
+  job.options.shift = 120;
+  const LocatedSolid found = made(job);
+  ASSERT_TRUE(found.document.inside());
+  job.options.shift = 1;
+  job.start = File{"found.json", found.result};
+  const LocatedSolid again = made(job);
+  ASSERT_TRUE(again.document.inside());
+  EXPECT_EQ(again.document.window.start.quaternion, found.document.pose.quaternion);
+  EXPECT_EQ(again.document.window.start.shift, found.document.pose.shift);
+  ASSERT_EQ(again.document.inputs.size(), 3U);
+  EXPECT_EQ(again.document.inputs[2].role, "start");
+  EXPECT_EQ(again.document.inputs[2].file.sha256, io::sha256(found.result));
+  EXPECT_NE(verdict(job, again), verify::Verdict::refuted);
+}
+
+TEST(JobsLocateSolid, APartThatDoesNotFitHasNoClearance) {
+  SolidLocateJob job = block_job();
+  job.blank.bytes = solid_files::obj(cases::block({-19, -17, -13}, {19, 17, 11}));
+  const LocatedSolid located = made(job);
+  EXPECT_FALSE(located.holds());
+  const auto json = cases::Json::parse(located.result);
+  EXPECT_EQ(json["inside"], false);
+  for (const char* field : {"clearance", "gap", "shortfall"}) EXPECT_TRUE(json[field].is_null()) << field;
+  EXPECT_NE(verdict(job, located), verify::Verdict::refuted);
+}
+
+TEST(JobsLocateSolid, ADemandThatIsMissedIsNoYes) {
+  SolidLocateJob job = block_job();
+  job.options.min_allowance = 1.9;
+  EXPECT_TRUE(made(job).holds());
+  job.options.min_allowance = 2.5;
+  const LocatedSolid located = made(job);
+  EXPECT_FALSE(located.holds());
+  EXPECT_NEAR(*located.document.shortfall(), 0.5, 1e-3);
+  EXPECT_GE(*located.document.shortfall(), 0.5);
+}
+
+TEST(JobsLocateSolid, InchesAreMillimetresInside) {
+  SolidLocateJob job = block_job();
+  job.part.bytes = solid_files::stl_text(cases::block({-0.75, -0.5, -0.25}, {0.75, 0.5, 0.25}));
+  job.blank.bytes = solid_files::obj(cases::block({-0.875, -0.625, -0.375}, {0.875, 0.625, 0.375}));
+  EXPECT_TRUE(warns(made(job), "suggest inches"));
+  job.options.units = io::SolidUnit::inch;
+  const LocatedSolid located = made(job);
+  EXPECT_FALSE(warns(located, "suggest inches"));
+  EXPECT_EQ(cases::Json::parse(located.result)["inputs"][0]["units"], "inch");
+  EXPECT_NEAR(*located.document.clearance, 3.175, 1e-3);
+  EXPECT_NE(verdict(job, located), verify::Verdict::refuted);
+}
+
+TEST(JobsLocateSolid, MendsAreToldWithTheNameOfTheFile) {
+  SolidLocateJob job = block_job();
+  solid::Mesh blank = cases::block({-22, -17, -13}, {24, 17, 11});
+  std::swap(blank.triangles[3][0], blank.triangles[3][1]);
+  blank.triangles.push_back({0, 0, 1});
+  cases::append(blank, cases::block({21.5, 14, 8}, {22.5, 15, 9}));
+  job.blank.bytes = solid_files::stl_text(blank);
+  const LocatedSolid located = made(job);
+  EXPECT_TRUE(warns(located, "casting.obj: 1 of 24 triangles looked into the material"));
+  EXPECT_TRUE(warns(located, "casting.obj: 1 triangle has no area"));
+  EXPECT_TRUE(warns(located, "casting.obj: 1 shell lies within another")) << located.result;
+  EXPECT_TRUE(warns(located, "casting.obj: the file does not say its unit"));
+}
+
+TEST(JobsLocateSolid, TrianglesHaveTheNumbersOfTheirFile) {
+  SolidLocateJob job = block_job();
+  solid::Mesh blank = cases::block({-22, -17, -13}, {24, 17, 11});
+  blank.triangles.insert(blank.triangles.begin(), 5, {0, 0, 1});
+  job.blank.bytes = solid_files::stl_text(blank);
+  const LocatedSolid located = made(job);
+  EXPECT_EQ(located.document.inputs[1].triangles, 17U);
+  ASSERT_FALSE(located.document.contacts.empty());
+  for (const locate::SolidTouch& touch : located.document.contacts) EXPECT_GE(touch.blank_triangle, 5U);
+  EXPECT_NE(verdict(job, located), verify::Verdict::refuted);
+}
+
+TEST(JobsLocateSolid, AnyNumberOfThreadsGivesTheSameBytes) {
+  SolidLocateJob job = convex_job(8);
+  job.options.gap = 0.1;
+  std::vector<std::string> results;
+  for (const unsigned threads : {1U, 2U, 3U}) {
+    job.options.threads = threads;
+    LocatedSolid located = made(job);
+    located.document.threads = 1;
+    results.push_back(io::result_json(located.document));
+  }
+  EXPECT_EQ(results[0], results[1]);
+  EXPECT_EQ(results[0], results[2]);
+}
+
+TEST(JobsLocateSolid, TheAllowanceOfEveryCornerIsATable) {
+  SolidLocateJob job = block_job();
+  EXPECT_EQ(made(job).allowances, "");
+  job.options.freedom = SolidFreedom::xyz;
+  job.options.shift = 0;
+  job.outputs.allowances = true;
+  const std::string table = made(job).allowances;
+  EXPECT_EQ(table.substr(0, table.find('\n')),
+            "index,x_part,y_part,z_part,x_blank,y_blank,z_blank,allowance_mm,blank_triangle");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 9);
+  // The first corner of the first triangle has 1 mm above and 2 beside it, others 3 below.
+  EXPECT_TRUE(says(table, "\n0,-20,-15,-10,-20,-15,-10,")) << table;
+}
+
+TEST(JobsLocateSolid, BadFilesAreRefusedWithPlaceAndWayOut) {
+  SolidLocateJob job = block_job();
+  const auto refuses = [&](const std::string& bytes, const std::vector<std::string>& words) {
+    job.blank.bytes = bytes;
+    const Error error = refusal(job);
+    EXPECT_EQ(error.code, ErrorCode::bad_input);
+    EXPECT_EQ(error.message.rfind("casting.obj: ", 0), 0U) << error.message;
+    for (const std::string& word : words) EXPECT_TRUE(says(error.message, word)) << error.message;
+  };
+  solid::Mesh open = cases::block({-22, -17, -13}, {24, 17, 11});
+  open.triangles.pop_back();
+  refuses(solid_files::obj(open), {"open", "triangle", "close it"});
+  refuses(solid_files::points(open.vertices), {"points are not a closed surface", "mesh them"});
+  refuses("", {});
+  refuses("v 0 0 nan\n", {});
+}
+
+TEST(JobsLocateSolid, AStartIsAResultForSolids) {
+  SolidLocateJob job = block_job();
+  const auto refuses = [&](const std::string& bytes, const std::string& word) {
+    job.start = File{"start.json", bytes};
+    const Error error = refusal(job);
+    EXPECT_EQ(error.code, ErrorCode::bad_input);
+    EXPECT_TRUE(says(error.message, "start.json") && says(error.message, word)) << error.message;
+  };
+  const std::string good = made(job).result;
+  refuses("v 0 0 0", "JSON");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string bytes = good;
+    const std::size_t at = bytes.find(from, bytes.find("\n  \"quaternion\""));
+    return bytes.replace(at, from.size(), to);
+  };
+  refuses(with("\"quaternion\": [", "\"quaternion\": [2, "), "quaternion");
+  refuses(with("\"quaternion\": [", "\"quaternion\": [1"), "out of all measure");
+  refuses(with("\"x\": ", "\"x\": 1e300, \"was\": "), "out of all measure");
+  refuses(with("\"quaternion\": [", "\"theta\": ["), "theta");
+}
+
+TEST(SolidsAreTold, ByWhatIsInTheFiles) {
+  const solid::Mesh block = cases::block({0, 0, 0}, {1, 2, 3});
+  const File stl{"a.stl", solid_files::stl_binary(block)}, obj{"b", solid_files::obj(block)},
+      ply{"c.ply", solid_files::ply<float>(block, solid_files::PlyForm::text)},
+      points{"d.xyz", solid_files::points(block.vertices)}, outline{"e.csv", "0 0\n8 0\n8 8\n"},
+      empty{"f.STL", ""}, step{"g.step", "ISO-10303-21;"}, drawing{"h.svg", "<?xml version=\"1.0\"?><svg/>"};
+  const auto solids = [](const File& part, const File& blank) {
+    const Result<bool> both = are_solids(part, blank);
+    EXPECT_TRUE(both.has_value()) << (both ? "" : both.error().message);
+    return both.value_or(false);
+  };
+  for (const File& part : {stl, obj, ply, empty, step})
+    for (const File& blank : {stl, obj, ply, empty, step}) EXPECT_TRUE(solids(part, blank));
+  for (const File& part : {outline, points, drawing})
+    for (const File& blank : {outline, points, drawing, ply}) EXPECT_FALSE(solids(part, blank));
+  const auto refused = [](const File& part, const File& blank) {
+    const Result<bool> both = are_solids(part, blank);
+    EXPECT_FALSE(both.has_value());
+    if (both) return std::string();
+    EXPECT_EQ(both.error().code, ErrorCode::bad_input);
+    return both.error().message;
+  };
+  EXPECT_TRUE(says(refused(stl, outline), "a.stl is a solid and e.csv is none"));
+  EXPECT_TRUE(says(refused(drawing, obj), "b is a solid and h.svg is none"));
+  EXPECT_TRUE(says(refused(stl, points), "d.xyz: points are not a closed surface"));
+  EXPECT_TRUE(says(refused(points, stl), "d.xyz: points are not a closed surface"));
+}
+
+}  // namespace
+}  // namespace lekalo::jobs::jobs_locate_solid_test
