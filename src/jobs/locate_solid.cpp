@@ -12,6 +12,7 @@
 #include "lekalo/base/rounding.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/draw/solid_picture.hpp"
+#include "lekalo/io/locate/solid_certificate.hpp"
 #include "lekalo/io/text/sha256.hpp"
 #include "lekalo/locate/solid_allowance.hpp"
 #include "lekalo/solid/triangle_tree.hpp"
@@ -45,27 +46,35 @@ void warn_of_names(const SolidLocateJob& job, std::vector<std::string>& warnings
     if (const auto warning = warning_of_name(name)) warnings.push_back(*warning);
 }
 
-/// Takes off a clearance what the numbers of a text may be off, and the decimals of the pose: these are
-/// within half a last place of the doubles whose clearance this is, and turn no point of the part by more.
+/// Takes off a clearance what the decimals of the pose lose: they are within half a last place of the doubles
+/// whose clearance this is, and so is what they do to any point of the part.
 std::optional<double> safe_clearance(const locate::SolidPlacement& found, const SolidInputs& in) {
   if (!found.inside) return std::nullopt;
-  constexpr double kDiagonal = 1.75;  // more than that of a cube
   double far = norm(found.pose.shift);
   for (const Vector p : in.problem.part.vertices) far = std::max(far, norm(p));
-  const double errors = kDiagonal * (in.part.coordinate_error + in.blank.coordinate_error) + 0x1p-49 * far;
-  const double safe = difference_rounded_down(found.clearance, errors);
+  const double safe = difference_rounded_down(found.clearance, 0x1p-49 * far);
   if (!(safe > 0)) return std::nullopt;
   return safe;
 }
 
-/// The search of the whole window proves nothing as long as nobody can recheck it.
-Result<locate::SolidPlacement> placed(const SolidInputs& in, const SolidLocateOptions& o,
-                                      const RunControl& run, io::SolidDocument& d) {
+/// What a method found. One that proves nothing has neither bound nor proof.
+struct Found {
+  std::string status = "unproved";
+  locate::SolidPlacement best;
+  std::optional<double> upper_bound;
+  locate::SolidProof proof;
+};
+
+Result<Found> found_by_method(const SolidInputs& in, const SolidLocateOptions& o, const RunControl& run) {
   const locate::SolidOptions how{o.gap, o.min_allowance, o.threads, run};
-  d.status = "unproved";
-  if (o.method == SolidMethod::climb) return locate::place_solid(in.problem, how);
-  LEKALO_TRY(locate::SolidResult found, locate::locate_solid(in.problem, how));
-  return std::move(found.best);
+  Found found;
+  if (o.method == SolidMethod::climb) {
+    LEKALO_TRY(found.best, locate::place_solid(in.problem, how));
+    return found;
+  }
+  LEKALO_TRY(locate::SolidResult result, locate::locate_solid(in.problem, how));
+  return Found{io::name_of(result.status), std::move(result.best), result.upper_bound,
+               std::move(result.proof)};
 }
 
 std::vector<locate::SolidTouch> with_file_numbers(std::vector<locate::SolidTouch> contacts,
@@ -109,23 +118,70 @@ Result<std::string> picture(const SolidLocateJob& job, const SolidInputs& in, co
   return draw::solid_png(scene, 1600, d.threads);
 }
 
+/// Leaves the proof in the document, or makes it a document of its own.
+void place_proof(const SolidLocateJob& job, LocatedSolid& made) {
+  io::SolidDocument& d = made.document;
+  const bool keep = !job.outputs.certificate.empty();
+  d.certificate_boxes = io::proof_size(d.proof);
+  if (d.proof.trees.empty() || (!keep && d.certificate_boxes <= kInlineProof)) return;
+  made.certificate = io::certificate_text(d);
+  d.proof = {};
+  if (keep)
+    d.certificate_file = io::FileRecord{job.outputs.certificate, io::sha256(made.certificate)};
+  else
+    d.warnings.push_back(
+        fmt::format("the certificate has {} boxes, more than the {} that go into a result, and is not kept; "
+                    "--certificate FILE keeps it",
+                    d.certificate_boxes, kInlineProof));
+}
+
+/// Puts the bytes about to be handed out before the independent checker, with the proof also where that is
+/// too long to be kept.
 Result<void> self_check(const SolidLocateJob& job, const LocatedSolid& made) {
   verify::LocateInputs inputs{
       {"result", made.result}, {job.part.name, job.part.bytes}, {job.blank.name, job.blank.bytes}, {}};
-  return held_against(verify::verify_locate(inputs), verify::Verdict::unproved);
+  std::string with_proof;
+  if (!made.certificate.empty()) inputs.certificate = {"certificate", made.certificate};
+  if (inputs.certificate && !made.document.certificate_file) {
+    io::SolidDocument document = made.document;
+    document.certificate_file = io::FileRecord{"certificate", io::sha256(made.certificate)};
+    with_proof = io::result_json(document);
+    inputs.result.bytes = with_proof;
+  }
+  return held_against(verify::verify_locate(inputs),
+                      made.document.upper_bound ? verify::Verdict::confirmed : verify::Verdict::unproved);
 }
 
-Result<locate::SolidPlacement> searched(const SolidInputs& in, const SolidLocateOptions& o,
-                                        const RunControl& run, const Stopwatch& stopwatch,
-                                        io::SolidDocument& d) {
+Result<Found> searched(const SolidInputs& in, const SolidLocateOptions& o, const RunControl& run,
+                       const Stopwatch& stopwatch, double& seconds) {
   const auto now = [&] { return stopwatch ? stopwatch() : 0; };
   // The search looks at the control itself, and ends with its best so far.
   const RunControl nobody;
   const Listening listening(nobody);
   const double start = now();
-  LEKALO_TRY(locate::SolidPlacement found, placed(in, o, run, d));
-  d.seconds = now() - start;
+  Result<Found> found = found_by_method(in, o, run);
+  seconds = now() - start;
   return found;
+}
+
+io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&& found) {
+  io::SolidDocument d;
+  d.method = name_of(job.options.method), d.threads = job.options.threads;
+  d.inputs = input_records(job, in);
+  d.warnings = job.warnings;
+  d.warnings.insert(d.warnings.end(), in.notices.begin(), in.notices.end());
+  warn_of_names(job, d.warnings);
+  d.work = found.best.work, d.freedom = job.options.freedom;
+  d.window = {in.problem.start, in.pivot, job.options.shift, in.turn_deg};
+  d.pose = found.best.pose, d.clearance = safe_clearance(found.best, in);
+  d.upper_bound = found.upper_bound, d.min_allowance = job.options.min_allowance;
+  d.status = found.status;
+  if (d.status == io::name_of(locate::Status::optimal) && !d.inside())
+    d.status = io::name_of(locate::Status::stopped);
+  if (d.inside()) d.contacts = with_file_numbers(std::move(found.best.contacts), in);
+  d.proof = std::move(found.proof);
+  d.part_numbers = in.part.numbers, d.blank_numbers = in.blank.numbers;
+  return d;
 }
 
 }  // namespace
@@ -137,28 +193,21 @@ const char* name_of(SolidMethod method) noexcept {
 Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& run,
                                   const Stopwatch& stopwatch) {
   LEKALO_TRY(SolidInputs in, read_inputs(job));
-  LocatedSolid made;
-  io::SolidDocument& d = made.document;
-  LEKALO_TRY(locate::SolidPlacement found, searched(in, job.options, run, stopwatch, d));
+  double seconds = 0;
+  LEKALO_TRY(Found found, searched(in, job.options, run, stopwatch, seconds));
   // What was found is told to the end, whoever has asked for the stop.
   const RunControl nobody;
   std::optional<Listening> to_the_end;
   if (run.stop_requested()) to_the_end.emplace(nobody);
-  d.method = name_of(job.options.method), d.threads = job.options.threads;
-  d.inputs = input_records(job, in);
-  d.warnings = job.warnings;
-  d.warnings.insert(d.warnings.end(), in.notices.begin(), in.notices.end());
-  warn_of_names(job, d.warnings);
-  d.work = found.work, d.freedom = job.options.freedom;
-  d.window = {in.problem.start, in.pivot, job.options.shift, in.turn_deg};
-  d.pose = found.pose, d.clearance = safe_clearance(found, in);
-  d.min_allowance = job.options.min_allowance;
-  if (d.inside()) d.contacts = with_file_numbers(std::move(found.contacts), in);
-  if (job.outputs.allowances) made.allowances = allowances_csv(in, d);
+  LocatedSolid made;
+  made.document = document_of(job, in, std::move(found));
+  made.document.seconds = seconds;
+  place_proof(job, made);
+  if (job.outputs.allowances) made.allowances = allowances_csv(in, made.document);
   if (job.outputs.picture) {
-    LEKALO_TRY(made.picture, picture(job, in, d));
+    LEKALO_TRY(made.picture, picture(job, in, made.document));
   }
-  made.result = io::result_json(d);
+  made.result = io::result_json(made.document);
   LEKALO_CHECK(self_check(job, made));
   return made;
 }

@@ -42,12 +42,12 @@ tl::unexpected<Error> refuse_pair(const std::string& solid, const std::string& o
                              solid, outline));
 }
 
-Result<void> read_solid(const File& file, const io::SolidOptions& how, solid::Mesh& mesh, ReadSolid& read,
-                        std::vector<std::string>& notices) {
+Result<void> read_solid(const File& file, const io::SolidOptions& how, solid::Mesh& mesh, double& error,
+                        ReadSolid& read, std::vector<std::string>& notices) {
   LEKALO_TRY(io::SolidFile parsed, io::parse_solid(file.bytes, file.name, how));
   if (parsed.mesh.triangles.empty() && !parsed.mesh.vertices.empty()) return refuse_points(file.name);
   notices.insert(notices.end(), parsed.notices.begin(), parsed.notices.end());
-  read.unit = parsed.unit, read.coordinate_error = parsed.coordinate_error;
+  error = parsed.coordinate_error, read.unit = parsed.unit;
   read.triangles = parsed.mesh.triangles.size();
   Result<solid::ClosedMesh> closed = solid::closed_mesh(std::move(parsed.mesh));
   if (!closed) return failure(closed.error().code, fmt::format("{}: {}", file.name, closed.error().message));
@@ -127,9 +127,10 @@ Result<bool> are_solids(const File& part, const File& blank) {
 Result<SolidInputs> read_inputs(const SolidLocateJob& job) {
   SolidInputs in;
   const io::SolidOptions how{job.options.units};
-  LEKALO_CHECK(read_solid(job.part, how, in.problem.part, in.part, in.notices));
-  LEKALO_CHECK(read_solid(job.blank, how, in.problem.blank, in.blank, in.notices));
-  LEKALO_CHECK(read_start(job.start, in.problem.start));
+  locate::SolidProblem& p = in.problem;
+  LEKALO_CHECK(read_solid(job.part, how, p.part, p.part_coordinate_error, in.part, in.notices));
+  LEKALO_CHECK(read_solid(job.blank, how, p.blank, p.blank_coordinate_error, in.blank, in.notices));
+  LEKALO_CHECK(read_start(job.start, p.start));
   set_window(job.options, in);
   return in;
 }

@@ -14,7 +14,6 @@ struct ReadSolid {
   std::size_t triangles = 0;  ///< of the file
   /// The number in the file of each triangle of the mesh.
   std::vector<std::uint32_t> numbers;
-  double coordinate_error = 0;  ///< mm
 };
 
 /// The files of a job, read.

@@ -4,6 +4,7 @@
 
 #include "lekalo/base/rounding.hpp"
 #include "lekalo/base/version.hpp"
+#include "lekalo/io/locate/solid_certificate.hpp"
 #include "result_lines.hpp"
 
 namespace lekalo::io {
@@ -70,7 +71,11 @@ void write_placement(JsonWriter& json, const SolidDocument& d) {
 }
 
 void write_proof(JsonWriter& json, const SolidDocument& d) {
-  lines(json, {{"certificate", nullptr}});
+  line_of(json, "certificate");
+  if (d.proof.trees.empty())
+    json.value(nullptr);
+  else
+    write_solid_certificate(json, d.proof, {d.part_numbers, d.blank_numbers});
   line_of(json, "certificate_file");
   if (d.certificate_file)
     json.object({{"path", d.certificate_file->path},
@@ -96,6 +101,10 @@ std::string result_json(const SolidDocument& d) {
   line_of(json, "run").object({{"seconds", d.seconds}, {"threads", d.threads}});
   json.line(0).end();
   return json.take() + "\n";
+}
+
+std::string certificate_text(const SolidDocument& d) {
+  return solid_certificate_json(d.proof, {d.part_numbers, d.blank_numbers});
 }
 
 const char* name_of(locate::SolidFreedom freedom) noexcept {

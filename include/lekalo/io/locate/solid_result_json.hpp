@@ -11,8 +11,8 @@
 
 namespace lekalo::io {
 
-/// The result document of `lekalo locate` for solids (docs/formats.md, "Results for solids"). Triangles have
-/// the numbers of their file.
+/// The result document of `lekalo locate` for solids (docs/formats.md, "Results for solids"). Triangles of
+/// contacts have the numbers of their file.
 
 /// One file that the result was made from. `unit` and `triangles` are for solids only.
 struct SolidInputRecord {
@@ -45,6 +45,11 @@ struct SolidDocument {
   std::optional<double> upper_bound;
   double min_allowance = 0;
   std::vector<locate::SolidTouch> contacts;
+  /// Without trees when there is none, or when it is in certificate_file; its triangles are those of the
+  /// meshes that were placed.
+  locate::SolidProof proof;
+  /// The numbers of these triangles in their files.
+  std::vector<std::uint32_t> part_numbers, blank_numbers;
   std::optional<FileRecord> certificate_file;
   /// The boxes of the certificate, wherever it is.
   std::size_t certificate_boxes = 0;
@@ -59,6 +64,9 @@ struct SolidDocument {
 
 /// The document as JSON text, in the form of that of outlines. \pre every number is finite
 [[nodiscard]] std::string result_json(const SolidDocument& document);
+
+/// The document of a certificate file. \pre there is a proof
+[[nodiscard]] std::string certificate_text(const SolidDocument& document);
 
 /// Names as they stand in results.
 [[nodiscard]] const char* name_of(locate::SolidFreedom freedom) noexcept;
