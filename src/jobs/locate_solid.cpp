@@ -115,6 +115,7 @@ Result<std::string> picture(const SolidLocateJob& job, const SolidInputs& in, co
   scene.placement = {d.pose, d.inside(), d.clearance.value_or(0), d.contacts, d.work};
   scene.upper_bound = d.upper_bound;
   scene.min_allowance = d.min_allowance, scene.shortfall = d.shortfall().value_or(0);
+  if (job.outputs.picture == SolidPictureForm::html) return draw::solid_page(scene);
   return draw::solid_png(scene, 1600, d.threads);
 }
 

@@ -27,19 +27,36 @@ class Solids : public testing::Test {
 };
 
 TEST_F(Solids, APlacementIsFoundToldAndConfirmed) {
-  const Ran ran =
-      locate({"--min-allowance", "1.9", "--gap", "0.05", "-o", "r.json", "--json", "--allowances", "a.csv"});
+  const Ran ran = locate({"--min-allowance", "1.9", "--gap", "0.05", "-o", "r.json", "--json", "--allowances",
+                          "a.csv", "--picture", "p.png", "--certificate", "c.json"});
   ASSERT_EQ(ran.status, 0) << ran.err;
   const Json result = ran.json();
+  EXPECT_EQ(result["status"], "optimal");
   EXPECT_NEAR(result["clearance"], 2, 0.05);
   EXPECT_LE(result["clearance"], 2.0);
-  EXPECT_EQ(read_bytes(folder_ / "r.json"), ran.out);
-  for (const char* words : {"the part lies at   x = ", "turned by  ", "minimum allowance  1.9", "1.9 mm: met",
-                            "nearest at         blank (", "wrote              r.json",
-                            "wrote              a.csv", "part.stl: the file does not say its unit"})
+  EXPECT_GE(result["upper_bound"], 2.0);
+  EXPECT_LE(result["gap"], 0.05);
+  EXPECT_TRUE(result["certificate"].is_null());
+  EXPECT_EQ(result["certificate_file"]["path"], "c.json");
+  const auto files = folder_.files();
+  EXPECT_EQ(files.size(), 6U);
+  EXPECT_EQ(files.at("r.json"), ran.out);
+  EXPECT_EQ(files.at("p.png").substr(0, 8), "\x89PNG\r\n\x1a\n");
+  EXPECT_EQ(files.at("a.csv").rfind("index,x_part,", 0), 0U);
+  for (const char* words :
+       {"The best placement was found and proved.", "the part lies at   x = ", "turned by  ",
+        "minimum allowance  1.9", "1.9 mm: met", "no placement within 5 mm and 5 degrees of the start",
+        "nearest at         blank (", "wrote              r.json", "wrote              a.csv",
+        "part.stl: the file does not say its unit"})
     EXPECT_NE(ran.err.find(words), std::string::npos) << words << " is not in\n" << ran.err;
-  EXPECT_EQ(read_bytes(folder_ / "a.csv").rfind("index,x_part,", 0), 0U);
-  EXPECT_LE(verify("r.json").status, 1);
+  EXPECT_EQ(verify("r.json").status, 0);
+  write_bytes(folder_ / "c.json", files.at("c.json") + "\n");
+  EXPECT_EQ(verify("r.json").status, 4);
+}
+
+TEST_F(Solids, APageThatTurnsIsAPicture) {
+  ASSERT_EQ(locate({"--method", "climb", "--picture", "p.html"}).status, 0);
+  EXPECT_NE(read_bytes(folder_ / "p.html").find("<canvas"), std::string::npos);
 }
 
 TEST_F(Solids, AQuickPlacementProvesNothing) {
@@ -67,7 +84,16 @@ TEST_F(Solids, APartThatDoesNotFitIsToldWithWhatToTry) {
   EXPECT_EQ(ran.json()["inside"], false);
   for (const char* words : {"inside the blank", "the part sticks out of the blank", "--shift"})
     EXPECT_NE(ran.err.find(words), std::string::npos) << ran.err;
-  EXPECT_LE(verify("r.json").status, 1);
+  EXPECT_EQ(verify("r.json").status, 0);
+}
+
+TEST_F(Solids, ADemandThatNoPoseMeetsIsProvedImpossible) {
+  const Ran ran = locate({"--min-allowance", "2.1", "--gap", "0.05", "-o", "r.json", "--json"});
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  EXPECT_EQ(ran.json()["status"], "infeasible");
+  EXPECT_NEAR(ran.json()["shortfall"], 0.1, 0.05);
+  EXPECT_NE(ran.err.find("this is proved"), std::string::npos) << ran.err;
+  EXPECT_EQ(verify("r.json").status, 0);
 }
 
 TEST_F(Solids, AnEarlierResultIsTheStart) {
@@ -89,9 +115,10 @@ TEST_F(Solids, InterruptedTheSearchKeepsItsBest) {
   program.send_after_work(SIGINT, 0.3);
   const Ran ran = program.wait();
   EXPECT_EQ(ran.status, 0) << ran.err;
-  EXPECT_LE(verify("r.json").status, 1);
+  EXPECT_EQ(verify("r.json").status, 0);
   const Ran timed = locate({"--gap", "1e-6", "--time", "0.3", "--json"});
   EXPECT_EQ(timed.status, 0) << timed.err;
+  EXPECT_EQ(timed.json()["status"], "stopped");
   EXPECT_TRUE(timed.json()["inside"].get<bool>());
 }
 
@@ -157,6 +184,14 @@ INSTANTIATE_TEST_SUITE_P(
                 kOutlines + Words{"--freedom", "xyz", "--shift", "3", "--tilt", "2"},
                 2,
                 {"--freedom, --tilt and --shift are for solids"}},
+        Refused{"a drawing of solids",
+                kSolids + Words{"--picture", "p.svg"},
+                2,
+                {"--picture p.svg is for outlines"}},
+        Refused{"a page of outlines",
+                kOutlines + Words{"--picture", "p.html"},
+                2,
+                {"--picture p.html is for solids"}},
         Refused{"a method of solids",
                 kOutlines + Words{"--method", "climb"},
                 2,

@@ -130,9 +130,39 @@ TEST(JobsLocateSolid, ThePartIsFoundWhereItWasTurnedAway) {
   const SolidLocateJob job = convex_job();
   const LocatedSolid located = made(job);
   ASSERT_TRUE(located.document.inside());
-  EXPECT_NEAR(*located.document.clearance, 2, 0.0101);
+  EXPECT_EQ(located.document.status, "optimal");
   EXPECT_LE(*located.document.clearance, 2.0);
-  EXPECT_NE(verdict(job, located), verify::Verdict::refuted);
+  EXPECT_GE(*located.document.upper_bound, 2.0);
+  EXPECT_LE(*located.document.upper_bound - *located.document.clearance, 0.01);
+  EXPECT_GT(located.document.certificate_boxes, 0U);
+  EXPECT_TRUE(cases::Json::parse(located.result)["certificate"].is_object());
+  EXPECT_TRUE(located.certificate.empty());
+  EXPECT_EQ(verdict(job, located), verify::Verdict::confirmed);
+}
+
+TEST(JobsLocateSolid, TheCertificateMayBeAFileOfItsOwn) {
+  SolidLocateJob job = convex_job();
+  job.options.gap = 0.1;
+  job.outputs.certificate = "c.json";
+  const LocatedSolid located = made(job);
+  const auto json = cases::Json::parse(located.result);
+  EXPECT_TRUE(json["certificate"].is_null());
+  EXPECT_EQ(json["certificate_file"]["path"], "c.json");
+  EXPECT_EQ(json["certificate_file"]["sha256"], io::sha256(located.certificate));
+  EXPECT_EQ(json["certificate_file"]["boxes"], located.document.certificate_boxes);
+  EXPECT_EQ(verdict(job, located), verify::Verdict::confirmed);
+}
+
+TEST(JobsLocateSolid, ASearchThatIsStoppedHasItsBoundProved) {
+  SolidLocateJob job = convex_job();
+  job.options.gap = 1e-6;
+  RunControl run;
+  run.work_limit = 30;
+  const Result<LocatedSolid> located = locate_solid(job, run);
+  ASSERT_TRUE(located.has_value());
+  EXPECT_EQ(located->document.status, "stopped");
+  EXPECT_GE(*located->document.upper_bound, 2.0);
+  EXPECT_EQ(verdict(job, *located), verify::Verdict::confirmed);
 }
 
 TEST(JobsLocateSolid, OnlyTheFreedomsAskedForAreUsed) {

@@ -39,7 +39,9 @@ Result<jobs::SolidLocateJob> read_solids(const LocateOptions& o, jobs::File part
   LEKALO_CHECK(read_if_named(o.start, job.start));
   job.outputs.certificate = o.outputs.certificate;
   job.outputs.allowances = o.outputs.allowances;
-  job.outputs.picture = !o.picture.empty();
+  if (!o.picture.empty())
+    job.outputs.picture =
+        o.picture.ends_with(".html") ? jobs::SolidPictureForm::html : jobs::SolidPictureForm::png;
   return job;
 }
 

@@ -39,13 +39,16 @@ struct SolidLocateOptions {
   unsigned threads = kUsualThreads;
 };
 
+/// A picture, or a page that turns in a browser.
+enum class SolidPictureForm { png, html };
+
 /// The documents that are made beside the result.
 struct SolidLocateOutputs {
   /// The name of a certificate file. When it is empty, the proof stands in the result, if it is not too long.
   std::string certificate;
   /// The allowance at every corner of the part as CSV.
   bool allowances = false;
-  bool picture = false;  ///< PNG
+  std::optional<SolidPictureForm> picture;
 };
 
 struct SolidLocateJob {
