@@ -57,7 +57,7 @@ std::optional<double> safe_clearance(const locate::SolidPlacement& found, const 
   return safe;
 }
 
-/// What a method found. One that proves nothing has neither bound nor proof.
+/// The findings of a method. One that proves nothing has neither bound nor proof.
 struct Found {
   std::string status = "unproved";
   locate::SolidPlacement best;
@@ -196,7 +196,7 @@ Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& r
   LEKALO_TRY(SolidInputs in, read_inputs(job));
   double seconds = 0;
   LEKALO_TRY(Found found, searched(in, job.options, run, stopwatch, seconds));
-  // What was found is told to the end, whoever has asked for the stop.
+  // The findings are told to the end, whoever has asked for the stop.
   const RunControl nobody;
   std::optional<Listening> to_the_end;
   if (run.stop_requested()) to_the_end.emplace(nobody);

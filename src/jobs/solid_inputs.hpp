@@ -8,7 +8,7 @@
 
 namespace lekalo::jobs {
 
-/// What a file of a solid held beside its triangles.
+/// A file of a solid has this beside its triangles.
 struct ReadSolid {
   io::SolidUnit unit = io::SolidUnit::millimetre;
   std::size_t triangles = 0;  ///< of the file

@@ -13,7 +13,8 @@ namespace {
 
 using Method = jobs::LocateMethod;
 
-/// What a word means where the files are outlines in the plane, and where they are solids.
+/// A word means one thing where the files are outlines in the plane, and another, or nothing, where they are
+/// solids.
 template <class Outline, class Solid>
 struct Either {
   std::optional<Outline> outline;

@@ -58,7 +58,7 @@ struct SolidDocument {
   unsigned threads = 1;
 
   [[nodiscard]] bool inside() const noexcept { return clearance.has_value(); }
-  /// What is missing of the demanded allowance, mm; none where the part is not inside.
+  /// The rest that is missing of the demanded allowance, mm; none where the part is not inside.
   [[nodiscard]] std::optional<double> shortfall() const noexcept;
 };
 
