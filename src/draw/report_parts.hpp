@@ -9,7 +9,7 @@
 
 namespace lekalo::draw {
 
-/// What the reports of a placement share, in the plane and in space.
+/// The parts that reports of a placement share, in the plane and in space.
 
 /// The page is A4, upright.
 inline constexpr Rect kReportPage{0, 0, 210, 297};

@@ -40,6 +40,19 @@ std::string window_text(const SolidReport& report) {
   return fmt::format("{} and turned by up to {}° about any axis", shift, report.turn_deg);
 }
 
+std::string freedom_text(const SolidReport& report) {
+  const std::string shift = fmt::format("±{} mm", report.shift), turn = fmt::format("±{}°", report.turn_deg);
+  switch (report.freedom) {
+    case locate::SolidFreedom::xyz:
+      return "xyz, " + shift;
+    case locate::SolidFreedom::c_xyz:
+      return fmt::format("c-xyz, {}, {}", shift, turn);
+    case locate::SolidFreedom::six:
+      break;
+  }
+  return fmt::format("six, {}, {}", shift, turn);
+}
+
 class SolidReportPage {
  public:
   SolidReportPage(const SolidReport& report, double fine, unsigned threads)
@@ -121,6 +134,7 @@ class SolidReportPage {
     ReportRows rows(kLeft, sheet.heading(kLeft, top, "Placement"), sheet);
     rows.add("minimum allowance", clearance_text(scene_, look_), "clearance",
              scene_.placement.inside ? kInk : kOutside, true);
+    rows.add("freedom, window", freedom_text(report_), "window");
     for (const SolidFigure& figure : figures_of(scene_, look_))
       rows.add(figure.what, figure.value, figure.kind, figure.bad ? kOutside : kInk, figure.bad);
     const double left = draw_proof(proof(), kLeft, rows.end() + 1.5, sheet);

@@ -20,7 +20,7 @@ struct SolidReportFile {
   std::string about;
 };
 
-/// What a technologist decides by and files away. docs/design/picture.md.
+/// A placement as a technologist decides by it and files it away. docs/design/picture.md.
 struct SolidReport {
   SolidScene scene;
   /// The poses that were looked at, as in locate::SolidProblem: mm, degrees.

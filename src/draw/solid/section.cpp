@@ -20,7 +20,8 @@ constexpr int kAcross = 3;
 constexpr double kHatch = 9;  ///< pixels between the lines
 constexpr Colour kPartCut{255, 236, 206}, kBlankCut{226, 232, 239}, kHatchLine{150, 163, 178};
 
-/// Where an edge goes through the plane, from the side behind it: the same number from both of its triangles.
+/// Returns where an edge goes through the plane. It begins behind the plane, whichever triangle asks, so both
+/// get the same number.
 Point crossing(ScreenPoint behind, ScreenPoint before) {
   const double share = behind.z / (behind.z - before.z);
   return {behind.x + share * (before.x - behind.x), behind.y + share * (before.y - behind.y)};
