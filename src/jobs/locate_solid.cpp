@@ -4,20 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <utility>
 
 #include "handed_out.hpp"
 #include "lekalo/base/rounding.hpp"
 #include "lekalo/base/stop.hpp"
-#include "lekalo/draw/solid_picture.hpp"
 #include "lekalo/io/locate/solid_certificate.hpp"
 #include "lekalo/io/text/sha256.hpp"
-#include "lekalo/locate/solid_allowance.hpp"
-#include "lekalo/solid/triangle_tree.hpp"
 #include "lekalo/verify/verify.hpp"
-#include "solid_inputs.hpp"
+#include "solid_documents.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -84,39 +80,6 @@ std::vector<locate::SolidTouch> with_file_numbers(std::vector<locate::SolidTouch
     touch.blank_triangle = in.blank.numbers[touch.blank_triangle];
   }
   return contacts;
-}
-
-/// One line for each corner of the part.
-std::string allowances_csv(const SolidInputs& in, const io::SolidDocument& d) {
-  const solid::TriangleTree blank(in.problem.blank);
-  const solid::Motion motion = motion_of(d.pose);
-  std::string text = "index,x_part,y_part,z_part,x_blank,y_blank,z_blank,allowance_mm,blank_triangle\n";
-  std::optional<std::uint32_t> near;
-  for (std::size_t k = 0; k < in.problem.part.vertices.size(); ++k) {
-    ask();
-    const Vector p = in.problem.part.vertices[k], q = motion(p);
-    const solid::Nearest nearest = *blank.nearest(q, std::numeric_limits<double>::infinity(), near);
-    near = nearest.triangle;
-    const double allowance = blank.holds(q) ? nearest.low : -nearest.high;
-    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", k, p.x, p.y, p.z, q.x, q.y, q.z, allowance,
-                        in.blank.numbers[nearest.triangle]);
-  }
-  return text;
-}
-
-Result<std::string> picture(const SolidLocateJob& job, const SolidInputs& in, const io::SolidDocument& d) {
-  locate::MeasuredPart part =
-      locate::measured_part(in.problem.part, in.problem.blank, motion_of(d.pose), 40'000, d.threads);
-  draw::SolidScene scene;
-  scene.part_name = job.part.name, scene.blank_name = job.blank.name;
-  scene.status = d.status, scene.method = d.method;
-  scene.part = std::move(part.mesh), scene.allowances = std::move(part.allowances);
-  scene.blank = in.problem.blank;
-  scene.placement = {d.pose, d.inside(), d.clearance.value_or(0), d.contacts, d.work};
-  scene.upper_bound = d.upper_bound;
-  scene.min_allowance = d.min_allowance, scene.shortfall = d.shortfall().value_or(0);
-  if (job.outputs.picture == SolidPictureForm::html) return draw::solid_page(scene);
-  return draw::solid_png(scene, 1600, d.threads);
 }
 
 /// Leaves the proof in the document, or makes it a document of its own.
@@ -204,10 +167,7 @@ Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& r
   made.document = document_of(job, in, std::move(found));
   made.document.seconds = seconds;
   place_proof(job, made);
-  if (job.outputs.allowances) made.allowances = allowances_csv(in, made.document);
-  if (job.outputs.picture) {
-    LEKALO_TRY(made.picture, picture(job, in, made.document));
-  }
+  LEKALO_CHECK(add_pictures(job, in, made));
   made.result = io::result_json(made.document);
   LEKALO_CHECK(self_check(job, made));
   return made;

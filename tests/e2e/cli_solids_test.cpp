@@ -54,9 +54,10 @@ TEST_F(Solids, APlacementIsFoundToldAndConfirmed) {
   EXPECT_EQ(verify("r.json").status, 4);
 }
 
-TEST_F(Solids, APageThatTurnsIsAPicture) {
-  ASSERT_EQ(locate({"--method", "climb", "--picture", "p.html"}).status, 0);
+TEST_F(Solids, APageThatTurnsIsAPictureAndFourViewsAreAReport) {
+  ASSERT_EQ(locate({"--method", "climb", "--picture", "p.html", "--report", "r.pdf"}).status, 0);
   EXPECT_NE(read_bytes(folder_ / "p.html").find("<canvas"), std::string::npos);
+  EXPECT_EQ(read_bytes(folder_ / "r.pdf").substr(0, 5), "%PDF-");
 }
 
 TEST_F(Solids, AQuickPlacementProvesNothing) {
@@ -79,9 +80,10 @@ TEST_F(Solids, ADemandThatIsMissedIsExitStatusOne) {
 
 TEST_F(Solids, APartThatDoesNotFitIsToldWithWhatToTry) {
   write_bytes(folder_ / "casting.ply", solid_files::obj(cases::block({100, -17, -13}, {146, 17, 11})));
-  const Ran ran = locate({"--json", "-o", "r.json"});
+  const Ran ran = locate({"--json", "-o", "r.json", "--picture", "p.png", "--report", "r.svg"});
   EXPECT_EQ(ran.status, 1) << ran.err;
   EXPECT_EQ(ran.json()["inside"], false);
+  EXPECT_NE(read_bytes(folder_ / "r.svg").find("<svg"), std::string::npos);
   for (const char* words : {"inside the blank", "the part sticks out of the blank", "--shift"})
     EXPECT_NE(ran.err.find(words), std::string::npos) << ran.err;
   EXPECT_EQ(verify("r.json").status, 0);

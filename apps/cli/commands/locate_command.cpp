@@ -39,6 +39,7 @@ Result<jobs::SolidLocateJob> read_solids(const LocateOptions& o, jobs::File part
   LEKALO_CHECK(read_if_named(o.start, job.start));
   job.outputs.certificate = o.outputs.certificate;
   job.outputs.allowances = o.outputs.allowances;
+  job.outputs.report = o.outputs.report;
   if (!o.picture.empty())
     job.outputs.picture =
         o.picture.ends_with(".html") ? jobs::SolidPictureForm::html : jobs::SolidPictureForm::png;
@@ -105,6 +106,7 @@ Result<int> locate_solid(const LocateOptions& o, jobs::File part, jobs::File bla
   const std::vector<Output> documents{{&o.output, &made.result},
                                       {&o.outputs.certificate, &made.certificate},
                                       {&o.picture, &made.picture},
+                                      {&o.report, &made.report},
                                       {&o.allowances, &made.allowances}};
   LEKALO_TRY(const std::vector<std::string> written, write_all(o, made.result, documents));
   tell(solid_summary(made.document, written));

@@ -256,9 +256,10 @@ void check_method(const LocateWords& words, WordReader& read, LocateOptions& o) 
 }
 
 /// The options that solids have, too, and those that they alone have; all others are for outlines.
-constexpr std::array<std::string_view, 14> kOfBoth{
-    "--part", "--blank", "--units",  "--window",  "--gap",         "--method",     "--work",
-    "--time", "--json",  "--output", "--picture", "--certificate", "--allowances", "--min-allowance"};
+constexpr std::array<std::string_view, 15> kOfBoth{
+    "--part",    "--blank",  "--units",       "--window",     "--gap",
+    "--method",  "--work",   "--time",        "--json",       "--output",
+    "--picture", "--report", "--certificate", "--allowances", "--min-allowance"};
 constexpr std::array<std::string_view, 4> kOfSolids{"--freedom", "--tilt", "--shift", "--start"};
 
 bool is_typed(const FormOption& option) {

@@ -10,6 +10,7 @@
 #include "lekalo/io/locate/solid_result_json.hpp"
 #include "lekalo/jobs/file.hpp"
 #include "lekalo/jobs/locate.hpp"
+#include "lekalo/jobs/picture_form.hpp"
 
 namespace lekalo::jobs {
 
@@ -49,6 +50,7 @@ struct SolidLocateOutputs {
   /// The allowance at every corner of the part as CSV.
   bool allowances = false;
   std::optional<SolidPictureForm> picture;
+  std::optional<PictureForm> report;
 };
 
 struct SolidLocateJob {
@@ -67,7 +69,7 @@ struct LocatedSolid {
   io::SolidDocument document;
   /// The bytes of `document`, which are what was checked.
   std::string result;
-  std::string certificate, allowances, picture;
+  std::string certificate, allowances, picture, report;
 
   /// True if the answer is yes: the part lies in the blank and has the allowance.
   [[nodiscard]] bool holds() const noexcept { return document.inside() && !(*document.shortfall() > 0); }

@@ -1,0 +1,90 @@
+#include "solid_documents.hpp"
+
+#include <fmt/core.h>
+
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "lekalo/base/stop.hpp"
+#include "lekalo/draw/solid_picture.hpp"
+#include "lekalo/draw/solid_report.hpp"
+#include "lekalo/locate/solid_allowance.hpp"
+#include "lekalo/solid/triangle_tree.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+using solid::Vector;
+
+/// One line for each corner of the part.
+std::string allowances_csv(const SolidInputs& in, const io::SolidDocument& d) {
+  const solid::TriangleTree blank(in.problem.blank);
+  const solid::Motion motion = motion_of(d.pose);
+  std::string text = "index,x_part,y_part,z_part,x_blank,y_blank,z_blank,allowance_mm,blank_triangle\n";
+  std::optional<std::uint32_t> near;
+  for (std::size_t k = 0; k < in.problem.part.vertices.size(); ++k) {
+    ask();
+    const Vector p = in.problem.part.vertices[k], q = motion(p);
+    const solid::Nearest nearest = *blank.nearest(q, std::numeric_limits<double>::infinity(), near);
+    near = nearest.triangle;
+    const double allowance = blank.holds(q) ? nearest.low : -nearest.high;
+    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", k, p.x, p.y, p.z, q.x, q.y, q.z, allowance,
+                        in.blank.numbers[nearest.triangle]);
+  }
+  return text;
+}
+
+draw::SolidScene scene_of(const SolidLocateJob& job, const SolidInputs& in, const io::SolidDocument& d) {
+  locate::MeasuredPart part =
+      locate::measured_part(in.problem.part, in.problem.blank, motion_of(d.pose), 40'000, d.threads);
+  draw::SolidScene scene;
+  scene.part_name = job.part.name, scene.blank_name = job.blank.name;
+  scene.status = d.status, scene.method = d.method;
+  scene.part = std::move(part.mesh), scene.allowances = std::move(part.allowances);
+  scene.blank = in.problem.blank;
+  scene.placement = {d.pose, d.inside(), d.clearance.value_or(0), d.contacts, d.work};
+  scene.upper_bound = d.upper_bound;
+  scene.min_allowance = d.min_allowance, scene.shortfall = d.shortfall().value_or(0);
+  return scene;
+}
+
+Result<std::string> picture_of(const draw::SolidScene& scene, SolidPictureForm form, unsigned threads) {
+  if (form == SolidPictureForm::html) return draw::solid_page(scene);
+  return draw::solid_png(scene, 1600, threads);
+}
+
+Result<std::string> page_of(draw::SolidScene scene, const io::SolidDocument& d, PictureForm form) {
+  draw::SolidReport report;
+  report.scene = std::move(scene);
+  report.freedom = d.freedom, report.shift = d.window.shift, report.turn_deg = d.window.turn_deg;
+  for (const io::SolidInputRecord& input : d.inputs)
+    report.inputs.push_back(
+        {input.role, input.file,
+         input.unit ? fmt::format("{} triangles, {}", input.triangles, io::name_of(*input.unit)) : ""});
+  const bool kept = d.certificate_file || !d.proof.trees.empty();
+  report.certificate_boxes = kept ? d.certificate_boxes : 0, report.certificate_file = d.certificate_file;
+  report.warnings = d.warnings, report.work = d.work;
+  if (form == PictureForm::pdf) return draw::solid_report_pdf(report, d.threads);
+  if (form == PictureForm::png) return draw::solid_report_png(report, 1654, d.threads);
+  return draw::solid_report_svg(report, d.threads);
+}
+
+}  // namespace
+
+Result<void> add_pictures(const SolidLocateJob& job, const SolidInputs& in, LocatedSolid& made) {
+  const SolidLocateOutputs& wanted = job.outputs;
+  const io::SolidDocument& d = made.document;
+  if (wanted.allowances) made.allowances = allowances_csv(in, d);
+  if (!wanted.picture && !wanted.report) return {};
+  draw::SolidScene scene = scene_of(job, in, d);
+  if (wanted.picture) {
+    LEKALO_TRY(made.picture, picture_of(scene, *wanted.picture, d.threads));
+  }
+  if (wanted.report) {
+    LEKALO_TRY(made.report, page_of(std::move(scene), d, *wanted.report));
+  }
+  return {};
+}
+
+}  // namespace lekalo::jobs
