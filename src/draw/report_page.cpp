@@ -10,10 +10,6 @@
 namespace lekalo::draw {
 namespace {
 
-constexpr double kBetween = 5;
-constexpr Rect kLeft{kReportFrame.x, 0, 0.5 * (kReportFrame.width - kBetween), 0};
-constexpr Rect kRight{kReportFrame.x + kLeft.width + kBetween, 0, kLeft.width, 0};
-constexpr double kFooter = 4;
 constexpr double kLeastDrawing = 70, kUsualDrawing = 92, kMostDrawing = 150;  ///< heights, mm
 
 class Page {
@@ -30,7 +26,7 @@ class Page {
     Sheet sheet(scene_.items);
     const double top = draw_report_header("Placement of " + name("part"), "in the blank " + name("blank"),
                                           report_.document.status, sheet);
-    const double bottom = kReportFrame.bottom() - kFooter;
+    const double bottom = kReportFrame.bottom() - kReportFooter;
     choose_rows(bottom - top);
     const double below = height_below();
     const double height = std::min(most_drawing(), bottom - top - below);
@@ -50,10 +46,11 @@ class Page {
 
   /// Draws everything below the drawing, and returns where it ends.
   double sections(double top, Sheet& sheet) const {
-    const double left =
-        draw_proof(report_.proof, kLeft, draw_numbers(report_, look_, kLeft, top, sheet) + 1.5, sheet);
-    const double right = draw_contacts(
-        report_, look_, kRight, draw_histogram(report_, look_, kRight, top, sheet) + 1.5, contacts_, sheet);
+    const double left = draw_proof(report_.proof, kReportLeft,
+                                   draw_numbers(report_, look_, kReportLeft, top, sheet) + 1.5, sheet);
+    const double right =
+        draw_contacts(report_, look_, kReportRight,
+                      draw_histogram(report_, look_, kReportRight, top, sheet) + 1.5, contacts_, sheet);
     double y = draw_features(report_, look_, kReportFrame, std::max(left, right) + 1.5, rows_, sheet) + 1.5;
     y = draw_inputs(files(), kReportFrame, y, sheet) + 1.5;
     return draw_notes(notes(), kReportFrame, y, lines_, sheet);

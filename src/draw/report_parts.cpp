@@ -1,5 +1,7 @@
 #include "report_parts.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "draw/paper/colour.hpp"

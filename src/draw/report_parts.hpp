@@ -14,6 +14,12 @@ namespace lekalo::draw {
 /// The page is A4, upright.
 inline constexpr Rect kReportPage{0, 0, 210, 297};
 inline constexpr Rect kReportFrame{12, 10, 186, 277};
+/// The columns, whose heights are open, and the room of the line at the foot.
+inline constexpr double kReportBetween = 5;
+inline constexpr Rect kReportLeft{kReportFrame.x, 0, 0.5 * (kReportFrame.width - kReportBetween), 0};
+inline constexpr Rect kReportRight{kReportFrame.x + kReportLeft.width + kReportBetween, 0, kReportLeft.width,
+                                   0};
+inline constexpr double kReportFooter = 4;
 
 /// A column with its share of the table's width. Numbers are set against their right side.
 struct ReportColumn {

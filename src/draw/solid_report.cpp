@@ -17,10 +17,7 @@
 namespace lekalo::draw {
 namespace {
 
-constexpr double kBetween = 5;
-constexpr Rect kLeft{kReportFrame.x, 0, 0.5 * (kReportFrame.width - kBetween), 0};
-constexpr Rect kRight{kReportFrame.x + kLeft.width + kBetween, 0, kLeft.width, 0};
-constexpr double kFooter = 4, kCaption = 4;
+constexpr double kCaption = 4;
 constexpr double kLeastViews = 90, kMostViews = 150;  ///< heights, mm
 constexpr double kFine = 200 / 25.4;                  ///< pixels of a millimetre in a file to be printed
 
@@ -67,7 +64,7 @@ class SolidReportPage {
     Sheet sheet(page_.items);
     const double top =
         draw_report_header("Placement of " + part, "in the blank " + blank, scene_.status, sheet);
-    const double room = kReportFrame.bottom() - kFooter - top;
+    const double room = kReportFrame.bottom() - kReportFooter - top;
     // Contacts and notes that find no room are counted on the page.
     while (height_below() + kLeastViews > room && (contacts_ > 3 || lines_ > 3)) {
       std::size_t& most = lines_ >= contacts_ ? lines_ : contacts_;
@@ -92,8 +89,8 @@ class SolidReportPage {
     constexpr double kMargins = 6;
     const double lower = std::max(e.y, extent(kIsometric.up)),
                  width = std::max({e.x, e.y, extent(kIsometric.right)});
-    const double both =
-        std::min(room, 2 * kMargins + (e.z + lower) * (kLeft.width - kMargins) / std::max(width, 1e-300));
+    const double both = std::min(
+        room, 2 * kMargins + (e.z + lower) * (kReportLeft.width - kMargins) / std::max(width, 1e-300));
     const double upper = both * std::clamp(e.z / std::max(e.z + lower, 1e-300), 0.25, 0.6);
     return {upper, both - upper};
   }
@@ -105,7 +102,7 @@ class SolidReportPage {
       Rect image;
     };
     const auto [upper, lower] = view_heights(room.height - 2 * kCaption);
-    const double width = kLeft.width, right = kRight.x, below = room.y + upper + kCaption;
+    const double width = kReportLeft.width, right = kReportRight.x, below = room.y + upper + kCaption;
     std::array<Shown, 4> views{{{"from the right", seen_from({1, 0, 0}), {room.x, room.y, width, upper}},
                                 {"front", seen_from({0, -1, 0}), {right, room.y, width, upper}},
                                 {"isometric", kIsometric, {room.x, below, width, lower}},
@@ -124,22 +121,22 @@ class SolidReportPage {
     }
     draw_axes(views[2].view, {views[2].image.x + 9, views[2].image.bottom() - 10}, sheet);
     draw_scale_bar(scale / fine_, {room.x + 0.5 * width, below + lower + 3}, 0.25 * width, sheet);
-    sheet.text(kRight.right() - 1, below + lower + 3, 0.7 * width, "first-angle projection, one scale",
+    sheet.text(kReportRight.right() - 1, below + lower + 3, 0.7 * width, "first-angle projection, one scale",
                {.size = kReportSmall, .colour = kGrey, .anchor = Anchor::end, .kind = "projection"});
     return below + lower + kCaption;
   }
 
   /// Draws everything below the views, and returns where it ends.
   double sections(double top, Sheet& sheet) const {
-    ReportRows rows(kLeft, sheet.heading(kLeft, top, "Placement"), sheet);
+    ReportRows rows(kReportLeft, sheet.heading(kReportLeft, top, "Placement"), sheet);
     rows.add("minimum allowance", clearance_text(scene_, look_), "clearance",
              scene_.placement.inside ? kInk : kOutside, true);
     rows.add("freedom, window", freedom_text(report_), "window");
     for (const SolidFigure& figure : figures_of(scene_, look_))
       rows.add(figure.what, figure.value, figure.kind, figure.bad ? kOutside : kInk, figure.bad);
-    const double left = draw_proof(proof(), kLeft, rows.end() + 1.5, sheet);
-    double right = sheet.heading(kRight, top, "What is shown");
-    right = draw_solid_key(scene_, look_, {kRight.x, right - 1, kRight.width, 0}, sheet) + 3;
+    const double left = draw_proof(proof(), kReportLeft, rows.end() + 1.5, sheet);
+    double right = sheet.heading(kReportRight, top, "What is shown");
+    right = draw_solid_key(scene_, look_, {kReportRight.x, right - 1, kReportRight.width, 0}, sheet) + 3;
     right = draw_contacts(right, sheet);
     double y = std::max(left, right) + 1.5;
     y = draw_inputs(files(), kReportFrame, y, sheet) + 1.5;
@@ -154,10 +151,10 @@ class SolidReportPage {
   double draw_contacts(double top, Sheet& sheet) const {
     const std::vector<locate::SolidTouch>& contacts = scene_.placement.contacts;
     if (contacts.empty()) return top;
-    double y = sheet.heading(kRight, top, "Contacts, mm: where the part is nearest");
+    double y = sheet.heading(kReportRight, top, "Contacts, mm: where the part is nearest");
     ReportTable table(
         {{"", 0.6, false}, {"distance", 2}, {"x in blank", 2.2}, {"y", 2}, {"z", 2}, {"triangles", 3}},
-        kRight, sheet);
+        kReportRight, sheet);
     y = table.titles(y);
     const std::size_t shown = std::min(contacts.size(), contacts_);
     for (std::size_t k = 0; k < shown; ++k) {
@@ -170,7 +167,7 @@ class SolidReportPage {
                     {.size = kReportSmall, .kind = "contact-row"});
     }
     if (shown < contacts.size()) {
-      sheet.text(kRight.x, y + kReportLine - 1, kRight.width,
+      sheet.text(kReportRight.x, y + kReportLine - 1, kReportRight.width,
                  fmt::format("and {} more", contacts.size() - shown),
                  {.size = kReportSmall, .colour = kGrey, .kind = "more-contacts"});
       y += kReportLine;

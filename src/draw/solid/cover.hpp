@@ -10,6 +10,9 @@
 
 namespace lekalo::draw {
 
+/// Samples of a pixel each way.
+inline constexpr int kAcross = 3;
+
 /// Calls visit(column, row, weights) for the samples in a triangle, in rows `from` to before `until` of
 /// `columns` samples; the weights of the corners sum to 1. Corners go to a grid of 1/256 sample, and all else
 /// is exact: of triangles that share an edge each sample belongs to one, so there are neither gaps nor

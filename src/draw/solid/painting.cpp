@@ -15,7 +15,6 @@ namespace {
 using solid::Triangle;
 using solid::Vector;
 
-constexpr int kAcross = 3;       ///< samples of a pixel each way
 constexpr int kBandPixels = 48;  ///< rows of pixels that are painted at a time
 constexpr double kLine = 1.1;    ///< width of lines, pixels
 constexpr double kBias = 1.5;    ///< lines stand out from the surface by so many pixels

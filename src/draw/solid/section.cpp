@@ -16,7 +16,6 @@ namespace {
 using geom::Point;
 using Lines = std::vector<std::array<Point, 2>>;
 
-constexpr int kAcross = 3;
 constexpr double kHatch = 9;  ///< pixels between the lines
 constexpr Colour kPartCut{255, 236, 206}, kBlankCut{226, 232, 239}, kHatchLine{150, 163, 178};
 

@@ -78,7 +78,7 @@ Vector SolidLook::outward(const SolidScene& scene, std::size_t contact) const {
   const locate::SolidTouch& touch = scene.placement.contacts[contact];
   const Vector place = contacts[contact], way = touch.blank - place;
   if (norm(way) > 0) return unit_or(way, {});
-  // Of surfaces that touch, the part's own normal. Numbers of triangles may be those of a file, so the
+  // Surfaces that touch have the part's own normal. Numbers of triangles may be those of a file, so the
   // nearest vertex is looked for.
   const std::vector<Vector>& places = part.surface.places;
   const auto nearest = std::min_element(places.begin(), places.end(), [&](Vector a, Vector b) {

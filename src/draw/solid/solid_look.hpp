@@ -67,7 +67,7 @@ struct SolidKey {
   std::string words;
   const char* kind;
 };
-/// What the colours stand for, but for those of the scale.
+/// Returns the meaning of the colours, but for those of the scale.
 [[nodiscard]] std::vector<SolidKey> key_of(const SolidScene& scene, const SolidLook& look);
 
 }  // namespace lekalo::draw
