@@ -47,7 +47,7 @@ void write_head(JsonWriter& json, const SolidDocument& d) {
   list_of_lines(line_of(json, "inputs"), d.inputs, [&](const SolidInputRecord& one) { write(json, one); });
   list_of_lines(line_of(json, "warnings"), d.warnings, [&](const std::string& one) { json.value(one); });
   lines(json, {{"seed", 0}, {"work", d.work}, {"version", kVersion}, {"method", d.method}});
-  lines(json, {{"freedom", name_of(d.freedom)}});
+  lines(json, {{"freedom", io::name_of(d.freedom)}});
   write(line_of(json, "window"), d.window);
 }
 
