@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -392,6 +394,29 @@ TEST(SolidCertificate, NoChangeProvesABoundThatIsNotTrue) {
     const std::string told = files.told();
     EXPECT_TRUE(told.find("refuted") == 0 || told.find("bad input") == 0) << told;
   }
+}
+
+/// Of other meshes a certificate proves the bound only where it is true: that of blocks within each other is
+/// the least distance of their faces.
+TEST(SolidCertificate, OtherMeshesAreRefusedUnlessTheBoundIsTrueOfThem) {
+  Random random(2);
+  const Json kinds[]{by_planes(), by_middle({0, 0, 0}), by_balls(1000, 0.5), by_faces(0.5),
+                     by_part_faces(0.5)};
+  std::size_t confirmed = 0;
+  for (int k = 0; k < 1000; ++k) {
+    SolidResultFiles files = cube_in_cube(kinds[random.below(std::size(kinds))], 1.001);
+    files.result["clearance"] = 0.25, files.result["gap"] = 1.001 - 0.25;
+    files.result["contacts"] = Json::array();
+    const auto half = [&](double least) { return least + 0.25 * static_cast<double>(random.below(3)); };
+    const solid::Vector part{half(4.75), half(4.75), half(4.75)}, blank{half(5.75), half(5.75), half(5.75)};
+    files.part = solid_files::stl_binary(cases::block(-part, part));
+    files.blank = solid_files::stl_binary(cases::block(-blank, blank));
+    const double optimum = std::min({blank.x - part.x, blank.y - part.y, blank.z - part.z});
+    if (files.told() != "confirmed") continue;
+    ++confirmed;
+    EXPECT_LE(optimum, 1.001);
+  }
+  EXPECT_GT(confirmed, 50U);
 }
 
 }  // namespace
