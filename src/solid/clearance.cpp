@@ -78,7 +78,7 @@ class ClearanceMeter::Pass {
     for (std::size_t lot = 0; lot < lots_; ++lot) all[lot] = lot;
     find_bounds(all);
     begin_with_the_lowest();
-    while (refine()) continue;
+    refine();
     measure_all_below();
     return {best_.low, best_.high, meter_.cloud_.number(best_.point), best_.triangle, best_.place};
   }
@@ -146,27 +146,25 @@ class ClearanceMeter::Pass {
       if (bounds()[order[k]] < best_.high) best_.take(measure(order[k], best_.high));
   }
 
-  /// Makes cells, or finer ones, where a brick's bounds leave points to be measured; says if there were any.
-  bool refine() {
-    std::vector<std::uint32_t> bricks;
+  /// Makes cells where the one bound of their brick leaves points to be measured.
+  void refine() {
+    std::vector<std::uint64_t> cells;
     std::vector<std::size_t> lots;
     for (std::size_t lot = 0; lot < lots_; ++lot) {
       if (!(bounds()[lowest_[lot]] < best_.high)) continue;
-      const std::size_t before = bricks.size();
+      const std::size_t before = cells.size();
       const auto [begin, end] = points_of(lot);
       for (std::size_t i = begin; i < end; ++i) {
         if (!(bounds()[i] < best_.high)) continue;
-        const std::uint32_t brick = meter_.field_.unmade_at(place(i));
-        if (brick != DistanceField::kNoBrick && (bricks.empty() || bricks.back() != brick))
-          bricks.push_back(brick);
+        const std::uint64_t cell = meter_.field_.unmade_at(place(i));
+        if (cell != DistanceField::kNoCell && (cells.empty() || cells.back() != cell)) cells.push_back(cell);
       }
-      if (bricks.size() > before) lots.push_back(lot);
+      if (cells.size() > before) lots.push_back(lot);
     }
-    if (bricks.empty()) return false;
-    meter_.field_.make_cells(std::move(bricks), meter_.threads_);
+    if (cells.empty()) return;
+    meter_.field_.make_cells(std::move(cells), meter_.threads_);
     find_bounds(lots);
     begin_with_the_lowest();
-    return true;
   }
 
   void measure_all_below() {

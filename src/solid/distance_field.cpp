@@ -53,8 +53,7 @@ DistanceField::DistanceField(const TriangleTree& tree, double cell, double margi
   const auto count = static_cast<std::size_t>(bricks_[0]) * static_cast<std::size_t>(bricks_[1]) *
                      static_cast<std::size_t>(bricks_[2]);
   least_.reserve(count);
-  made_.assign(count, Made::nothing);
-  cells_at_.assign(count, 0);
+  cells_of_.assign(count, -1);
   Walk walk(tree);
   for (int z = 0; z < bricks_[2]; ++z)
     for (int y = 0; y < bricks_[1]; ++y)
@@ -74,14 +73,17 @@ std::uint32_t DistanceField::brick_at(Place p) const noexcept {
   return static_cast<std::uint32_t>((z * bricks_[1] + y) * bricks_[0] + x);
 }
 
-template <int kAlong>
-float DistanceField::bound_in(const Cells<kAlong>& cells, Place p) const noexcept {
-  constexpr float kShare = static_cast<float>(kAlong) / kCells;  // of two, so that nothing is rounded
-  const float px = kShare * p.x, py = kShare * p.y, pz = kShare * p.z;
-  const int x = static_cast<int>(px), y = static_cast<int>(py), z = static_cast<int>(pz);
-  const float u = px - static_cast<float>(x), v = py - static_cast<float>(y), w = pz - static_cast<float>(z);
-  const int i = x % kAlong, j = y % kAlong, k = z % kAlong;
-  constexpr int kRow = kAlong + 1, kLayer = kRow * kRow;
+DistanceField::Cells::Cells() noexcept {
+  distance.fill(std::numeric_limits<float>::quiet_NaN());
+  bend.fill(-1);
+}
+
+float DistanceField::bound_in(const Cells& cells, std::size_t cell, Place p) const noexcept {
+  const int x = static_cast<int>(p.x), y = static_cast<int>(p.y), z = static_cast<int>(p.z);
+  const float u = p.x - static_cast<float>(x), v = p.y - static_cast<float>(y),
+              w = p.z - static_cast<float>(z);
+  const int i = x % kCells, j = y % kCells, k = z % kCells;
+  constexpr int kRow = kCorners, kLayer = kCorners * kCorners;
   const float* d = &cells.distance[static_cast<std::size_t>(k * kLayer + j * kRow + i)];
   const auto between = [](float share, float a, float b) { return a + share * (b - a); };
   const float low = between(v, between(u, d[0], d[1]), between(u, d[kRow], d[kRow + 1]));
@@ -89,65 +91,54 @@ float DistanceField::bound_in(const Cells<kAlong>& cells, Place p) const noexcep
       between(v, between(u, d[kLayer], d[kLayer + 1]), between(u, d[kLayer + kRow], d[kLayer + kRow + 1]));
   // The mean square of the way to the corners, as they are weighed, in cells.
   const float spread = u * (1 - u) + v * (1 - v) + w * (1 - w);
-  const float bend = cells.bend[static_cast<std::size_t>((k * kAlong + j) * kAlong + i)];
-  const float off = std::min(spread * bend, std::sqrt(spread) * static_cast<float>(cell_ / kShare));
+  const float off = std::min(spread * cells.bend[cell], std::sqrt(spread) * static_cast<float>(cell_));
   return between(w, low, high) - off - static_cast<float>(rounding_);
 }
 
-template float DistanceField::bound_in(const Cells<kCells / 2>& cells, Place p) const noexcept;
-template float DistanceField::bound_in(const Cells<kCells>& cells, Place p) const noexcept;
-
-void DistanceField::make_cells(std::vector<std::uint32_t> bricks, unsigned threads) {
-  std::sort(bricks.begin(), bricks.end());
-  bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
-  for (const std::uint32_t brick : bricks) {
-    if (made_[brick] == Made::nothing) {
-      made_[brick] = Made::coarse;
-      cells_at_[brick] = static_cast<std::uint32_t>(coarse_.size());
-      coarse_.emplace_back();
-    } else if (made_[brick] == Made::coarse) {
-      made_[brick] = Made::fine;
-      cells_at_[brick] = static_cast<std::uint32_t>(fine_.size());
-      fine_.emplace_back();
-    }
+void DistanceField::make_cells(std::vector<std::uint64_t> wanted, unsigned threads) {
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  // Those of one brick lie together, from one of these places to the next.
+  std::vector<std::size_t> begins;
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    if (k > 0 && wanted[k] / kCellsOfBrick == wanted[k - 1] / kCellsOfBrick) continue;
+    begins.push_back(k);
+    std::int32_t& at = cells_of_[wanted[k] / kCellsOfBrick];
+    if (at >= 0) continue;
+    at = static_cast<std::int32_t>(cells_.size());
+    cells_.emplace_back();
   }
-  share_out(bricks.size(), threads, [&](std::size_t k) {
-    const std::uint32_t brick = bricks[k], at = cells_at_[brick];
-    made_[brick] == Made::coarse ? fill(brick, coarse_[at]) : fill(brick, fine_[at]);
+  begins.push_back(wanted.size());
+  share_out(begins.size() - 1, threads, [&](std::size_t k) {
+    const std::span<const std::uint64_t> of_brick(&wanted[begins[k]], begins[k + 1] - begins[k]);
+    fill(of_brick, cells_[static_cast<std::size_t>(cells_of_[of_brick[0] / kCellsOfBrick])]);
   });
 }
 
-template <int kAlong>
-void DistanceField::fill(std::uint32_t brick, Cells<kAlong>& cells) const {
-  constexpr int kCorners = kAlong + 1;
-  const double side = cell_ * kCells / kAlong;
-  const auto number = static_cast<int>(brick);
-  const int x0 = number % bricks_[0] * kAlong, y0 = number / bricks_[0] % bricks_[1] * kAlong,
-            z0 = number / (bricks_[0] * bricks_[1]) * kAlong;
+void DistanceField::fill(std::span<const std::uint64_t> wanted, Cells& cells) const {
+  const auto brick = static_cast<int>(wanted[0] / kCellsOfBrick);
+  const int x0 = brick % bricks_[0] * kCells, y0 = brick / bricks_[0] % bricks_[1] * kCells,
+            z0 = brick / (bricks_[0] * bricks_[1]) * kCells;
   Walk walk(*tree_);
-  std::size_t at = 0;
-  for (int z = 0; z < kCorners; ++z)
-    for (int y = 0; y < kCorners; ++y)
-      for (int x = 0; x < kCorners; ++x)
-        cells.distance[at++] =
-            rounded_down(walk.bound(low_ + side * Vector{double(x0 + x), double(y0 + y), double(z0 + z)}));
-  at = 0;
-  for (int z = 0; z < kAlong; ++z) {
-    for (int y = 0; y < kAlong; ++y) {
-      for (int x = 0; x < kAlong; ++x) {
-        float least = std::numeric_limits<float>::infinity();
-        for (const int corner : {0, 1, 2, 3, 4, 5, 6, 7})
-          least = std::min(
-              least, cells.distance[static_cast<std::size_t>(
-                         ((z + corner / 4) * kCorners + y + corner / 2 % 2) * kCorners + x + corner % 2)]);
-        // No place of the cell is farther than half its diagonal from a corner; the bound so found makes a
-        // better one.
-        double within = least - 0.8661 * side;
-        if (within > 0) within = std::max(within, least - 0.375 * side * side / within);
-        cells.bend[at++] = within > 0 ? static_cast<float>(0.5 * side * side / within * (1 + 0x1p-20))
-                                      : std::numeric_limits<float>::infinity();
-      }
+  for (const std::uint64_t number : wanted) {
+    const auto cell = static_cast<int>(number % kCellsOfBrick);
+    float least = std::numeric_limits<float>::infinity();
+    for (const int corner : {0, 1, 2, 3, 4, 5, 6, 7}) {
+      const int x = cell % kCells + corner % 2, y = cell / kCells % kCells + corner / 2 % 2,
+                z = cell / (kCells * kCells) + corner / 4;
+      float& distance = cells.distance[static_cast<std::size_t>((z * kCorners + y) * kCorners + x)];
+      if (std::isnan(distance))
+        distance =
+            rounded_down(walk.bound(low_ + cell_ * Vector{double(x0 + x), double(y0 + y), double(z0 + z)}));
+      least = std::min(least, distance);
     }
+    // No place of the cell is farther than half its diagonal from a corner; the bound so found makes a better
+    // one.
+    double within = least - 0.8661 * cell_;
+    if (within > 0) within = std::max(within, least - 0.375 * cell_ * cell_ / within);
+    cells.bend[static_cast<std::size_t>(cell)] =
+        within > 0 ? static_cast<float>(0.5 * cell_ * cell_ / within * (1 + 0x1p-20))
+                   : std::numeric_limits<float>::infinity();
   }
 }
 

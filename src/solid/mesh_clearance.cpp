@@ -91,8 +91,10 @@ struct MeshClearance::Walk {
     const Corners& t = meter.part_.corners(of_part);
     const Corners a{motion(t[0]), motion(t[1]), motion(t[2])}, &b = meter.blank_.corners(of_blank);
     const double width = meter.width_.empty() ? 0 : meter.width_[of_blank];
-    if (clearly_apart(a, b, limit + width + rounding)) return;
-    const PairFound here = nearest_points(a, b);
+    const double most = limit + width - rounding;
+    if (clearly_apart(a, b, most)) return;
+    const PairFound here = nearest_points(a, b, most, rounding);
+    if (here.low >= most) return;
     const double distance = std::sqrt(here.squared);
     best.low = std::min(best.low, std::min(here.low, distance) - width);
     if (!(distance - width < limit)) return;
@@ -113,44 +115,45 @@ struct MeshClearance::Walk {
     struct Open {
       double gap;
       std::uint32_t part, blank;
-      OrientedBox of_part;
     };
     // Each step leaves one pair behind and takes one, so there are as many as both trees are high.
     std::array<Open, 128> stack;
     std::size_t count = 0;
     const auto& of_parts = meter.part_.nodes();
     const auto& of_blanks = meter.blank_.nodes();
+    const auto& part_boxes = meter.part_boxes_;
+    const auto& blank_boxes = meter.blank_boxes_;
     const auto push = [&](const Open& open) {
       if (!apart(open.gap, open.blank)) stack[count++] = open;
     };
-    const OrientedBox whole = moved(motion, meter.part_boxes_[of_part]);
-    push({squared_gap(whole, meter.blank_boxes_[of_blank]), of_part, of_blank, whole});
+    push({squared_gap(moved(motion, part_boxes[of_part]), blank_boxes[of_blank]), of_part, of_blank});
     while (count > 0) {
       if (limit <= rounding) {
         // They cross, and no other pair is needed to know that.
         best.low = std::min(best.low, meter.widest_.empty() ? 0.0 : -meter.widest_[0]);
         return;
       }
-      const Open open = stack[--count];
-      if (apart(open.gap, open.blank)) continue;
+      const auto [gap, part, blank] = stack[--count];
+      if (apart(gap, blank)) continue;
       ask();
-      const TriangleTree::Node &p = of_parts[open.part], &b = of_blanks[open.blank];
+      const TriangleTree::Node &p = of_parts[part], &b = of_blanks[blank];
       if (p.right == 0 && b.right == 0) {
         look(p.begin, b.begin);
         continue;
       }
-      const bool cut_part =
-          b.right == 0 || (p.right != 0 && open.of_part.size() > meter.blank_boxes_[open.blank].size());
-      Open one = open, other = open;
-      if (cut_part) {
-        one.part = open.part + 1, other.part = p.right;
-        one.of_part = moved(motion, meter.part_boxes_[one.part]);
-        other.of_part = moved(motion, meter.part_boxes_[other.part]);
+      Open one, other;
+      if (b.right == 0 || (p.right != 0 && part_boxes[part].size() > blank_boxes[blank].size())) {
+        const auto child = [&](std::uint32_t at) {
+          return Open{squared_gap(moved(motion, part_boxes[at]), blank_boxes[blank]), at, blank};
+        };
+        one = child(part + 1), other = child(p.right);
       } else {
-        one.blank = open.blank + 1, other.blank = b.right;
+        const OrientedBox box = moved(motion, part_boxes[part]);
+        const auto child = [&](std::uint32_t at) {
+          return Open{squared_gap(box, blank_boxes[at]), part, at};
+        };
+        one = child(blank + 1), other = child(b.right);
       }
-      one.gap = squared_gap(one.of_part, meter.blank_boxes_[one.blank]);
-      other.gap = squared_gap(other.of_part, meter.blank_boxes_[other.blank]);
       if (other.gap < one.gap) std::swap(one, other);
       push(other);
       push(one);

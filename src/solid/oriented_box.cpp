@@ -12,45 +12,48 @@ namespace {
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-/// Turns of two axes until nothing is left beside the diagonal; more than enough in double precision.
+/// So many turns of each two axes are more than enough in double precision; what lies beside the diagonal is
+/// nothing below this part of the whole.
 constexpr int kSweeps = 8;
+constexpr double kNothing = 0x1p-60;
 
-/// Points by their number, their mean and how they are spread about it: the sum of the products of the ways
-/// there. It is put together from those of parts without a difference of large numbers.
+/// An area, its middle and how it is spread about it: the integral of the products of the ways there. It is
+/// put together from those of parts without a difference of large numbers.
 struct Spread {
-  double count = 0;
-  Vector mean;
+  double area = 0;
+  Vector middle;
   Matrix products{};
 
   void add(Vector way, double weight) {
     const std::array<double, 3> v{way.x, way.y, way.z};
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) products[i][j] += weight * (v[i] * v[j]);
+      for (std::size_t j = 0; j < 3; ++j) products[i][j] += weight * v[i] * v[j];
   }
 };
 
 Spread spread_of(const Corners& t) {
-  Spread made{3, 1.0 / 3 * (t[0] + t[1] + t[2]), {}};
-  for (const Vector p : t) made.add(p - made.mean, 1);
+  Spread made{0.5 * norm(cross(t[1] - t[0], t[2] - t[0])), 1.0 / 3 * (t[0] + t[1] + t[2]), {}};
+  for (const Vector p : t) made.add(p - made.middle, made.area / 12);
   return made;
 }
 
 Spread joined(const Spread& a, const Spread& b) {
-  const double count = a.count + b.count;
-  const Vector way = b.mean - a.mean;
-  Spread made{count, a.mean + b.count / count * way, a.products};
+  const double area = a.area + b.area, share = area > 0 ? b.area / area : 0.5;
+  const Vector way = b.middle - a.middle;
+  Spread made{area, a.middle + share * way, a.products};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) made.products[i][j] += b.products[i][j];
-  made.add(way, a.count * b.count / count);
+  made.add(way, a.area * share);
   return made;
 }
 
 /// The eigenvectors of a symmetric matrix, by turns in the planes of two axes (Jacobi's method).
 std::array<Vector, 3> main_axes(Matrix m) {
   Matrix turns{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // its rows become the axes
+  const double nothing = kNothing * (m[0][0] + m[1][1] + m[2][2]);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (const auto& [p, q] : {std::pair<std::size_t, std::size_t>(0, 1), {0, 2}, {1, 2}}) {
-      if (m[p][q] == 0) continue;
+      if (std::abs(m[p][q]) <= nothing) continue;
       const double half = 0.5 * (m[q][q] - m[p][p]) / m[p][q];
       const double t = (half < 0 ? -1 : 1) / (std::abs(half) + std::sqrt(half * half + 1));
       const double c = 1 / std::sqrt(t * t + 1), s = t * c;
@@ -89,7 +92,7 @@ std::vector<OrientedBox> oriented_boxes(const TriangleTree& tree) {
       for (std::uint32_t k = node.begin + 1; k < node.end; ++k)
         spread[at] = joined(spread[at], spread_of(tree.corners(k)));
     }
-    const Vector mean = spread[at].mean;
+    const Vector middle = spread[at].middle;
     OrientedBox& box = boxes[at];
     box.axes = main_axes(spread[at].products);
     std::array<double, 3> low, high;
@@ -98,11 +101,11 @@ std::vector<OrientedBox> oriented_boxes(const TriangleTree& tree) {
     for (std::uint32_t k = node.begin; k < node.end; ++k)
       for (const Vector p : tree.corners(k))
         for (std::size_t i = 0; i < 3; ++i) {
-          const double along = dot(box.axes[i], p - mean);
+          const double along = dot(box.axes[i], p - middle);
           low[i] = std::min(low[i], along);
           high[i] = std::max(high[i], along);
         }
-    box.middle = mean;
+    box.middle = middle;
     for (std::size_t i = 0; i < 3; ++i) {
       box.middle = box.middle + 0.5 * (low[i] + high[i]) * box.axes[i];
       box.half[i] = 0.5 * (high[i] - low[i]);

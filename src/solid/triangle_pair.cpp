@@ -55,20 +55,25 @@ double separation(const Corners& a, const Corners& b, Vector at_a, Vector at_b) 
 
 }  // namespace
 
-PairFound nearest_points(const Corners& a, const Corners& b) noexcept {
+PairFound nearest_points(const Corners& a, const Corners& b, double most, double enough) noexcept {
   Nearer nearer;
+  PairFound& best = nearer.best;
   for (std::size_t i = 0; i < 3; ++i) {
     nearer.look(a[i], nearest_point(b, a[i]));
     nearer.look(nearest_point(a, b[i]), b[i]);
+  }
+  best.low = separation(a, b, best.a, best.b);
+  // A vertex and a face, as a rule, and then no edge is nearer.
+  if (best.low >= most || (best.low > 0 && best.low >= std::sqrt(best.squared) - enough)) return best;
+  for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       look_at_edges(nearer, a[i], a[(i + 1) % 3] - a[i], b[j], b[(j + 1) % 3] - b[j]);
-  }
-  nearer.best.low = separation(a, b, nearer.best.a, nearer.best.b);
-  if (nearer.best.low > 0) return nearer.best;
+  best.low = std::max(best.low, separation(a, b, best.a, best.b));
+  if (best.low > 0) return best;
   look_through(nearer, a, b, false);
   look_through(nearer, b, a, true);
-  nearer.best.low = std::max(nearer.best.low, separation(a, b, nearer.best.a, nearer.best.b));
-  return nearer.best;
+  best.low = std::max(best.low, separation(a, b, best.a, best.b));
+  return best;
 }
 
 bool clearly_apart(const Corners& a, const Corners& b, double most) noexcept {

@@ -11,7 +11,9 @@ struct PairFound {
   double squared = 0;
   double low = 0;  ///< negative where nothing was found that separates them
 };
-[[nodiscard]] PairFound nearest_points(const Corners& a, const Corners& b) noexcept;
+/// It looks no further where the bound is `most` or more, or no more than `enough` below the distance.
+[[nodiscard]] PairFound nearest_points(const Corners& a, const Corners& b, double most,
+                                       double enough) noexcept;
 
 /// Says if two triangles are easily seen to be `most` apart or more: along a normal of one, or along the way
 /// between their middles. Nearly all pairs that two trees bring together are.

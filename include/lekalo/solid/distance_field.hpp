@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lekalo/solid/triangle_tree.hpp"
@@ -12,9 +14,9 @@ namespace lekalo::solid {
 /// distances at the corners of cells: a mean of eight numbers for a question (docs/design/solid.md).
 ///
 /// The region is the box of the body and a margin around it, made of bricks of 8 x 8 x 8 cells. A brick has
-/// one number, the bound at its middle, until its cells are asked for: those of a few near the surface are
-/// enough. At first they are twice as wide, which takes 1 kB and 125 distances, and is enough for most; asked
-/// for once more they take 5 kB and 729 distances.
+/// one number, the bound at its middle, for all cells that are not asked for: those that a surface goes
+/// through are enough. A brick of which any cell is made takes 5 kB, and a cell up to eight distances, at the
+/// corners that no other cell of the brick has.
 class DistanceField {
  public:
   /// \param tree  of a closed mesh; outlives the field
@@ -37,43 +39,43 @@ class DistanceField {
   [[nodiscard]] float bound(Place p) const noexcept {
     const std::uint32_t brick = brick_at(p);
     if (brick == kNoBrick) return margin_;
-    const std::uint32_t at = cells_at_[brick];
-    switch (made_[brick]) {
-      case Made::fine:
-        return bound_in(fine_[at], p);
-      case Made::coarse:
-        return bound_in(coarse_[at], p);
-      default:
-        return least_[brick];
-    }
+    if (cells_of_[brick] < 0) return least_[brick];
+    const Cells& cells = cells_[static_cast<std::size_t>(cells_of_[brick])];
+    const std::size_t cell = cell_at(p);
+    return cells.bend[cell] < 0 ? least_[brick] : bound_in(cells, cell, p);
   }
-  static constexpr std::uint32_t kNoBrick = 0xffffffffU;
-  /// The brick at a place whose cells are not made, or are the wide ones; kNoBrick where nothing is to be
-  /// made.
-  [[nodiscard]] std::uint32_t unmade_at(Place p) const noexcept {
+  static constexpr std::uint64_t kNoCell = ~std::uint64_t{0};
+  /// The number of the cell at a place if it is not made, or kNoCell where nothing is to be made.
+  [[nodiscard]] std::uint64_t unmade_at(Place p) const noexcept {
     const std::uint32_t brick = brick_at(p);
-    return brick != kNoBrick && made_[brick] != Made::fine ? brick : kNoBrick;
+    if (brick == kNoBrick) return kNoCell;
+    const std::size_t cell = cell_at(p);
+    if (cells_of_[brick] >= 0 && cells_[static_cast<std::size_t>(cells_of_[brick])].bend[cell] >= 0)
+      return kNoCell;
+    return std::uint64_t{brick} * kCellsOfBrick + cell;
   }
 
-  /// Makes the wide cells of bricks that have none, and the others of those that have, on as many threads.
-  /// Each brick's are the same whoever makes them.
-  void make_cells(std::vector<std::uint32_t> bricks, unsigned threads);
+  /// Makes cells, on as many threads. Each is the same whoever makes it, but for rounding.
+  void make_cells(std::vector<std::uint64_t> wanted, unsigned threads);
 
  private:
-  enum class Made : std::uint8_t { nothing, coarse, fine };
-  /// So many cells of a brick along each axis.
-  template <int kAlong>
+  static constexpr std::uint32_t kNoBrick = 0xffffffffU;
+  static constexpr int kCorners = kCells + 1, kCellsOfBrick = kCells * kCells * kCells;
   struct Cells {
-    static constexpr int kCorners = kAlong + 1;
-    std::array<float, kCorners * kCorners * kCorners> distance;
-    /// Half of the square of the cell's side, divided by the least distance in the cell; infinite inside.
-    std::array<float, kAlong * kAlong * kAlong> bend;
+    Cells() noexcept;
+    std::array<float, kCorners * kCorners * kCorners> distance;  ///< not a number where it is not made
+    /// Half of the square of the cell's side, divided by the least distance in the cell; infinite inside,
+    /// negative where the cell is not made.
+    std::array<float, kCellsOfBrick> bend;
   };
   [[nodiscard]] std::uint32_t brick_at(Place p) const noexcept;
-  template <int kAlong>
-  [[nodiscard]] float bound_in(const Cells<kAlong>& cells, Place p) const noexcept;
-  template <int kAlong>
-  void fill(std::uint32_t brick, Cells<kAlong>& cells) const;
+  [[nodiscard]] static std::size_t cell_at(Place p) noexcept {
+    const int x = static_cast<int>(p.x) % kCells, y = static_cast<int>(p.y) % kCells,
+              z = static_cast<int>(p.z) % kCells;
+    return static_cast<std::size_t>((z * kCells + y) * kCells + x);
+  }
+  [[nodiscard]] float bound_in(const Cells& cells, std::size_t cell, Place p) const noexcept;
+  void fill(std::span<const std::uint64_t> wanted, Cells& cells) const;
 
   const TriangleTree* tree_;
   Vector low_;
@@ -81,10 +83,8 @@ class DistanceField {
   float margin_;
   std::array<int, 3> bricks_{};
   std::vector<float> least_;
-  std::vector<Made> made_;
-  std::vector<std::uint32_t> cells_at_;
-  std::vector<Cells<kCells / 2>> coarse_;
-  std::vector<Cells<kCells>> fine_;
+  std::vector<std::int32_t> cells_of_;
+  std::vector<Cells> cells_;
 };
 
 }  // namespace lekalo::solid

@@ -17,7 +17,7 @@ struct OrientedBox {
   [[nodiscard]] double size() const noexcept { return half[0] + half[1] + half[2]; }
 };
 
-/// A box around the triangles of each node, along the ways in which their corners are spread most and least.
+/// A box around the triangles of each node, along the ways in which they are spread most and least.
 /// So the box of a smooth patch is a plate as thin as the patch is flat, however it lies, and that of a
 /// triangle is flat. Cost: O(n log n); 120 bytes a node.
 [[nodiscard]] std::vector<OrientedBox> oriented_boxes(const TriangleTree& tree);
