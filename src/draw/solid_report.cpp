@@ -149,7 +149,7 @@ class SolidReportPage {
   }
 
   double draw_contacts(double top, Sheet& sheet) const {
-    const std::vector<locate::SolidTouch>& contacts = scene_.placement.contacts;
+    const std::vector<locate::SolidTouch>& contacts = look_.touches;
     if (contacts.empty()) return top;
     double y = sheet.heading(kReportRight, top, "Contacts, mm: where the part is nearest");
     ReportTable table(

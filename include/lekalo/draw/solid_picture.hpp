@@ -21,7 +21,7 @@ struct SolidScene {
   /// mm, each in its own frame; with triangles. The part is best that of locate::measured_part, whose colours
   /// are right between the vertices too.
   solid::Mesh part, blank;
-  /// Its contacts are numbered from 1 in the order given.
+  /// Its contacts are numbered from 1 in the order given. A part that is not inside has none.
   locate::SolidPlacement placement;
   std::optional<double> upper_bound;  ///< mm; none where nothing is proved
   /// The demand and what is missing of it, mm.

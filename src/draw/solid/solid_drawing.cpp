@@ -27,8 +27,8 @@ void draw_mark(Point at, bool seen, const Meaning& meaning, Sheet& sheet) {
 /// one and no two leaders of a side cross.
 class ContactLabels {
  public:
-  ContactLabels(const SolidScene& scene, const SolidLook& look, const Rect& frame, Sheet& sheet)
-      : scene_(scene), look_(look), frame_(frame), sheet_(sheet) {}
+  ContactLabels(const SolidLook& look, const Rect& frame, Sheet& sheet)
+      : look_(look), frame_(frame), sheet_(sheet) {}
 
   void draw(std::vector<ContactMark> marks) {
     // The tightest contacts have labels, if not all can.
@@ -46,7 +46,7 @@ class ContactLabels {
 
  private:
   [[nodiscard]] double distance(const ContactMark& mark) const {
-    return scene_.placement.contacts[mark.contact].distance;
+    return look_.touches[mark.contact].distance;
   }
   void dot(const ContactMark& mark) {
     draw_mark(mark.at, mark.seen,
@@ -84,7 +84,6 @@ class ContactLabels {
     }
   }
 
-  const SolidScene& scene_;
   const SolidLook& look_;
   Rect frame_;
   Sheet& sheet_;
@@ -114,9 +113,9 @@ std::vector<ContactMark> draw_solids(const SolidLook& look, const SpaceView& fit
   return marks;
 }
 
-void draw_contact_lengths(const SolidScene& scene, const SolidLook& look, std::vector<ContactMark> marks,
-                          const Rect& frame, Sheet& sheet) {
-  ContactLabels(scene, look, frame, sheet).draw(std::move(marks));
+void draw_contact_lengths(const SolidLook& look, std::vector<ContactMark> marks, const Rect& frame,
+                          Sheet& sheet) {
+  ContactLabels(look, frame, sheet).draw(std::move(marks));
 }
 
 void draw_contact_numbers(const std::vector<ContactMark>& marks, Sheet& sheet) {

@@ -21,8 +21,8 @@ std::vector<ContactMark> draw_solids(const SolidLook& look, const SpaceView& fit
 /// Labels have this much room beside the solids, mm of paper.
 inline constexpr double kContactLabel = 25;
 /// Marks the contacts and writes their lengths at both sides of the frame.
-void draw_contact_lengths(const SolidScene& scene, const SolidLook& look, std::vector<ContactMark> marks,
-                          const Rect& frame, Sheet& sheet);
+void draw_contact_lengths(const SolidLook& look, std::vector<ContactMark> marks, const Rect& frame,
+                          Sheet& sheet);
 /// Marks the contacts with their numbers.
 void draw_contact_numbers(const std::vector<ContactMark>& marks, Sheet& sheet);
 /// Draws the directions of the axes from a point on.

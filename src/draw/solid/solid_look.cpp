@@ -11,6 +11,7 @@
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/rounding.hpp"
 #include "lekalo/base/stop.hpp"
+#include "lekalo/solid/triangle_tree.hpp"
 
 namespace lekalo::draw {
 namespace {
@@ -29,13 +30,12 @@ Vector unit_or(Vector v, Vector other) {
 }
 
 std::optional<SolidFocus> focus_of(const SolidScene& scene, const SolidLook& look) {
-  const std::vector<locate::SolidTouch>& contacts = scene.placement.contacts;
-  if (!contacts.empty()) {
+  if (!look.touches.empty()) {
     const auto tightest =
-        std::min_element(contacts.begin(), contacts.end(),
+        std::min_element(look.touches.begin(), look.touches.end(),
                          [](const auto& a, const auto& b) { return a.distance < b.distance; });
-    const auto index = static_cast<std::size_t>(tightest - contacts.begin());
-    return SolidFocus{look.contacts[index], look.outward(scene, index), tightest->distance, index};
+    const auto index = static_cast<std::size_t>(tightest - look.touches.begin());
+    return SolidFocus{look.contacts[index], tightest->blank, look.outward(index), tightest->distance, index};
   }
   if (!look.missing()) return std::nullopt;
   const std::vector<std::uint32_t>& from = look.part.surface.from;
@@ -43,8 +43,13 @@ std::optional<SolidFocus> focus_of(const SolidScene& scene, const SolidLook& loo
     return scene.allowances[a] < scene.allowances[b];
   });
   const auto at = static_cast<std::size_t>(worst - from.begin());
-  return SolidFocus{look.part.surface.places[at], look.part.surface.normals[at],
-                    std::abs(scene.allowances[*worst]), contacts.size()};
+  SolidFocus focus;
+  focus.place = look.part.surface.places[at];
+  focus.on_blank = solid::TriangleTree(scene.blank).nearest(focus.place)->place;
+  focus.distance = scene.allowances[*worst];
+  const Vector way = focus.on_blank - focus.place;
+  focus.outward = unit_or(focus.distance < 0 ? -way : way, look.part.surface.normals[at]);
+  return focus;
 }
 
 }  // namespace
@@ -70,13 +75,13 @@ SolidLook::SolidLook(const SolidScene& scene) : motion(locate::motion_of(scene.p
       part.values.push_back(missing_ ? value_of(scene.allowances[vertex] + rounding)
                                      : std::max(0.0, value_of(scene.allowances[vertex])));
   }
-  for (const locate::SolidTouch& contact : scene.placement.contacts) contacts.push_back(motion(contact.part));
+  if (scene.placement.inside) touches = scene.placement.contacts;
+  for (const locate::SolidTouch& touch : touches) contacts.push_back(motion(touch.part));
   focus = focus_of(scene, *this);
 }
 
-Vector SolidLook::outward(const SolidScene& scene, std::size_t contact) const {
-  const locate::SolidTouch& touch = scene.placement.contacts[contact];
-  const Vector place = contacts[contact], way = touch.blank - place;
+Vector SolidLook::outward(std::size_t contact) const {
+  const Vector place = contacts[contact], way = touches[contact].blank - place;
   if (norm(way) > 0) return unit_or(way, {});
   // Surfaces that touch have the part's own normal. Numbers of triangles may be those of a file, so the
   // nearest vertex is looked for.

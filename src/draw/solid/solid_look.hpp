@@ -12,10 +12,11 @@ namespace lekalo::draw {
 
 /// The place that decides, in the frame of the blank: the tightest contact, else where most is missing.
 struct SolidFocus {
-  solid::Vector place;
-  solid::Vector outward;    ///< away from the part's material, of length 1
-  double distance = 0;      ///< mm, to the blank's surface there
-  std::size_t contact = 0;  ///< its index; as many as there are: none
+  solid::Vector place;                 ///< of the part
+  solid::Vector on_blank;              ///< the nearest point of the blank's surface
+  solid::Vector outward;               ///< away from the part's material, of length 1
+  double distance = 0;                 ///< mm, negative outside the blank
+  std::optional<std::size_t> contact;  ///< its index
 };
 
 /// The choices that picture, report and page share.
@@ -31,11 +32,12 @@ struct SolidLook {
   int decimals = 6;                ///< of the placement
   int table_decimals = 4;          ///< of measured lengths
   std::optional<SolidFocus> focus;
-  /// The places of the contacts on the part.
+  /// The contacts of a part that is inside, and their places on the part.
+  std::vector<locate::SolidTouch> touches;
   std::vector<solid::Vector> contacts;
 
   /// The direction of a contact from the part to the blank, of length 1.
-  [[nodiscard]] solid::Vector outward(const SolidScene& scene, std::size_t contact) const;
+  [[nodiscard]] solid::Vector outward(std::size_t contact) const;
   /// True if the allowance is below the demand anywhere.
   [[nodiscard]] bool missing() const { return missing_; }
   [[nodiscard]] double value_of(double allowance) const {

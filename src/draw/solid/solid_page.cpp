@@ -130,10 +130,9 @@ class Page {
   void write_contacts() {
     std::string text;
     for (std::size_t k = 0; k < look_.contacts.size(); ++k) {
-      const locate::SolidTouch& contact = scene_.placement.contacts[k];
+      const locate::SolidTouch& contact = look_.touches[k];
       text += fmt::format("{}{{\"place\":{},\"outward\":{},\"distance\":{},\"text\":{}}}", k == 0 ? "" : ",",
-                          vector(look_.contacts[k] - box_.low), vector(look_.outward(scene_, k)),
-                          contact.distance,
+                          vector(look_.contacts[k] - box_.low), vector(look_.outward(k)), contact.distance,
                           script_string(decimal(contact.distance, look_.table_decimals) + " mm"));
     }
     field("contacts", "[" + text + "]");

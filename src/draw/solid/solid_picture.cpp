@@ -54,7 +54,7 @@ class SolidComposer {
     std::vector<ContactMark> marks = draw_solids(look_, view, image, fine_, threads_, sheet_);
     draw_axes(view, {room.x + 9, room.bottom() - 12}, sheet_);
     draw_scale_bar(view.scale / fine_, {room.x + 1, room.bottom() - 0.6}, 36, sheet_);
-    draw_contact_lengths(scene_, look_, std::move(marks), room, sheet_);
+    draw_contact_lengths(look_, std::move(marks), room, sheet_);
     draw_panel();
     return std::move(page_);
   }
@@ -74,15 +74,14 @@ class SolidComposer {
     through_focus(whole);
     draw_section(whole, left, false);
     SpaceView close = view;
-    const double seen = std::clamp(14 * focus.distance, 1e-5 * look_.size, 0.25 * look_.size);
+    const double seen = std::clamp(14 * std::abs(focus.distance), 1e-5 * look_.size, 0.25 * look_.size);
     close.scale = fine_ * right.width / seen;
     close.centre = focus.place;
     close.x = fine_ * right.width / 2, close.y = fine_ * right.height / 2;
     draw_section(close, right, true);
-    const bool contact = focus.contact < scene_.placement.contacts.size();
     sheet_.text(left.x, room.bottom(), left.width,
-                contact ? fmt::format("section through contact {}", focus.contact + 1)
-                        : std::string("section where most is missing"),
+                focus.contact ? fmt::format("section through contact {}", *focus.contact + 1)
+                              : std::string("section where most is missing"),
                 {.size = kReportSmall, .colour = kGrey, .kind = "caption"});
     sheet_.text(right.x, room.bottom(), right.width,
                 fmt::format("the same place, {} times larger", short_number_up(close.scale / whole.scale)),
@@ -115,11 +114,14 @@ class SolidComposer {
       page_.items.push_back(DotItem{at, 2.2, stroked(kOutside, 0.4), {"focus", ""}});
       return;
     }
-    const Point to = on_page(focus.place + focus.distance * focus.outward);
+    // The blank may be far outside of what is shown.
+    const Segment line = clipped({at, on_page(focus.on_blank)}, frame).value_or(Segment{at, at});
+    const Point to = line.b;
     sheet_.path({at, to}, false, stroked_round(kOutside, 0.4), "distance");
     for (const Point end : {at, to})
       page_.items.push_back(DotItem{end, 0.6, filled(kOutside), {"distance", ""}});
-    const std::string words = decimal(focus.distance, look_.table_decimals) + " mm";
+    const std::string words = decimal(std::abs(focus.distance), look_.table_decimals) +
+                              (focus.distance < 0 ? " mm outside" : " mm");
     const double half = 0.5 * kReportBody * kReportBoldWider * io::text_width(words);
     const Point label{frame.right() - half - 3, frame.y + 5};
     sheet_.path({to, {label.x, label.y + 1}}, false, stroked(kOutside, 0.2), "leader");
@@ -171,13 +173,12 @@ class SolidComposer {
     y += 3.5;
     sheet_.rule(room.x, room.right(), y);
     y = draw_solid_key(scene_, look_, {room.x, y, room.width, 0}, sheet_) + 3;
-    const double left = room.bottom() - y;
     for (const std::string& note : scene_.notes) {
-      const auto lines = static_cast<std::size_t>(std::max(0.0, (left - (y - room.y)) / kReportSmallLine));
-      if (y + kReportSmallLine > room.bottom()) break;
+      const auto lines = static_cast<std::size_t>(std::max(0.0, (room.bottom() - y) / kReportSmallLine));
+      if (lines == 0) break;
       y = sheet_.paragraph(room, y + kReportSmall, note,
                            {.size = kReportSmall, .colour = kGrey, .kind = "note"}, kReportSmallLine,
-                           std::max<std::size_t>(1, std::min<std::size_t>(4, lines))) -
+                           std::min<std::size_t>(4, lines)) -
           kReportSmall + 0.8;
     }
   }
