@@ -55,6 +55,17 @@ TEST(SameBytesOf, ASearchStoppedByItsBudget) {
   EXPECT_EQ(without_run(run(folder.path(), words).out), without_run(run(folder.path(), words).out));
 }
 
+TEST(SameBytesOf, APlacedSolidAndItsDocuments) {
+  const fs::path solids = fs::path(cases::source_dir()) / "examples" / "solid";
+  const Words words{"locate", "--part", solids / "part.stl", "--blank", solids / "casting.stl", "--gap", "0.2",
+                    "-o", "out.json", "--certificate", "out.cert", "--allowances", "out.csv", "--picture",
+                    "out.html", "--report", "out.svg", "--json"};
+  const TemporaryFolder one, other;
+  const auto first = outputs(one, words), second = outputs(other, words);
+  ASSERT_EQ(first.size(), 6U);
+  for (const auto& [name, bytes] : first) EXPECT_TRUE(second.at(name) == bytes) << name;
+}
+
 TEST(SameBytesOf, TheVerdict) {
   const TemporaryFolder folder;
   ASSERT_EQ(run(folder.path(), locate_example(2) + Words{"-o", "out.json"}).status, 0);

@@ -6,7 +6,7 @@
 #include <functional>
 #include <set>
 
-#include "jobs/locate_checked.hpp"
+#include "jobs/locate/locate_checked.hpp"
 #include "lekalo/disk/files.hpp"
 #include "lekalo/io/text/sha256.hpp"
 #include "lekalo/jobs/verify.hpp"
