@@ -194,6 +194,7 @@ TEST(JobsLocateSolid, AnEarlierResultIsAStart) {
   const LocatedSolid far = made(job);
   EXPECT_FALSE(far.document.inside());
   EXPECT_FALSE(far.holds());
+  EXPECT_TRUE(warns(far, "reaches 98 mm out of the box around the blank along x, farther")) << far.result;
   job.options.shift = 120;
   const LocatedSolid found = made(job);
   ASSERT_TRUE(found.document.inside());
@@ -217,6 +218,7 @@ TEST(JobsLocateSolid, APartThatDoesNotFitHasNoClearance) {
   const auto json = cases::Json::parse(located.result);
   EXPECT_EQ(json["inside"], false);
   for (const char* field : {"clearance", "gap", "shortfall"}) EXPECT_TRUE(json[field].is_null()) << field;
+  EXPECT_FALSE(warns(located, "out of the box"));
   EXPECT_NE(verdict(job, located), verify::Verdict::refuted);
 }
 
@@ -256,6 +258,34 @@ TEST(JobsLocateSolid, MendsAreToldWithTheNameOfTheFile) {
   EXPECT_TRUE(warns(located, "casting.obj: 1 triangle has no area"));
   EXPECT_TRUE(warns(located, "casting.obj: 1 shell lies within another")) << located.result;
   EXPECT_TRUE(warns(located, "casting.obj: the file does not say its unit"));
+}
+
+/// The checker reads triangles alone. What it leaves open was taken for a mistake of a method without a
+/// bound.
+TEST(JobsLocateSolid, AFormThatTheCheckerDoesNotReadIsTold) {
+  SolidLocateJob job = block_job();
+  job.blank.bytes =
+      "v -22 -17 -13\nv 24 -17 -13\nv 24 17 -13\nv -22 17 -13\nv -22 -17 11\nv 24 -17 11\nv 24 17 11\n"
+      "v -22 17 11\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  for (const SolidMethod method : {SolidMethod::climb, SolidMethod::certified}) {
+    job.options.method = method;
+    job.options.gap = 0.1;
+    const LocatedSolid located = made(job);
+    EXPECT_TRUE(located.holds());
+    EXPECT_TRUE(warns(located, "was not rechecked")) << located.result;
+    EXPECT_EQ(verdict(job, located), verify::Verdict::incomplete);
+  }
+}
+
+TEST(JobsLocateSolid, ASolidInItselfIsNotCalledInside) {
+  SolidLocateJob job = block_job();
+  job.blank = {"part.stl", job.part.bytes};
+  for (const SolidMethod method : {SolidMethod::climb, SolidMethod::certified}) {
+    job.options.method = method;
+    const LocatedSolid located = made(job);
+    EXPECT_FALSE(located.holds());
+    EXPECT_NE(located.document.status, "infeasible");
+  }
 }
 
 TEST(JobsLocateSolid, TrianglesHaveTheNumbersOfTheirFile) {

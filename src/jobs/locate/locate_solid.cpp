@@ -42,6 +42,24 @@ void warn_of_names(const SolidLocateJob& job, std::vector<std::string>& warnings
     if (const auto warning = warning_of_name(name)) warnings.push_back(*warning);
 }
 
+/// A part that begins far from its blank fits nowhere in a small window: then its start is worth a word.
+void warn_of_start(const SolidInputs& in, std::vector<std::string>& warnings) {
+  const locate::SolidProblem& p = in.problem;
+  const solid::Motion motion = motion_of(p.start);
+  const solid::Box blank = box_of(p.blank.vertices);
+  solid::Box part;
+  for (const Vector v : p.part.vertices) part.hold(motion(v));
+  const Vector below = blank.low - part.low, above = part.high - blank.high;
+  for (const auto& [axis, out] : {std::pair{'x', std::max(below.x, above.x)},
+                                  {'y', std::max(below.y, above.y)},
+                                  {'z', std::max(below.z, above.z)}})
+    if (out > p.shift)
+      warnings.push_back(fmt::format(
+          "at the start the part reaches {:.4g} mm out of the box around the blank along {}, farther than it "
+          "may be shifted ({} mm); let it begin elsewhere with --start, move a file, or say --shift",
+          out, axis, p.shift));
+}
+
 /// Takes off a clearance what the decimals of the pose lose: they are within half a last place of the doubles
 /// whose clearance this is, and so is what they do to any point of the part.
 std::optional<double> safe_clearance(const locate::SolidPlacement& found, const SolidInputs& in) {
@@ -101,7 +119,7 @@ void place_proof(const SolidLocateJob& job, LocatedSolid& made) {
 
 /// Puts the bytes about to be handed out before the independent checker, with the proof also where that is
 /// too long to be kept.
-Result<void> self_check(const SolidLocateJob& job, const LocatedSolid& made) {
+Result<verify::LocateReport> rechecked(const SolidLocateJob& job, const LocatedSolid& made) {
   verify::LocateInputs inputs{
       {"result", made.result}, {job.part.name, job.part.bytes}, {job.blank.name, job.blank.bytes}, {}};
   std::string with_proof;
@@ -112,7 +130,20 @@ Result<void> self_check(const SolidLocateJob& job, const LocatedSolid& made) {
     with_proof = io::result_json(document);
     inputs.result.bytes = with_proof;
   }
-  return held_against(verify::verify_locate(inputs),
+  return verify::verify_locate(inputs);
+}
+
+/// The result says, too, what the checker leaves open, as where it does not read the form of a file.
+Result<void> self_check(const SolidLocateJob& job, LocatedSolid& made) {
+  made.result = io::result_json(made.document);
+  Result<verify::LocateReport> report = rechecked(job, made);
+  if (report && report->verdict == verify::Verdict::incomplete) {
+    std::vector<std::string>& warnings = made.document.warnings;
+    warnings.insert(warnings.end(), report->notes.begin(), report->notes.end());
+    made.result = io::result_json(made.document);
+    report = rechecked(job, made);
+  }
+  return held_against(report,
                       made.document.upper_bound ? verify::Verdict::confirmed : verify::Verdict::unproved);
 }
 
@@ -142,7 +173,10 @@ io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&
   d.status = found.status;
   if (d.status == io::name_of(locate::Status::optimal) && !d.inside())
     d.status = io::name_of(locate::Status::stopped);
-  if (d.inside()) d.contacts = with_file_numbers(std::move(found.best.contacts), in);
+  if (d.inside())
+    d.contacts = with_file_numbers(std::move(found.best.contacts), in);
+  else
+    warn_of_start(in, d.warnings);
   d.proof = std::move(found.proof);
   d.part_numbers = in.part.numbers, d.blank_numbers = in.blank.numbers;
   return d;
@@ -168,7 +202,6 @@ Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& r
   made.document.seconds = seconds;
   place_proof(job, made);
   LEKALO_CHECK(add_pictures(job, in, made));
-  made.result = io::result_json(made.document);
   LEKALO_CHECK(self_check(job, made));
   return made;
 }
