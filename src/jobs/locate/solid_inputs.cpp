@@ -18,13 +18,13 @@ using locate::SolidFreedom;
 using locate::SolidPose;
 using solid::Vector;
 
-enum class Kind : std::uint8_t { outline, scan, points, solid };
+enum class FileKind : std::uint8_t { outline, scan, points, solid };
 
-Kind kind_of(const File& file) {
-  if (io::is_only_solid(file.bytes, file.name)) return Kind::solid;
+FileKind kind_of(const File& file) {
+  if (io::is_only_solid(file.bytes, file.name)) return FileKind::solid;
   const io::FileFormat* const format = io::solid_format_by_content(file.bytes);
-  if (format == &io::kPlyFormat) return Kind::scan;
-  return format == &io::kPointsFormat ? Kind::points : Kind::outline;
+  if (format == &io::kPlyFormat) return FileKind::scan;
+  return format == &io::kPointsFormat ? FileKind::points : FileKind::outline;
 }
 
 tl::unexpected<Error> refuse_points(const std::string& name) {
@@ -115,12 +115,12 @@ void set_window(const SolidLocateOptions& o, SolidInputs& in) {
 }  // namespace
 
 Result<bool> are_solids(const File& part, const File& blank) {
-  const Kind of_part = kind_of(part), of_blank = kind_of(blank);
-  if (of_part != Kind::solid && of_blank != Kind::solid && of_part != Kind::scan) return false;
-  if (of_part == Kind::points) return refuse_points(part.name);
-  if (of_blank == Kind::points) return refuse_points(blank.name);
-  if (of_part == Kind::outline) return refuse_pair(blank.name, part.name);
-  if (of_blank == Kind::outline) return refuse_pair(part.name, blank.name);
+  const FileKind of_part = kind_of(part), of_blank = kind_of(blank);
+  if (of_part != FileKind::solid && of_blank != FileKind::solid && of_part != FileKind::scan) return false;
+  if (of_part == FileKind::points) return refuse_points(part.name);
+  if (of_blank == FileKind::points) return refuse_points(blank.name);
+  if (of_part == FileKind::outline) return refuse_pair(blank.name, part.name);
+  if (of_blank == FileKind::outline) return refuse_pair(part.name, blank.name);
   return true;
 }
 
