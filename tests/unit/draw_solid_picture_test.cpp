@@ -360,6 +360,19 @@ TEST(SolidPage, HoldsTheSolidsToASixtyFiveThousandthOfTheirSize) {
   EXPECT_EQ(count_of(page, "http"), 1U);
 }
 
+TEST(SolidPage, NamesTheWorstPlaceOfAPartThatSticksOut) {
+  SolidScene scene = block_in_block();
+  EXPECT_EQ(scene_of(solid_page(scene))["contactsTitle"].get<std::string>(), "Contacts");
+  scene.placement.inside = false;
+  EXPECT_EQ(scene_of(solid_page(scene))["contactsTitle"].get<std::string>(), "No contacts");
+  for (double& allowance : scene.allowances) allowance -= 3;
+  scene.placement.pose.shift = {0, 0, 3};
+  const cases::Json json = scene_of(solid_page(scene));
+  EXPECT_EQ(json["contactsTitle"].get<std::string>(), "Where most is missing");
+  EXPECT_EQ(json["contacts"].size(), 1U);
+  EXPECT_EQ(json["contacts"][0]["text"].get<std::string>(), "2.0000 mm outside");
+}
+
 TEST(SolidPage, Base64IsThatOfTheStandard) {
   // RFC 4648, section 10.
   EXPECT_EQ(base64(""), "");

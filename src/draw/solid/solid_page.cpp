@@ -127,15 +127,24 @@ class Page {
     });
   }
 
+  /// Writes the contacts, or the place where most is missing.
   void write_contacts() {
     std::string text;
-    for (std::size_t k = 0; k < look_.contacts.size(); ++k) {
-      const locate::SolidTouch& contact = look_.touches[k];
-      text += fmt::format("{}{{\"place\":{},\"outward\":{},\"distance\":{},\"text\":{}}}", k == 0 ? "" : ",",
-                          vector(look_.contacts[k] - box_.low), vector(look_.outward(k)), contact.distance,
-                          script_string(decimal(contact.distance, look_.table_decimals) + " mm"));
-    }
+    const auto add = [&](Vector place, Vector outward, double distance, const char* words) {
+      text += fmt::format("{}{{\"place\":{},\"outward\":{},\"distance\":{},\"text\":{}}}",
+                          text.empty() ? "" : ",", vector(place - box_.low), vector(outward), distance,
+                          script_string(decimal(std::abs(distance), look_.table_decimals) + words));
+    };
+    for (std::size_t k = 0; k < look_.contacts.size(); ++k)
+      add(look_.contacts[k], look_.outward(k), look_.touches[k].distance, " mm");
+    const bool worst = look_.contacts.empty() && look_.focus;
+    if (worst)
+      add(look_.focus->place, look_.focus->outward, look_.focus->distance,
+          look_.focus->distance < 0 ? " mm outside" : " mm");
     field("contacts", "[" + text + "]");
+    field("contactsTitle", script_string(worst          ? "Where most is missing"
+                                         : text.empty() ? "No contacts"
+                                                        : "Contacts"));
   }
 
   /// Triangles that nobody measured come last.

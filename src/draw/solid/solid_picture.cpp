@@ -54,6 +54,11 @@ class SolidComposer {
     std::vector<ContactMark> marks = draw_solids(look_, view, image, fine_, threads_, sheet_);
     draw_axes(view, {room.x + 9, room.bottom() - 12}, sheet_);
     draw_scale_bar(view.scale / fine_, {room.x + 1, room.bottom() - 0.6}, 36, sheet_);
+    if (look_.focus && look_.contacts.empty()) {
+      const ScreenPoint at = view(look_.focus->place);
+      page_.items.push_back(DotItem{
+          {image.x + at.x / fine_, image.y + at.y / fine_}, 2.2, stroked(kOutside, 0.4), {"focus", ""}});
+    }
     draw_contact_lengths(look_, std::move(marks), room, sheet_);
     draw_panel();
     return std::move(page_);

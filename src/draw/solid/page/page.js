@@ -64,7 +64,7 @@ function visit(k) {
   if (!contact) return;
   state.contact = k;
   state.centre = contact.place;
-  state.width = Math.max(16 * contact.distance, 0.01 * size);
+  state.width = Math.max(16 * Math.abs(contact.distance), 0.01 * size);
   const upright = cross(contact.outward, [0, 0, 1]);
   const n = facing(unit(Math.hypot(...upright) > 0.2 ? upright : cross(contact.outward, [1, 0, 0])));
   look(n);
@@ -104,7 +104,7 @@ function panel() {
   }
   for (const note of scene.notes) el('notes').appendChild(document.createElement('p')).textContent = note;
   el('notes').hidden = !scene.notes.length;
-  el('contacts-title').textContent = scene.contacts.length ? 'Contacts' : 'No contacts';
+  el('contacts-title').textContent = scene.contactsTitle;
   scene.contacts.forEach((contact, k) => {
     const row = el('contacts').appendChild(document.createElement('li'));
     const button = row.appendChild(document.createElement('button'));
