@@ -74,9 +74,7 @@ class ClearanceMeter::Pass {
   }
 
   Clearance run() {
-    std::vector<std::size_t> all(lots_);
-    for (std::size_t lot = 0; lot < lots_; ++lot) all[lot] = lot;
-    find_bounds(all);
+    find_bounds();
     begin_with_the_lowest();
     refine();
     measure_all_below();
@@ -110,16 +108,20 @@ class ClearanceMeter::Pass {
     return {along(rows_[0]), along(rows_[1]), along(rows_[2])};
   }
 
-  void find_bounds(const std::vector<std::size_t>& lots) {
-    share_out(lots.size(), meter_.threads_, [&](std::size_t k) {
-      const auto [begin, end] = points_of(lots[k]);
-      std::size_t lowest = begin;
-      for (std::size_t i = begin; i < end; ++i) {
-        bounds()[i] = meter_.field_.bound(place(i));
-        if (bounds()[i] < bounds()[lowest]) lowest = i;
-      }
-      lowest_[lots[k]] = lowest;
+  void find_bounds() {
+    share_out(lots_, meter_.threads_, [&](std::size_t lot) {
+      const auto [begin, end] = points_of(lot);
+      for (std::size_t i = begin; i < end; ++i) bounds()[i] = meter_.field_.bound(place(i));
+      find_lowest(lot);
     });
+  }
+
+  void find_lowest(std::size_t lot) {
+    const auto [begin, end] = points_of(lot);
+    std::size_t lowest = begin;
+    for (std::size_t i = begin; i < end; ++i)
+      if (bounds()[i] < bounds()[lowest]) lowest = i;
+    lowest_[lot] = lowest;
   }
 
   /// The signed distance of a point whose bound is known, if it can be below `most`.
@@ -148,22 +150,26 @@ class ClearanceMeter::Pass {
 
   /// Makes cells where the one bound of their brick leaves points to be measured.
   void refine() {
+    std::vector<std::vector<std::uint32_t>> points(lots_);
     std::vector<std::uint64_t> cells;
-    std::vector<std::size_t> lots;
     for (std::size_t lot = 0; lot < lots_; ++lot) {
       if (!(bounds()[lowest_[lot]] < best_.high)) continue;
-      const std::size_t before = cells.size();
       const auto [begin, end] = points_of(lot);
       for (std::size_t i = begin; i < end; ++i) {
         if (!(bounds()[i] < best_.high)) continue;
         const std::uint64_t cell = meter_.field_.unmade_at(place(i));
-        if (cell != DistanceField::kNoCell && (cells.empty() || cells.back() != cell)) cells.push_back(cell);
+        if (cell == DistanceField::kNoCell) continue;
+        points[lot].push_back(static_cast<std::uint32_t>(i));
+        if (cells.empty() || cells.back() != cell) cells.push_back(cell);
       }
-      if (cells.size() > before) lots.push_back(lot);
     }
     if (cells.empty()) return;
     meter_.field_.make_cells(std::move(cells), meter_.threads_);
-    find_bounds(lots);
+    share_out(lots_, meter_.threads_, [&](std::size_t lot) {
+      if (points[lot].empty()) return;
+      for (const std::uint32_t i : points[lot]) bounds()[i] = meter_.field_.bound(place(i));
+      find_lowest(lot);
+    });
     begin_with_the_lowest();
   }
 

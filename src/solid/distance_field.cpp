@@ -95,6 +95,19 @@ float DistanceField::bound_in(const Cells& cells, std::size_t cell, Place p) con
   return between(w, low, high) - off - static_cast<float>(rounding_);
 }
 
+float DistanceField::bound_beside(const Cells& cells, Place p) const noexcept {
+  const std::size_t cell = cell_at(p);
+  const float u = p.x - std::floor(p.x), v = p.y - std::floor(p.y), w = p.z - std::floor(p.z);
+  float best = -std::numeric_limits<float>::infinity();
+  for (std::size_t k = 0; k < 8; ++k) {
+    const float x = k % 2 != 0 ? 1 - u : u, y = k / 2 % 2 != 0 ? 1 - v : v, z = k / 4 != 0 ? 1 - w : w;
+    const float bound =
+        cells.distance[corner_of(cell, k)] - std::sqrt(x * x + y * y + z * z) * static_cast<float>(cell_);
+    if (bound > best) best = bound;  // not where the corner is not made
+  }
+  return best - static_cast<float>(rounding_);
+}
+
 void DistanceField::make_cells(std::vector<std::uint64_t> wanted, unsigned threads) {
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
@@ -121,24 +134,25 @@ void DistanceField::fill(std::span<const std::uint64_t> wanted, Cells& cells) co
             z0 = brick / (bricks_[0] * bricks_[1]) * kCells;
   Walk walk(*tree_);
   for (const std::uint64_t number : wanted) {
-    const auto cell = static_cast<int>(number % kCellsOfBrick);
+    const auto cell = static_cast<std::size_t>(number % kCellsOfBrick);
     float least = std::numeric_limits<float>::infinity();
-    for (const int corner : {0, 1, 2, 3, 4, 5, 6, 7}) {
-      const int x = cell % kCells + corner % 2, y = cell / kCells % kCells + corner / 2 % 2,
-                z = cell / (kCells * kCells) + corner / 4;
-      float& distance = cells.distance[static_cast<std::size_t>((z * kCorners + y) * kCorners + x)];
-      if (std::isnan(distance))
-        distance =
-            rounded_down(walk.bound(low_ + cell_ * Vector{double(x0 + x), double(y0 + y), double(z0 + z)}));
+    for (std::size_t k = 0; k < 8; ++k) {
+      const std::size_t corner = corner_of(cell, k);
+      float& distance = cells.distance[corner];
+      if (std::isnan(distance)) {
+        const auto at = static_cast<int>(corner);
+        distance = rounded_down(walk.bound(low_ + cell_ * Vector{double(x0 + at % kCorners),
+                                                                 double(y0 + at / kCorners % kCorners),
+                                                                 double(z0 + at / (kCorners * kCorners))}));
+      }
       least = std::min(least, distance);
     }
     // No place of the cell is farther than half its diagonal from a corner; the bound so found makes a better
     // one.
     double within = least - 0.8661 * cell_;
     if (within > 0) within = std::max(within, least - 0.375 * cell_ * cell_ / within);
-    cells.bend[static_cast<std::size_t>(cell)] =
-        within > 0 ? static_cast<float>(0.5 * cell_ * cell_ / within * (1 + 0x1p-20))
-                   : std::numeric_limits<float>::infinity();
+    cells.bend[cell] = within > 0 ? static_cast<float>(0.5 * cell_ * cell_ / within * (1 + 0x1p-20))
+                                  : std::numeric_limits<float>::infinity();
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -42,7 +43,7 @@ class DistanceField {
     if (cells_of_[brick] < 0) return least_[brick];
     const Cells& cells = cells_[static_cast<std::size_t>(cells_of_[brick])];
     const std::size_t cell = cell_at(p);
-    return cells.bend[cell] < 0 ? least_[brick] : bound_in(cells, cell, p);
+    return cells.bend[cell] < 0 ? std::max(least_[brick], bound_beside(cells, p)) : bound_in(cells, cell, p);
   }
   static constexpr std::uint64_t kNoCell = ~std::uint64_t{0};
   /// The number of the cell at a place if it is not made, or kNoCell where nothing is to be made.
@@ -59,6 +60,12 @@ class DistanceField {
   void make_cells(std::vector<std::uint64_t> wanted, unsigned threads);
 
  private:
+  /// The number of a corner of a cell, counted from 0 to 7.
+  [[nodiscard]] static std::size_t corner_of(std::size_t cell, std::size_t k) noexcept {
+    const std::size_t x = cell % kCells + k % 2, y = cell / kCells % kCells + k / 2 % 2,
+                      z = cell / (kCells * kCells) + k / 4;
+    return (z * kCorners + y) * kCorners + x;
+  }
   static constexpr std::uint32_t kNoBrick = 0xffffffffU;
   static constexpr int kCorners = kCells + 1, kCellsOfBrick = kCells * kCells * kCells;
   struct Cells {
@@ -75,6 +82,8 @@ class DistanceField {
     return static_cast<std::size_t>((z * kCells + y) * kCells + x);
   }
   [[nodiscard]] float bound_in(const Cells& cells, std::size_t cell, Place p) const noexcept;
+  /// A bound from the corners that cells beside this one have, each less the way to it.
+  [[nodiscard]] float bound_beside(const Cells& cells, Place p) const noexcept;
   void fill(std::span<const std::uint64_t> wanted, Cells& cells) const;
 
   const TriangleTree* tree_;
