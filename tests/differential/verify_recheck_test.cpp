@@ -15,6 +15,7 @@ namespace lekalo::verify_recheck_test {
 namespace {
 
 using namespace verify_cases;
+using verify_cases::Random;
 using verify::Verdict;
 
 std::string temporary(const std::string& name, const std::string& text) {
