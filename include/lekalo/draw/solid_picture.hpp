@@ -43,8 +43,7 @@ struct SolidScene {
 /// \param width_px  100 to 20000, else ErrorCode::usage; ErrorCode::environment when the drawing library
 /// fails
 /// \pre coordinates are finite and of size 1e12 at most, `allowances` is empty or has one for each vertex,
-/// and
-///      the numbers in `unknown` are those of triangles
+///      and the numbers in `unknown` are those of triangles
 /// Same input, same bytes on a machine with the same libraries and fonts, for any number of threads.
 /// Cost: 100,000 triangles of each within a second.
 [[nodiscard]] Result<std::string> solid_png(const SolidScene& scene, int width_px = 1600,
