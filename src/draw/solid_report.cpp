@@ -180,7 +180,7 @@ class SolidReportPage {
                        decimal(*scene_.upper_bound, look_.decimals, Rounding::up));
   }
   [[nodiscard]] std::string this_has() const {
-    if (!scene_.placement.inside) return "the best found sticks out";
+    if (!scene_.placement.inside) return "the best found is not inside the blank";
     return fmt::format("this one leaves at least {} mm",
                        decimal(scene_.placement.clearance, look_.decimals, Rounding::down));
   }

@@ -304,7 +304,7 @@ TEST(SolidPicture, TheWorstPlaceIsInSightWhereThePartSticksOut) {
   EXPECT_NEAR(look.focus->on_blank.z, 21, 1e-9);
   EXPECT_NEAR(look.focus->distance, -2, 1e-9);
   EXPECT_GT(facing(look).towards.z, 0.5);
-  EXPECT_EQ(clearance_text(scene, look), "sticks out");
+  EXPECT_EQ(clearance_text(scene, look), "not inside");
   ASSERT_FALSE(key_of(scene, look).empty());
   EXPECT_EQ(key_of(scene, look).front().words.substr(0, 28), "outside the blank, by up to ");
 }

@@ -77,7 +77,7 @@ TEST(SolidReport, SaysWhatIsProvedAndWhatIsNot) {
   report.scene.placement.inside = false, report.scene.placement.contacts.clear();
   report.freedom = locate::SolidFreedom::c_xyz;
   svg = solid_report_svg(report);
-  EXPECT_TRUE(has(svg, ">sticks out<"));
+  EXPECT_TRUE(has(svg, ">not inside<"));
   EXPECT_TRUE(has(svg, "turned about z by up to"));
   report.scene.status = "stopped", report.freedom = locate::SolidFreedom::xyz;
   EXPECT_TRUE(has(solid_report_svg(report), "Stopped before the search was complete"));

@@ -135,7 +135,7 @@ SpaceView facing(const SolidLook& look) {
 }
 
 std::string clearance_text(const SolidScene& scene, const SolidLook& look) {
-  if (!scene.placement.inside) return "sticks out";
+  if (!scene.placement.inside) return "not inside";
   return decimal(scene.placement.clearance, look.decimals, Rounding::down) + " mm";
 }
 

@@ -60,7 +60,7 @@ struct SolidFigure {
 };
 /// Bound, gap, demand, what is missing and unknown, and the pose. Bounds and what is missing are rounded up.
 [[nodiscard]] std::vector<SolidFigure> figures_of(const SolidScene& scene, const SolidLook& look);
-/// The least allowance as it is printed, rounded down, or that the part sticks out.
+/// The least allowance as it is printed, rounded down, or that the part is not inside.
 [[nodiscard]] std::string clearance_text(const SolidScene& scene, const SolidLook& look);
 /// A colour and what it stands for.
 struct SolidKey {
