@@ -216,7 +216,7 @@ std::string pose_lines(const io::SolidDocument& d) {
   const solid::Vector at = d.pose.shift;
   return fmt::format("  the part lies at   x = {:.6f} mm, y = {:.6f} mm, z = {:.6f} mm\n", at.x, at.y, at.z) +
          turn_line(d.pose.quaternion) + "  minimum allowance  " +
-         (d.clearance ? mm_down(*d.clearance) : "none: the part sticks out of the blank") + "\n";
+         (d.clearance ? mm_down(*d.clearance) : "none: the part is not inside the blank") + "\n";
 }
 
 std::string window_text(const io::SolidDocument& d) {
