@@ -46,14 +46,19 @@ double value_at(const LinearBound<6>& bound, const Steps& z) {
 
 SolidSearch::SolidSearch(const SolidMeter& meter, const SolidOptions& options)
     : meter_(meter), options_(options), bounds_(meter) {
-  best_.value = -kInfinity;
   meet_first();
 }
 
 /// Makes six half-spaces known that bound the blank, each with the part's foremost vertex, so that every box
-/// has a bound.
+/// has a bound; and the contacts at the start, from where it climbs.
 void SolidSearch::meet_first() {
-  const Motion motion = meter_.frame().motion(meter_.frame().window.middle());
+  const FramedPose start = meter_.frame().window.middle();
+  const Motion motion = meter_.frame().motion(start);
+  std::vector<SolidContact> contacts;
+  (void)meter_.measure(start, kInfinity, kLooked, contacts);
+  ++work_;
+  best_ =
+      climb(meter_, start, size(meter_.frame().window), kWorthClimbing * options_.gap, options_.run, work_);
   for (double Vector::*const axis : kAxes)
     for (const double side : {-1.0, 1.0}) {
       SolidContact contact;
@@ -64,8 +69,10 @@ void SolidSearch::meet_first() {
       contact.blank = *std::min_element(of_blank.begin(), of_blank.end(), before);
       contact.part = *std::min_element(of_part.begin(), of_part.end(),
                                        [&](Vector a, Vector b) { return before(motion(a), motion(b)); });
-      if (auto made = bounds_.known(contact, motion)) known_.push_back(std::move(*made));
+      contacts.push_back(contact);
     }
+  for (const SolidContact& contact : contacts)
+    if (auto made = bounds_.known(contact, motion)) known_.push_back(std::move(*made));
 }
 
 double SolidSearch::size(const SolidCell& cell) const {
@@ -120,7 +127,8 @@ void SolidSearch::bound(Node& node, Found& found) const {
           terms.push_back(
               {of_row[solution.row[j]], rows[solution.row[j]].choice, static_cast<std::uint32_t>(share)});
       if (const double upper = proved(terms); upper < node.upper) node.upper = upper, node.terms = terms;
-      if (closed(node.upper)) return;
+      // While no pose is inside, a box may yet prove that there is none.
+      if (closed(node.upper) && (best_.value > 0 || node.upper < options_.min_allowance)) return;
       const Steps& z = solution.z;
       const double turn = 0.5 / view.reach;
       pose = node.cell.held(
