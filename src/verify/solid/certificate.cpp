@@ -78,6 +78,8 @@ class TreeCheck {
 
  private:
   static constexpr std::array<std::string_view, 6> kAxes{"x", "y", "z", "turn_x", "turn_y", "turn_z"};
+  enum class Kind : std::uint8_t { ball, plane, face, part_face, none };
+  static constexpr std::array<std::string_view, 4> kKinds{"ball", "plane", "face", "part_face"};
 
   /// The ends of a box, by their places among all ends: a split has one, which many boxes share.
   struct Cell {
@@ -152,37 +154,37 @@ class TreeCheck {
     if (items.next() || !value[0].is_string() || !multiplier || sgn(multiplier->digits) < 0 ||
         is_beyond_all_sizes(*multiplier))
       return false;
-    const std::string kind = json_text(value[0]);
-    const bool by_part_face = kind == "part_face", by_blank_face = kind == "face", by_plane = kind == "plane";
-    if (!by_part_face && !by_blank_face && !by_plane && kind != "ball") return false;
-    std::optional<std::size_t> of_part, of_blank;
-    std::optional<std::uint32_t> triangle;
-    if (by_part_face) {
-      triangle = triangle_of(value[1], frame_.part);
-      if (!triangle) return false;
-    } else {
-      of_part = index(value[1], tables_.part_balls());
-      if (!of_part) return false;
-    }
-    if (by_blank_face) {
-      triangle = triangle_of(value[2], frame_.blank);
-      if (!triangle) return false;
-    } else {
-      of_blank = index(value[2], by_plane ? tables_.planes() : tables_.blank_balls());
-      if (!of_blank) return false;
-    }
+    const std::string word = json_text(value[0]);
+    const auto kind = static_cast<Kind>(std::ranges::find(kKinds, word) - kKinds.begin());
+    if (kind == Kind::none) return false;
+    const auto of_part =
+        kind == Kind::part_face ? triangle_of(value[1], frame_.part) : index(value[1], tables_.part_balls());
+    const auto of_blank =
+        kind == Kind::face ? triangle_of(value[2], frame_.blank)
+                           : index(value[2], kind == Kind::plane ? tables_.planes() : tables_.blank_balls());
+    if (!of_part || !of_blank) return false;
     if (sgn(multiplier->digits) == 0) return true;
     any_ = true;
-    if (!look) return true;
-    LeafTerm term;
-    bool good = true;
-    if (of_part) good = (term.part_ball = tables_.part_ball(*of_part)) != nullptr;
-    if (of_blank && by_plane) good = (term.plane = tables_.plane(*of_blank)) != nullptr && good;
-    if (of_blank && !by_plane) good = (term.blank_ball = tables_.blank_ball(*of_blank)) != nullptr && good;
-    term.triangle = triangle.value_or(0);
-    term.multiplier = both(*multiplier);
-    if (good) terms_.push_back(std::move(term));
+    if (look) add_term(kind, *of_part, *of_blank, *multiplier);
     return true;
+  }
+
+  void add_term(Kind kind, std::size_t of_part, std::size_t of_blank, const Decimal& multiplier) {
+    LeafTerm term;
+    term.multiplier = both(multiplier);
+    if (kind == Kind::part_face)
+      term.triangle = static_cast<std::uint32_t>(of_part);
+    else
+      term.part_ball = tables_.part_ball(of_part);
+    if (kind == Kind::face)
+      term.triangle = static_cast<std::uint32_t>(of_blank);
+    else if (kind == Kind::plane)
+      term.plane = tables_.plane(of_blank);
+    else
+      term.blank_ball = tables_.blank_ball(of_blank);
+    const bool has_part = kind == Kind::part_face || term.part_ball != nullptr,
+               has_blank = kind == Kind::face || term.plane != nullptr || term.blank_ball != nullptr;
+    if (has_part && has_blank) terms_.push_back(std::move(term));
   }
 
   /// Reads a whole number below a count.
@@ -193,7 +195,7 @@ class TreeCheck {
       return std::nullopt;
     return static_cast<std::size_t>(to_long(in_units(*number, 0)));
   }
-  static std::optional<std::uint32_t> triangle_of(Json value, const SolidMesh& mesh) {
+  static std::optional<std::size_t> triangle_of(Json value, const SolidMesh& mesh) {
     const auto number = index(value, limits::kMostSolidItems);
     return number ? mesh.triangle_of_file(*number) : std::nullopt;
   }

@@ -19,7 +19,7 @@ Answer at_most_zero(const Fraction& value) { return sgn(value) <= 0 ? Answer::ye
 
 /// Returns 1 / |n|, whose error is on the side of the sign that is given: of a fraction a positive sign makes
 /// it no less. \pre n is not 0
-Span inverse_length(const Vec3& n, int) { return just(1) / length(n); }
+Span inverse_length(const Vec3& n, int /*side*/) { return just(1) / length(n); }
 Fraction inverse_length(const Exact3& n, int side) {
   // |n| = sqrt(p / q) = sqrt(p q) / q; where that is no fraction, it is cut at 2^-128 of itself, or finer.
   const Fraction squared = dot(n, n);
@@ -195,7 +195,7 @@ class LeafProof {
   using Point = Of3<Number>;
 
   static Point negative(const Point& p) { return Point{} - p; }
-  Point turned(const Point& way) const { return frame_.turn(way); }
+  [[nodiscard]] Point turned(const Point& way) const { return frame_.turn(way); }
 
   /// Adds the form of a term, and says whether it counts over the whole box.
   Answer add(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
@@ -279,7 +279,7 @@ class LeafProof {
     return all;
   }
 
-  static bool has_area(const Facet<Span>&) { return true; }
+  static bool has_area(const Facet<Span>& /*face*/) { return true; }
   static bool has_area(const Facet<Fraction>& face) { return sgn(dot(face.normal, face.normal)) != 0; }
   static Answer add_nothing(std::vector<Form<Number>>& forms) {
     forms.emplace_back();
@@ -289,7 +289,7 @@ class LeafProof {
   static Answer not_below_zero(const Number& value) {
     return at_most_zero(Number(number<Number>(0) - value));
   }
-  Answer nowhere_positive(const Form<Number>& form) const {
+  [[nodiscard]] Answer nowhere_positive(const Form<Number>& form) const {
     return cell_.nowhere_positive(std::vector<Form<Number>>{form});
   }
   static double squared_length(const Near3& p) { return dot(p, p); }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -13,6 +12,10 @@
 
 namespace lekalo::verify {
 namespace {
+
+constexpr std::array<std::string_view, 4> kStatuses{"optimal", "stopped", "infeasible", "unproved"};
+/// In the order of SolidUnit and of SolidFreedom.
+constexpr std::array<std::string_view, 3> kUnits{"mm", "inch", "m"}, kFreedoms{"xyz", "c-xyz", "six"};
 
 tl::unexpected<Error> bad(const std::string& name, const std::string& sentence) {
   return failure(ErrorCode::bad_input, fmt::format("{}: {}", name, sentence));
@@ -26,10 +29,10 @@ bool has_format(Fields& fields, std::string_view format) {
 
 /// Returns which of some words a text is, and complains where it is none of them.
 template <std::size_t Count>
-std::size_t word_of(Fields& fields, std::string_view key, const std::string_view (&words)[Count]) {
+std::size_t word_of(Fields& fields, std::string_view key, const std::array<std::string_view, Count>& words) {
   const std::string text = fields.text(key);
   const auto found = std::ranges::find(words, text);
-  if (found != std::end(words)) return static_cast<std::size_t>(found - words);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
   std::string list;
   for (const std::string_view word : words) list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", word);
   fields.complain(fmt::format("field {} is \"{}\", not {}", fields.name(key), excerpt(text), list));
@@ -43,9 +46,8 @@ class Reader {
   SolidDocument read() {
     if (!has_format(fields_, "lekalo-locate"))
       fields_.complain("field format does not say lekalo-locate, version 1");
-    word_of(fields_, "status", {"optimal", "stopped", "infeasible", "unproved"});
-    d_.status = fields_.text("status");
-    word_of(fields_, "units", {"mm"});
+    d_.status = kStatuses[word_of(fields_, "status", kStatuses)];
+    if (fields_.text("units") != "mm") fields_.complain("field units is not \"mm\"");
     read_inputs();
     read_window();
     d_.pose = pose(fields_);
@@ -72,7 +74,7 @@ class Reader {
       fields_.complain(fmt::format("field {} is neither true nor false", fields_.name(key)));
     return value.is_true();
   }
-  Decimal length(Fields& fields, std::string_view key) {
+  static Decimal length(Fields& fields, std::string_view key) {
     Decimal value = fields.number(key);
     if (is_beyond_all_sizes(value))
       fields.complain(fmt::format("field {} is beyond {:g} mm", fields.name(key), limits::kLargestDerived));
@@ -99,7 +101,7 @@ class Reader {
       if (role != "part" && role != "blank") return;
       ++(role == "part" ? parts : blanks);
       WrittenSolid& solid = role == "part" ? d_.part : d_.blank;
-      solid.unit = static_cast<SolidUnit>(word_of(input, "units", {"mm", "inch", "m"}));
+      solid.unit = static_cast<SolidUnit>(word_of(input, "units", kUnits));
       solid.triangles = input.index("triangles");
     });
     if (parts != 1 || blanks != 1)
@@ -108,7 +110,7 @@ class Reader {
 
   void read_window() {
     SolidWindow& w = d_.window;
-    w.freedom = static_cast<SolidFreedom>(word_of(fields_, "freedom", {"xyz", "c-xyz", "six"}));
+    w.freedom = static_cast<SolidFreedom>(word_of(fields_, "freedom", kFreedoms));
     Fields window(fields_.get("window"), "window", complaint_);
     w.start = pose(window);
     w.pivot = numbers<3>(window, "pivot");

@@ -32,7 +32,7 @@ Fraction most_turn(const SolidWindow& window) {
   if (sgn(window.turn_deg.digits) == 0) return 0;
   if (compare(window.turn_deg, Decimal{9, 1}) == 0) return 1;
   const Turn half = turn_by_degrees(to_fraction(window.turn_deg) / 2);
-  return Fraction((half.sine / half.cosine).high_double());
+  return {(half.sine / half.cosine).high_double()};
 }
 
 /// Returns how far each part of x goes in the window.
