@@ -12,8 +12,8 @@ namespace lekalo::solid {
 namespace {
 
 /// Moving a point, differences and products with a unit vector are some forty roundings of 2^-53 of the
-/// coordinates; making a box and its axes, and moving them, some hundred.
-constexpr double kPairRounding = 0x1p-46;
+/// coordinates; making boxes and their axes, moving them and all their shadows less than two hundred.
+constexpr double kPairRounding = 0x1p-45;
 /// The part is cut into this many pieces, if it has as many triangles.
 constexpr std::size_t kPieces = 64;
 

@@ -180,7 +180,7 @@ TEST(MeshClearance, APartBesideTheBlankOrAroundACoreIsNotInside) {
   const Mesh part = cases::block({0, 0, 0}, {10, 10, 10});
   const MeshClearance meter(part, cases::block({-1, -1, -1}, {11, 11, 11}));
   EXPECT_TRUE(meter.inside({}));
-  EXPECT_NEAR(meter.nearest({})->low, 1, 1e-12);
+  EXPECT_NEAR(meter.nearest({})->low, 1, 1e-11);
   Motion beside;
   beside.shift = {20, 0, 0};
   EXPECT_FALSE(meter.inside(beside));

@@ -32,10 +32,10 @@ class MeshClearance {
   [[nodiscard]] const TriangleTree& part() const noexcept { return part_; }
   [[nodiscard]] const TriangleTree& blank() const noexcept { return blank_; }
 
-  /// The nearest pair, or none if all are `most` apart or more; `low` holds for all pairs. It is within 2^-45
-  /// of the largest coordinate of `high` unless a triangle is very thin; where surfaces cross it is not above
-  /// 0, and the pair is one of those that do. A pair that is near, as that of a neighbouring pose, makes it
-  /// quicker.
+  /// The nearest pair, or none if all are `most` apart or more; rounding may let one of these be given. `low`
+  /// holds for all pairs. It is within 2^-41 of the largest coordinate of `high` unless a triangle is very
+  /// thin; where surfaces cross it is not above 0, and the pair is one of those that do. A pair that is near,
+  /// as that of a neighbouring pose, makes it quicker.
   [[nodiscard]] std::optional<NearPair> nearest(const Motion& blank_from_part,
                                                 double most = std::numeric_limits<double>::infinity(),
                                                 const NearPair* near = nullptr) const;

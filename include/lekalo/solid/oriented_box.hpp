@@ -25,8 +25,8 @@ struct OrientedBox {
 [[nodiscard]] OrientedBox moved(const Motion& motion, const OrientedBox& box) noexcept;
 
 /// The square of a distance that no two points of the boxes fall short of: the greater one of those that
-/// either box has, along its axes, from the other's shadows on them. Rounding hides some hundred times 2^-53
-/// of the coordinates.
+/// either box has, along its axes, from the other's shadows on them. Rounding hides
+/// less than 2^-45 of the largest coordinates of both meshes and of the motion together.
 [[nodiscard]] double squared_gap(const OrientedBox& a, const OrientedBox& b) noexcept;
 
 }  // namespace lekalo::solid
