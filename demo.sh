@@ -44,6 +44,14 @@ show "$lekalo" verify demo-out/flange.json
 show "$lekalo" locate --part $regions/flange.json --blank $regions/flange-scan.csv --uncertainty 0.01 --min-radius 4 \
   --min-allowance 1 --picture demo-out/flange.png --report demo-out/flange-report.png
 
+# A housing with a bore in its casting, in space: the best place within 5 mm and 5 degrees, with proof.
+solid=examples/solid
+show "$lekalo" locate --part $solid/part.stl --blank $solid/casting.stl --min-allowance 1.5 --picture demo-out/housing.png \
+  --report demo-out/housing.pdf --certificate demo-out/housing-proof.json -o demo-out/housing.json
+show "$lekalo" verify demo-out/housing.json
+show "$lekalo" locate --part $solid/part.stl --blank $solid/casting.stl --start demo-out/housing.json --method climb \
+  --picture demo-out/housing.html
+
 # Shoes on a hide: pieces put down by commands, checked, drawn.
 layouts=examples/layouts
 show "$lekalo" edit $layouts/shoes.json --commands $layouts/shoes.commands -o demo-out/shoes.json
@@ -71,6 +79,8 @@ say "  part.nc                            $data/part.nc in the machine's frame"
 say "  bracket.svg, bracket.json, bracket.nc  a part with arcs, a slot and holes in a cored casting"
 say "  flange.svg, flange.pdf, flange.json, flange.nc, flange.csv  a part of primitives in a probed casting: picture,"
 say "                                     report, result, program, allowance along the outline; flange.png, flange-report.png"
+say "  housing.png, housing.pdf, housing.html, housing.json, housing-proof.json  a housing with a bore in its casting, in space:"
+say "                                     picture, report, a page that turns, result and its proof"
 say "  shoes.json, shoes.svg, shoes.pdf   a pair of shoes on a hide with defects and zones: layout and picture"
 say "  shoes-nested.json, shoes-nested.svg  three pairs laid out by lekalo nest"
 say "  cover.ngc, cover.png, cover.html   a pocket with an island: the program that clears it, its path by engagement, played"
