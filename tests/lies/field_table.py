@@ -18,8 +18,8 @@ import kinds
 import verify_lies
 
 # The kinds of results, and the words with which their table begins.
-TABLES = {"placement": "Placements:", "layout": "**Layouts.**", "report of nest": "**Reports of nest and check.**",
-          "report of check": "**Reports of nest and check.**",
+TABLES = {"placement of solids": "Placements of solids:", "placement": "Placements:", "layout": "**Layouts.**",
+          "report of nest": "**Reports of nest and check.**", "report of check": "**Reports of nest and check.**",
           "report of pocket": "**Reports of simulate and pocket", "report of simulate": "**Reports of simulate and pocket"}
 
 

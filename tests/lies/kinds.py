@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import changes
 import demands
 import layouts
+import solids
 import truth
 
 BENT = ('<svg xmlns="http://www.w3.org/2000/svg" width="80mm" height="40mm" viewBox="0 0 80 40"><path d="M0 0H80V40H0Z"/>'
@@ -125,6 +126,12 @@ def kinds():
     yield Kind("program, rewritten", bracket,
                [region + ["-o", "r.json", "--nc", "bracket.nc", "--nc-out", "o.nc"]], "o.nc", of_r,
                truth.rewritten, form="text", report_of="r.json")
+    blocks = {"part.stl": solids.stl((-20, -15, -10), (20, 15, 10)), "casting.stl": solids.stl((-22, -17, -13), (24, 17, 11))}
+    solid = ["locate", "--part", "part.stl", "--blank", "casting.stl", "--gap", "0.2", "-o", "r.json"]
+    for freedom, words in (("shifted", ["--freedom", "xyz"]), ("turned about z", ["--freedom", "c-xyz"]),
+                           ("turned", ["--tilt", "1", "--shift", "2", "--min-allowance", "3"])):
+        yield Kind(f"placement of solids, {freedom}", [], [solid + words], "r.json", of_r, solids.oracle, written=blocks,
+                   inputs=["part.stl", "casting.stl"], step=solids.least_step)
     yield from of_layouts()
     yield from of_pockets()
 
