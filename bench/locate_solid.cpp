@@ -25,6 +25,8 @@ cases::SolidCase make(std::string_view kind, Random& random) {
   if (kind == "uneven") return cases::convex_in_convex(random, 30, 1, true);
   if (kind == "cored") return cases::cored_block(random);
   if (kind == "turned") return cases::turned_part(random);
+  if (kind == "fine-cored") return cases::cored_block(random, 160);
+  if (kind == "fine-turned") return cases::turned_part(random, 300);
   if (kind == "fine") return cases::wavy_part(random, 158);
   return cases::wavy_part(random);
 }
@@ -82,7 +84,8 @@ int main(int argc, char** argv) {
   const std::uint64_t count = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 5,
                       seed = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1;
   const double gap = argc > 4 ? std::strtod(argv[4], nullptr) : 0.01;
-  for (const std::string_view kind : {"convex", "uneven", "cored", "turned", "wavy", "fine"}) {
+  for (const std::string_view kind :
+       {"convex", "uneven", "cored", "turned", "wavy", "fine", "fine-cored", "fine-turned"}) {
     if (wanted != "all" && wanted != kind) continue;
     for (std::uint64_t k = 0; k < count; ++k) {
       Random random(seed, 100 + k);
