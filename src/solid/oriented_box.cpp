@@ -105,11 +105,12 @@ std::vector<OrientedBox> oriented_boxes(const TriangleTree& tree) {
           low[i] = std::min(low[i], along);
           high[i] = std::max(high[i], along);
         }
-    box.middle = middle;
-    for (std::size_t i = 0; i < 3; ++i) {
+    const auto set = [&](std::size_t i, double& half) {
       box.middle = box.middle + 0.5 * (low[i] + high[i]) * box.axes[i];
-      box.half[i] = 0.5 * (high[i] - low[i]);
-    }
+      half = 0.5 * (high[i] - low[i]);
+    };
+    box.middle = middle;
+    set(0, box.half.x), set(1, box.half.y), set(2, box.half.z);
   }
   return boxes;
 }
@@ -121,23 +122,24 @@ OrientedBox moved(const Motion& motion, const OrientedBox& box) noexcept {
 }
 
 double squared_gap(const OrientedBox& a, const OrientedBox& b) noexcept {
-  const Vector way = b.middle - a.middle;
-  double along_a = 0;
-  std::array<double, 3> beyond_b;
-  for (std::size_t j = 0; j < 3; ++j) beyond_b[j] = std::abs(dot(b.axes[j], way)) - b.half[j];
-  for (std::size_t i = 0; i < 3; ++i) {
-    double beyond = std::abs(dot(a.axes[i], way)) - a.half[i];
-    for (std::size_t j = 0; j < 3; ++j) {
-      const double shared = std::abs(dot(a.axes[i], b.axes[j]));
-      beyond -= shared * b.half[j];
-      beyond_b[j] -= shared * a.half[i];
-    }
-    if (beyond > 0) along_a += beyond * beyond;
-  }
-  double along_b = 0;
-  for (const double beyond : beyond_b)
-    if (beyond > 0) along_b += beyond * beyond;
-  return std::max(along_a, along_b);
+  // The products of all axes of the one with all of the other are the shadows of both.
+  const auto [ax, ay, az] = a.axes;
+  const auto [bx, by, bz] = b.axes;
+  const auto absolute = [](double x, double y, double z) {
+    return Vector{std::abs(x), std::abs(y), std::abs(z)};
+  };
+  const Vector way = b.middle - a.middle, x = absolute(dot(ax, bx), dot(ax, by), dot(ax, bz)),
+               y = absolute(dot(ay, bx), dot(ay, by), dot(ay, bz)),
+               z = absolute(dot(az, bx), dot(az, by), dot(az, bz));
+  const Vector of_a = absolute(dot(ax, way), dot(ay, way), dot(az, way)) - a.half -
+                      Vector{dot(x, b.half), dot(y, b.half), dot(z, b.half)},
+               of_b = absolute(dot(bx, way), dot(by, way), dot(bz, way)) - b.half -
+                      (a.half.x * x + (a.half.y * y + a.half.z * z));
+  const auto square = [](Vector beyond) {
+    const Vector v{std::max(0.0, beyond.x), std::max(0.0, beyond.y), std::max(0.0, beyond.z)};
+    return dot(v, v);
+  };
+  return std::max(square(of_a), square(of_b));
 }
 
 }  // namespace lekalo::solid

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "support/cases.hpp"
@@ -19,11 +20,13 @@ using solid::OrientedBox;
 using solid::TriangleTree;
 using solid::Vector;
 
+std::array<double, 3> half_widths(const OrientedBox& box) { return {box.half.x, box.half.y, box.half.z}; }
+
 /// A place of the box, each part of it from -1 to 1.
 Vector place(const OrientedBox& box, Random& random) {
   Vector p = box.middle;
   for (std::size_t i = 0; i < 3; ++i)
-    p = p + std::clamp(random.uniform(-1.5, 1.5), -1.0, 1.0) * box.half[i] * box.axes[i];
+    p = p + std::clamp(random.uniform(-1.5, 1.5), -1.0, 1.0) * half_widths(box)[i] * box.axes[i];
   return p;
 }
 
@@ -51,8 +54,8 @@ TEST(OrientedBox, HoldsTheTrianglesOfItsNode) {
       for (std::uint32_t k = node.begin; k < node.end; ++k)
         for (const Vector p : tree.corners(k))
           for (std::size_t axis = 0; axis < 3; ++axis)
-            EXPECT_LE(std::abs(dot(box.axes[axis], p - box.middle)), box.half[axis] + 1e-12);
-      const double thinnest = *std::min_element(box.half.begin(), box.half.end());
+            EXPECT_LE(std::abs(dot(box.axes[axis], p - box.middle)), half_widths(box)[axis] + 1e-12);
+      const double thinnest = std::min({box.half.x, box.half.y, box.half.z});
       EXPECT_LT(thinnest, node.end - node.begin == 1 && i % 3 == 0 ? 1e-12 : 100);
     }
   }
@@ -70,7 +73,8 @@ TEST(OrientedBox, OfTrianglesWithoutAreaHoldsThem) {
     for (std::uint32_t k = node.begin; k < node.end; ++k)
       for (const Vector p : tree.corners(k))
         for (std::size_t axis = 0; axis < 3; ++axis)
-          EXPECT_LE(std::abs(dot(boxes[at].axes[axis], p - boxes[at].middle)), boxes[at].half[axis] + 1e-14);
+          EXPECT_LE(std::abs(dot(boxes[at].axes[axis], p - boxes[at].middle)),
+                    half_widths(boxes[at])[axis] + 1e-14);
   }
 }
 
@@ -80,7 +84,8 @@ TEST(OrientedBox, NoTwoPointsAreNearerThanTheGap) {
   for (std::size_t i = 0; i < cases::case_count(2000); ++i) {
     const auto some = [&] {
       OrientedBox box;
-      for (double& half : box.half) half = random.below(4) == 0 ? 0 : random.uniform(0, 4);
+      for (double* half : {&box.half.x, &box.half.y, &box.half.z})
+        *half = random.below(4) == 0 ? 0 : random.uniform(0, 4);
       return moved(cases::small_motion(random, 3, 8), box);
     };
     const OrientedBox a = some(), b = some();

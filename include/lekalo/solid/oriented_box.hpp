@@ -12,9 +12,9 @@ namespace lekalo::solid {
 struct OrientedBox {
   Vector middle;
   std::array<Vector, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  std::array<double, 3> half{};  ///< widths along the axes
+  Vector half;  ///< widths along the axes, in their order
 
-  [[nodiscard]] double size() const noexcept { return half[0] + half[1] + half[2]; }
+  [[nodiscard]] double size() const noexcept { return half.x + half.y + half.z; }
 };
 
 /// A box around the triangles of each node, along the ways in which they are spread most and least.
