@@ -59,7 +59,7 @@ class MeshClearance {
   struct Walk;
 
   TriangleTree part_, blank_;
-  /// One for each node of the trees.
+  /// The boxes of the trees' nodes.
   std::vector<OrientedBox> part_boxes_, blank_boxes_;
   /// The widths of the blank's triangles in leaf order, and the widest of each of its nodes; both empty
   /// without widths.
