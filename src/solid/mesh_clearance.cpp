@@ -84,7 +84,7 @@ struct MeshClearance::Walk {
     // Pairs that are passed over are `most` apart whatever rounding hides.
     limit = most + 2 * rounding;
     best.low = best.high = std::numeric_limits<double>::infinity();
-    found = false;
+    found = cross = false;
   }
 
   void look(std::uint32_t of_part, std::uint32_t of_blank) {
@@ -99,6 +99,7 @@ struct MeshClearance::Walk {
     best.low = std::min(best.low, std::min(here.low, distance) - width);
     if (!(distance - width < limit)) return;
     limit = best.high = distance - width;
+    cross = distance <= rounding;
     best.part_triangle = meter.part_.triangle(of_part);
     best.blank_triangle = meter.blank_.triangle(of_blank);
     best.part = here.a, best.blank = here.b;
@@ -110,6 +111,8 @@ struct MeshClearance::Walk {
     const double most = limit - rounding + (meter.widest_.empty() ? 0 : meter.widest_[of_blank]);
     return !(most > 0) || gap >= most * most;
   }
+
+  [[nodiscard]] double widest() const { return meter.widest_.empty() ? 0 : meter.widest_[0]; }
 
   void walk(std::uint32_t of_part, std::uint32_t of_blank) {
     struct Open {
@@ -128,9 +131,9 @@ struct MeshClearance::Walk {
     };
     push({squared_gap(moved(motion, part_boxes[of_part]), blank_boxes[of_blank]), of_part, of_blank});
     while (count > 0) {
-      if (limit <= rounding) {
+      if (cross || limit + widest() <= rounding) {
         // They cross, and no other pair is needed to know that.
-        best.low = std::min(best.low, meter.widest_.empty() ? 0.0 : -meter.widest_[0]);
+        best.low = std::min(best.low, -widest());
         return;
       }
       const auto [gap, part, blank] = stack[--count];
@@ -172,7 +175,7 @@ struct MeshClearance::Walk {
   const Motion& motion;
   double rounding, limit = 0;
   NearPair best;
-  bool found = false;
+  bool found = false, cross = false;
 };
 
 std::optional<NearPair> MeshClearance::nearest(const Motion& blank_from_part, double most,

@@ -162,6 +162,32 @@ std::optional<Nearest> TriangleTree::nearest(Vector p, double most, std::optiona
   return best;
 }
 
+double TriangleTree::least_reach(Vector p, const std::vector<double>& widths, double least) const {
+  const double rounding = kRounding * std::max(largest_, largest_coordinate(p));
+  double best = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, std::uint32_t>> open{{squared_gap(nodes_[0].box, p), 0}};
+  while (!open.empty()) {
+    const auto [gap, at] = open.back();
+    open.pop_back();
+    if (std::sqrt(gap) + least >= best) continue;
+    const Node& node = nodes_[at];
+    ask();
+    if (node.right == 0) {
+      for (std::uint32_t k = node.begin; k < node.end; ++k) {
+        const Found here = find(corners_[k], p, rounding);
+        best = std::min(best, std::min(here.low, std::sqrt(here.squared)) + widths[order_[k]]);
+      }
+      continue;
+    }
+    std::pair<double, std::uint32_t> left{squared_gap(nodes_[at + 1].box, p), at + 1},
+        right{squared_gap(nodes_[node.right].box, p), node.right};
+    if (right.first < left.first) std::swap(left, right);
+    open.push_back(right);
+    open.push_back(left);
+  }
+  return best - 2 * rounding;
+}
+
 bool TriangleTree::holds(Vector p) const {
   bool inside = false;
   const auto visit = [&](std::uint32_t k) {

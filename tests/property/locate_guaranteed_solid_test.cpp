@@ -13,6 +13,7 @@
 #include "lekalo/solid/triangle_tree.hpp"
 #include "support/cases.hpp"
 #include "support/solid_brute_force.hpp"
+#include "support/scanned_blanks.hpp"
 #include "support/solid_cases.hpp"
 
 // The claim of a scanned blank: whatever is inside the mesh and farther from each triangle than its width, is
@@ -21,62 +22,8 @@
 namespace lekalo::locate::locate_guaranteed_solid_test {
 namespace {
 
+using cases::Bitten;
 using solid::Vector;
-
-constexpr double kBall = 40;
-
-struct Bitten {
-  double radius = 0;  ///< of the balls that bite
-  std::vector<Vector> bites;
-
-  [[nodiscard]] bool material(Vector p) const {
-    if (norm(p) > kBall) return false;
-    return std::none_of(bites.begin(), bites.end(), [&](Vector c) { return norm(p - c) < radius; });
-  }
-  /// How far the material goes from the middle in a direction.
-  [[nodiscard]] double reach(Vector u) const {
-    double least = kBall;
-    for (const Vector c : bites) {
-      const double along = dot(u, c), square = radius * radius - (dot(c, c) - along * along);
-      if (square > 0 && along > 0) least = std::min(least, along - std::sqrt(square));
-    }
-    return least;
-  }
-};
-
-Bitten bitten(Random& random) {
-  Bitten blank;
-  blank.radius = random.uniform(4, 12);
-  for (int k = 0; k < 12; ++k)
-    blank.bites.push_back((kBall + random.uniform(0, 0.9) * blank.radius) * cases::direction(random));
-  return blank;
-}
-
-/// What a scanner sees of it: points on meridians, each off by up to the guard.
-solid::Mesh scanned(const Bitten& blank, std::uint32_t rings, double guard, Random& random) {
-  const std::uint32_t around = 2 * rings;
-  solid::Mesh mesh;
-  const auto add = [&](double polar, double turn) {
-    const Vector u{std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar)};
-    mesh.vertices.push_back(blank.reach(u) * u + random.uniform(0, guard) * cases::direction(random));
-  };
-  add(0, 0);
-  for (std::uint32_t i = 1; i < rings; ++i)
-    for (std::uint32_t k = 0; k < around; ++k)
-      add(std::numbers::pi * i / rings, 2 * std::numbers::pi * k / around);
-  add(std::numbers::pi, 0);
-  const auto at = [&](std::uint32_t i, std::uint32_t k) { return 1 + (i - 1) * around + k % around; };
-  const std::uint32_t last = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
-  for (std::uint32_t k = 0; k < around; ++k) {
-    mesh.triangles.push_back({0, at(1, k), at(1, k + 1)});
-    mesh.triangles.push_back({last, at(rings - 1, k + 1), at(rings - 1, k)});
-    for (std::uint32_t i = 1; i + 1 < rings; ++i) {
-      mesh.triangles.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
-      mesh.triangles.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
-    }
-  }
-  return mesh;
-}
 
 brute::Real distance(const solid::Mesh& mesh, const solid::Triangle& t, Vector p) {
   const brute::Corners corners{brute::wide(mesh.vertices[t[0]]), brute::wide(mesh.vertices[t[1]]),
@@ -109,12 +56,12 @@ TEST(LocateGuaranteedSolid, NoAirLiesDeeperInTheMeshThanTheWidthOfATriangle) {
   double most = 0;
   for (std::size_t k = 0; k < cases::case_count(6); ++k) {
     Random random(seed, k);
-    const Bitten blank = bitten(random);
+    const Bitten blank = cases::bitten(random);
     SolidScan scan;
     scan.guard = random.uniform(0, 0.1);
     scan.min_radius = blank.radius;
     const solid::Mesh mesh =
-        scanned(blank, 14 + static_cast<std::uint32_t>(random.below(10)), scan.guard, random);
+        cases::scanned(blank, 14 + static_cast<std::uint32_t>(random.below(10)), scan.guard, random);
     const auto made = guaranteed_solid(mesh, scan);
     ASSERT_TRUE(made.has_value()) << made.error().message;
     if (!made->proved()) continue;

@@ -32,6 +32,8 @@ struct SolidScan {
   std::optional<double> min_radius;  ///< R, mm, > guard
   std::optional<double> max_dip;     ///< H, mm, >= 0
   std::optional<SolidUnderside> underside;
+  /// Every coordinate of the mesh may differ from that of the file by up to this, mm.
+  double coordinate_error = 0;
 };
 
 struct GuaranteedSolid {
@@ -39,6 +41,8 @@ struct GuaranteedSolid {
   /// be looked for; nothing is proved with them.
   std::vector<double> widths;
   double widest = 0;  ///< mm
+  /// No width is above the exact one by more than this, mm, whatever the coordinates may be off.
+  double width_error = 0;
   /// Triangles that no assumption covers.
   std::vector<std::uint32_t> unknown;
   double unknown_area = 0;  ///< mm2

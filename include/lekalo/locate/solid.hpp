@@ -14,10 +14,10 @@
 
 namespace lekalo::locate {
 
-/// Localisation of a solid part in a solid blank, both closed meshes taken as drawn:
+/// Localisation of a solid part in a solid blank, both closed meshes:
 ///   maximise the least signed distance of the placed part's material from the blank's surface
-/// over the rigid motions in a window about a start. docs/design/locate-solid.md has the method, its bounds
-/// and what failed.
+/// over the rigid motions in a window about a start. Triangles of the blank may have widths, which are taken
+/// off the distances from them. docs/design/locate-solid.md has the method, its bounds and what failed.
 
 /// The place of the part: p goes to R p + shift in the blank's frame, where R is the rotation of the
 /// quaternion w + x i + y j + z k, whatever its length.
@@ -43,6 +43,10 @@ struct SolidProblem {
   /// Every coordinate may differ from the true one (the decimal in the file) by up to this, mm. The errors
   /// are taken off the clearance and added to the upper bound.
   double part_coordinate_error = 0, blank_coordinate_error = 0;
+  /// What the blank's material may lie inside each of its triangles, mm, >= 0 (GuaranteedSolid::widths); empty
+  /// for a blank taken as drawn. None is below the true one, or above it by more than the error.
+  std::vector<double> blank_widths = {};
+  double blank_width_error = 0;
 };
 
 struct SolidOptions {
@@ -60,7 +64,7 @@ struct SolidOptions {
 struct SolidTouch {
   std::uint32_t part_triangle = 0, blank_triangle = 0;
   solid::Vector part, blank;  ///< the two points, each in its own frame, mm
-  double distance = 0;        ///< mm, at the placement
+  double distance = 0;        ///< mm, at the placement, less the width of the blank's triangle
   /// The contact's share in what holds the placement; all shares sum to 1.
   double multiplier = 0;
 };
@@ -69,7 +73,7 @@ struct SolidPlacement {
   SolidPose pose;
   /// True if the part lies inside the blank there; else there is no clearance.
   bool inside = false;
-  /// The least allowance at that very pose, mm, never above the exact one.
+  /// The least allowance at that very pose, mm, never above the exact one; above 0 where it is inside.
   double clearance = 0;
   std::vector<SolidTouch> contacts;
   std::uint64_t work = 0;

@@ -15,6 +15,8 @@ using solid::Vector;
 
 /// Rounding takes less than this part off a width, or off the square of a length.
 constexpr double kRounding = 0x1p-45;
+/// The square root of 3, rounded up: how far a point is off at most for each of its coordinates.
+constexpr double kDiagonal = 1.7321;
 
 using Corners = std::array<Vector, 3>;
 
@@ -36,11 +38,22 @@ double circle_radius(Corners p) {
   return norm(a) * norm(b) * longest / (2 * norm(cross(a, b))) * (1 + kRounding);
 }
 
-/// The width by a reach of `radius`; none where the triangle is too wide for it.
-std::optional<double> reached(double radius, double guard, double circle) {
-  const double left = (radius - guard) * (radius - guard) - circle * circle - kRounding * radius * radius;
-  if (!(left > 0)) return std::nullopt;
-  return std::min(radius, radius - (1 - kRounding) * std::sqrt(left));
+/// Bounds of the width of a triangle.
+struct Width {
+  double low = 0, high = 0;
+};
+
+/// The width by a reach of `radius`, with the circle around the triangle known but for `off`; none where it is
+/// too wide for it.
+std::optional<Width> reached(double radius, double guard, double circle, double off) {
+  const auto left = [&](double by, double rounding) {
+    return (radius - guard) * (radius - guard) - by * by + rounding * radius * radius;
+  };
+  const double least = left(circle + off, -kRounding);
+  if (!(least > 0)) return std::nullopt;
+  const double most = left(std::max(0.0, circle * (1 - 4 * kRounding) - off), kRounding);
+  return Width{std::max(0.0, radius - (1 + kRounding) * std::sqrt(most)),
+               std::min(radius, radius - (1 - kRounding) * std::sqrt(least))};
 }
 
 Result<void> check(const SolidScan& scan) {
@@ -51,6 +64,10 @@ Result<void> check(const SolidScan& scan) {
     return failure(
         ErrorCode::usage,
         fmt::format("the uncertainty of the scan's points, {} mm, must be a number, 0 or above", scan.guard));
+  if (!number(scan.coordinate_error, 0))
+    return failure(ErrorCode::usage, fmt::format("coordinates that are off by {} mm must be off by a number, 0 "
+                                                 "or above",
+                                                 scan.coordinate_error));
   if (!scan.min_radius && !scan.max_dip)
     return failure(ErrorCode::usage,
                    "a scan needs a smallest radius or a greatest dip of the surface between its points");
@@ -79,7 +96,7 @@ Result<void> check(const SolidScan& scan) {
 /// The widths by one of the assumptions.
 struct Widths {
   std::vector<double> of;
-  double widest = 0;
+  double widest = 0, error = 0;
   std::vector<std::uint32_t> unknown;
 };
 
@@ -96,11 +113,13 @@ class Measure {
       const std::size_t below = of_underside(corners);
       // Beside the underside corners and edges are as uncertain as that is.
       const double guard = below > 0 ? std::max(scan_.guard, scan_.underside->flat) : scan_.guard;
-      std::optional<double> width =
-          below == 3 ? scan_.underside->flat : between(circle_radius(corners), guard);
-      if (!width) made.unknown.push_back(k);
-      made.of.push_back(width.value_or(guard));
-      made.widest = std::max(made.widest, made.of.back());
+      const std::optional<Width> found = below == 3 ? Width{scan_.underside->flat, scan_.underside->flat}
+                                                    : between(circle_radius(corners), guard);
+      if (!found) made.unknown.push_back(k);
+      const Width width = found.value_or(Width{guard, guard});
+      made.of.push_back(width.high);
+      made.widest = std::max(made.widest, width.high);
+      made.error = std::max(made.error, width.high - width.low);
     }
     return made;
   }
@@ -146,11 +165,13 @@ Result<GuaranteedSolid> guaranteed_solid(const solid::Mesh& mesh, const SolidSca
   const Measure measure(mesh, scan);
   std::optional<Widths> by_radius, by_dip;
   if (scan.min_radius)
-    by_radius =
-        measure.widths([&](double circle, double guard) { return reached(*scan.min_radius, guard, circle); });
+    by_radius = measure.widths([&](double circle, double guard) {
+      return reached(*scan.min_radius, guard, circle, kDiagonal * scan.coordinate_error);
+    });
   if (scan.max_dip)
-    by_dip = measure.widths([&](double, double guard) -> std::optional<double> {
-      return (guard + *scan.max_dip) * (1 + kRounding);
+    by_dip = measure.widths([&](double, double guard) -> std::optional<Width> {
+      const double width = guard + *scan.max_dip;
+      return Width{width * (1 - kRounding), width * (1 + kRounding)};
     });
   const bool radius =
       by_radius && (!by_dip || (by_radius->unknown.empty() && by_radius->widest <= by_dip->widest));
@@ -158,6 +179,7 @@ Result<GuaranteedSolid> guaranteed_solid(const solid::Mesh& mesh, const SolidSca
   GuaranteedSolid made;
   made.widths = std::move(chosen.of);
   made.widest = chosen.widest;
+  made.width_error = chosen.error;
   made.unknown = std::move(chosen.unknown);
   for (const std::uint32_t k : made.unknown) {
     const Corners p = corners_of(mesh, mesh.triangles[k]);

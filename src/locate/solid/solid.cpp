@@ -42,6 +42,17 @@ Result<void> check(const SolidProblem& problem, const SolidOptions& options) {
       return failure(ErrorCode::usage,
                      fmt::format("coordinates that are off by {} mm must be off by a number from 0 to {:g}",
                                  error, limits::kLargestCoordinate));
+  if (!problem.blank_widths.empty() && problem.blank_widths.size() != problem.blank.triangles.size())
+    return failure(ErrorCode::usage, fmt::format("there are {} widths for the blank's {} triangles",
+                                                 problem.blank_widths.size(), problem.blank.triangles.size()));
+  for (const double width : problem.blank_widths)
+    if (!(width >= 0) || !(width <= limits::kLargestCoordinate))
+      return failure(ErrorCode::usage, fmt::format("a width of {} mm must be a number from 0 to {:g}", width,
+                                                   limits::kLargestCoordinate));
+  if (!(problem.blank_width_error >= 0) || !(problem.blank_width_error <= limits::kLargestCoordinate))
+    return failure(ErrorCode::usage,
+                   fmt::format("widths that are off by {} mm must be off by a number from 0 to {:g}",
+                               problem.blank_width_error, limits::kLargestCoordinate));
   double square = 0;
   for (const double q : problem.start.quaternion) square += q * q;
   if (!(square > 1e-6) || !(square < 1e6) || !finite(problem.start.shift) ||

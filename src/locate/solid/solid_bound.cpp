@@ -26,8 +26,9 @@ constexpr double kMostSlender = 4096;
 /// Coordinates and lengths are rounded to 2^-53 of themselves, a few times.
 constexpr double kRounding = 0x1p-50;
 
-/// The least of n . p over all of a mesh.
-double least_along(const TriangleTree& tree, Vector n) {
+/// The least of n . p over the triangles of a mesh, each with its width, if they have some, none of which is
+/// below `narrowest`.
+double least_along(const TriangleTree& tree, Vector n, const std::vector<double>& widths, double narrowest) {
   const auto lowest = [&](const solid::Box& box) {
     return n.x * (n.x > 0 ? box.low.x : box.high.x) + n.y * (n.y > 0 ? box.low.y : box.high.y) +
            n.z * (n.z > 0 ? box.low.z : box.high.z);
@@ -38,10 +39,12 @@ double least_along(const TriangleTree& tree, Vector n) {
     const std::uint32_t at = open.back();
     open.pop_back();
     const TriangleTree::Node& node = tree.nodes()[at];
-    if (lowest(node.box) >= least) continue;
+    if (lowest(node.box) + narrowest >= least) continue;
     if (node.right == 0) {
-      for (std::uint32_t k = node.begin; k < node.end; ++k)
-        for (const Vector p : tree.corners(k)) least = std::min(least, dot(n, p));
+      for (std::uint32_t k = node.begin; k < node.end; ++k) {
+        const double width = widths.empty() ? 0 : widths[tree.triangle(k)];
+        for (const Vector p : tree.corners(k)) least = std::min(least, dot(n, p) + width);
+      }
       continue;
     }
     std::uint32_t one = at + 1, other = node.right;
@@ -106,14 +109,21 @@ SolidBounds::SolidBounds(const SolidMeter& meter)
       start_(motion_of({meter.frame().start, {}})),
       scale_(std::max(norm(meter.clearance().blank().box().high - meter.clearance().blank().box().low),
                       2 * meter.frame().reach)),
-      part_{meter.part(), meter.clearance().part(), true, meter.part_error()},
-      blank_{meter.blank(), meter.clearance().blank(), false, meter.blank_error()} {}
+      part_{meter.part(), meter.clearance().part(), true, meter.part_error(), none_},
+      blank_{meter.blank(), meter.clearance().blank(), false, meter.blank_error() + meter.width_error(),
+             meter.widths()} {}
+
+/// What a distance from the surface may be off, mm.
+double SolidBounds::off(const Side& side, Vector centre) const {
+  return side.error + kRounding * (side.tree.largest() + norm(centre));
+}
 
 /// The largest ball about a centre that lies on the right side of the surface of the file.
 std::optional<SolidBall> SolidBounds::ball(const Side& side, Vector centre) const {
   if (side.tree.holds(centre) != side.material) return std::nullopt;
-  const double off = side.error + kRounding * (side.tree.largest() + norm(centre));
-  const double radius = side.tree.nearest(centre)->low - off;
+  const double far = side.widths.empty() ? side.tree.nearest(centre)->low
+                                         : side.tree.least_reach(centre, side.widths, meter_.narrowest());
+  const double radius = far - off(side, centre);
   if (!(radius > 0)) return std::nullopt;
   return SolidBall{centre, radius};
 }
@@ -171,17 +181,24 @@ std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const 
   for (const SolidBall& one : balls(part_, contact.part, motion.turned_back(n)))
     made.part.push_back({one, seen(one.centre)});
   made.blank = balls(blank_, contact.blank, -n);
+  if (contact.blank_triangle != kNoTriangle) {
+    // Of the widths of neighbours the larger one counts here, the smaller ones do beside the surface.
+    const double within = meter_.width(contact.blank_triangle) - 4 * off(blank_, contact.blank);
+    if (within > 0) made.blank.insert(made.blank.begin(), {contact.blank, within});
+  }
   if (made.part.empty() || made.blank.empty()) return std::nullopt;
   made.part_face = face(part_, contact.part_triangle);
   made.blank_face = face(blank_, contact.blank_triangle);
+  if (made.blank_face)
+    made.blank_face->width = std::max(0.0, meter_.width(contact.blank_triangle) - meter_.width_error());
   made.plane.normal = n;
   if (made.blank_face) {
     // Contacts of one face have one plane.
     const Vector of_face = made.blank_face->normal;
     if (std::abs(dot(of_face, n)) > 1 - 0x1p-30) made.plane.normal = dot(of_face, n) < 0 ? -of_face : of_face;
   }
-  made.plane.least =
-      least_along(blank_.tree, made.plane.normal) - blank_.error - 4 * kRounding * blank_.tree.largest();
+  const double least = least_along(blank_.tree, made.plane.normal, blank_.widths, meter_.narrowest());
+  made.plane.least = least - blank_.error - 4 * kRounding * (blank_.tree.largest() + std::abs(least));
   if (made.part_face) {
     SolidFace& f = *made.part_face;
     f.normal = start_.turned(f.normal);
@@ -219,7 +236,7 @@ std::optional<SolidForm> SolidBounds::form(const KnownSolid& known, SolidChoice 
       for (std::size_t k = 0; k < 3; ++k)
         if (!height(f.inward[k], p, dot(f.inward[k], f.corner[k]) + f.loss, cell).never_negative(cell))
           return std::nullopt;
-      return SolidForm{height(n, p, least + part.ball.radius - f.loss, cell), 0};
+      return SolidForm{height(n, p, least + part.ball.radius + f.width - f.loss, cell), 0};
     }
     case SolidTerm::Kind::part_face:
       break;
@@ -267,7 +284,7 @@ std::optional<SolidRow> SolidBounds::row(const KnownSolid& known, const CellView
     const auto over = [&](std::size_t k) { return dot(f.inward[k], place - f.corner[k]) > 0; };
     if (!over(0) || !over(1) || !over(2)) continue;
     const double above = dot(f.normal, place - f.corner[0]);
-    take(face, std::abs(above) - radius + y * y * (far - std::copysign(dot(f.normal, p), above)),
+    take(face, std::abs(above) - radius - f.width + y * y * (far - std::copysign(dot(f.normal, p), above)),
          {SolidTerm::Kind::face, i, 0});
   }
   if (known.part_face) {

@@ -17,6 +17,7 @@ struct SolidFace {
   std::array<solid::Vector, 3> corner, inward;
   /// A height over it may be off by this for what its corners are off, mm.
   double loss = 0;
+  double width = 0;  ///< the least it has, mm
 };
 
 /// A contact that was met at some pose, and what terms can be made of it. The smallest ball of each kind lies
@@ -72,13 +73,16 @@ class SolidBounds {
     const solid::TriangleTree& tree;
     bool material;  ///< balls lie in it, or outside
     double error;   ///< the true surface may be off by this, mm
+    const std::vector<double>& widths;  ///< of its triangles, or none
   };
+  [[nodiscard]] double off(const Side& side, solid::Vector centre) const;
   [[nodiscard]] std::optional<SolidBall> ball(const Side& side, solid::Vector centre) const;
   [[nodiscard]] std::vector<SolidBall> balls(const Side& side, solid::Vector from,
                                              solid::Vector direction) const;
   [[nodiscard]] std::optional<SolidFace> face(const Side& side, std::uint32_t triangle) const;
 
   const SolidMeter& meter_;
+  std::vector<double> none_;
   solid::Motion start_;
   double scale_;
   Side part_, blank_;

@@ -43,7 +43,7 @@ std::vector<LinearBound<6>> rows_at(const SolidMeter& meter, const FramedPose& p
     if (contact.part_triangle == kNoTriangle) rows.push_back(row_of(meter.frame(), motion, contact));
   for (const auto& [part, blank] : pool) {
     const SolidContact contact = meter.contact(motion, part, blank);
-    if (contact.distance > 0) rows.push_back(row_of(meter.frame(), motion, contact));
+    if (contact.directed()) rows.push_back(row_of(meter.frame(), motion, contact));
   }
   return rows;
 }

@@ -40,11 +40,14 @@ SolidMeter::SolidMeter(const SolidProblem& problem, const SolidFrame& frame)
     : frame_(frame),
       part_(problem.part),
       blank_(problem.blank),
-      clearance_(problem.part, problem.blank),
+      widths_(problem.blank_widths),
+      clearance_(problem.part, problem.blank, problem.blank_widths),
       of_part_(spread_vertices(problem.part)),
       of_blank_(spread_vertices(problem.blank)),
       part_error_(kDiagonal * problem.part_coordinate_error),
-      blank_error_(kDiagonal * problem.blank_coordinate_error) {
+      blank_error_(kDiagonal * problem.blank_coordinate_error),
+      width_error_(problem.blank_width_error) {
+  if (!widths_.empty()) narrowest_ = *std::min_element(widths_.begin(), widths_.end());
   far_ = 2 * (clearance_.part().largest() + clearance_.blank().largest()) + norm(frame.window.middle().at) +
          norm(frame.window.half().at);
 }
@@ -53,7 +56,8 @@ SolidContact SolidMeter::contact(const Motion& motion, const NearPair& pair) con
   const Vector out = pair.part - pair.blank;
   const double distance = norm(out);
   SolidContact made{motion.back(pair.part), pair.blank, {}, 0, pair.part_triangle, pair.blank_triangle};
-  if (distance > kNoDirection * far_) made.normal = 1 / distance * out, made.distance = distance;
+  if (distance > kNoDirection * far_) made.normal = 1 / distance * out;
+  made.distance = distance - width(pair.blank_triangle);
   return made;
 }
 
@@ -73,7 +77,7 @@ MeasuredSolid SolidMeter::measure(const FramedPose& pose, double most, std::size
   for (const NearPair& pair : pairs) measured.value = std::min(measured.value, pair.low - error);
   for (const NearPair& pair : pairs) {
     const SolidContact made = contact(motion, pair);
-    if (made.distance > 0) contacts.push_back(made);
+    if (made.directed()) contacts.push_back(made);
   }
   measured.inside = measured.value > 0 && clearance_.inside(motion);
   if (measured.inside) return measured;
