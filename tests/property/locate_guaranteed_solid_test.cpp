@@ -12,8 +12,8 @@
 #include "lekalo/locate/guaranteed_solid.hpp"
 #include "lekalo/solid/triangle_tree.hpp"
 #include "support/cases.hpp"
-#include "support/solid_brute_force.hpp"
 #include "support/scanned_blanks.hpp"
+#include "support/solid_brute_force.hpp"
 #include "support/solid_cases.hpp"
 
 // The claim of a scanned blank: whatever is inside the mesh and farther from each triangle than its width, is

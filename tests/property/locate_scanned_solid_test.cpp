@@ -12,8 +12,8 @@
 #include "support/scanned_blanks.hpp"
 #include "support/solid_cases.hpp"
 
-// Parts in scanned blanks: the placed part never leaves the true blank, which the search does not know, and no
-// pose of the window has more clearance in the guaranteed blank than the bound.
+// Parts in scanned blanks: the placed part never leaves the true blank, which the search does not know, and
+// no pose of the window has more clearance in the guaranteed blank than the bound.
 
 namespace lekalo::locate::locate_scanned_solid_test {
 namespace {
@@ -81,8 +81,9 @@ TEST(LocateScannedSolid, ThePlacedPartNeverLeavesTheTrueBlank) {
     if (found->status == Status::optimal) ++closed;
     const solid::MeshClearance meter(problem.part, problem.blank, problem.blank_widths);
     for (int i = 0; i < 50; ++i) {
-      const SolidPose pose{{1, random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01)},
-                           {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}};
+      const SolidPose pose{
+          {1, random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01)},
+          {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}};
       const Motion there = motion_of(pose);
       const auto near = meter.nearest(there);
       if (near->high > 0 && meter.inside(there)) {

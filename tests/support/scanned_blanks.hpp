@@ -47,7 +47,8 @@ inline solid::Mesh scanned(const Bitten& blank, std::uint32_t rings, double guar
   const std::uint32_t around = 2 * rings;
   solid::Mesh mesh;
   const auto add = [&](double polar, double turn) {
-    const solid::Vector u{std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar)};
+    const solid::Vector u{std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn),
+                          std::cos(polar)};
     mesh.vertices.push_back(blank.reach(u) * u + random.uniform(0, guard) * direction(random));
   };
   add(0, 0);

@@ -43,8 +43,8 @@ struct Width {
   double low = 0, high = 0;
 };
 
-/// The width by a reach of `radius`, with the circle around the triangle known but for `off`; none where it is
-/// too wide for it.
+/// The width by a reach of `radius`, with the circle around the triangle known but for `off`; none where it
+/// is too wide for it.
 std::optional<Width> reached(double radius, double guard, double circle, double off) {
   const auto left = [&](double by, double rounding) {
     return (radius - guard) * (radius - guard) - by * by + rounding * radius * radius;
@@ -65,9 +65,10 @@ Result<void> check(const SolidScan& scan) {
         ErrorCode::usage,
         fmt::format("the uncertainty of the scan's points, {} mm, must be a number, 0 or above", scan.guard));
   if (!number(scan.coordinate_error, 0))
-    return failure(ErrorCode::usage, fmt::format("coordinates that are off by {} mm must be off by a number, 0 "
-                                                 "or above",
-                                                 scan.coordinate_error));
+    return failure(ErrorCode::usage,
+                   fmt::format("coordinates that are off by {} mm must be off by a number, 0 "
+                               "or above",
+                               scan.coordinate_error));
   if (!scan.min_radius && !scan.max_dip)
     return failure(ErrorCode::usage,
                    "a scan needs a smallest radius or a greatest dip of the surface between its points");

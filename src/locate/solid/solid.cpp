@@ -43,8 +43,9 @@ Result<void> check(const SolidProblem& problem, const SolidOptions& options) {
                      fmt::format("coordinates that are off by {} mm must be off by a number from 0 to {:g}",
                                  error, limits::kLargestCoordinate));
   if (!problem.blank_widths.empty() && problem.blank_widths.size() != problem.blank.triangles.size())
-    return failure(ErrorCode::usage, fmt::format("there are {} widths for the blank's {} triangles",
-                                                 problem.blank_widths.size(), problem.blank.triangles.size()));
+    return failure(ErrorCode::usage,
+                   fmt::format("there are {} widths for the blank's {} triangles",
+                               problem.blank_widths.size(), problem.blank.triangles.size()));
   for (const double width : problem.blank_widths)
     if (!(width >= 0) || !(width <= limits::kLargestCoordinate))
       return failure(ErrorCode::usage, fmt::format("a width of {} mm must be a number from 0 to {:g}", width,

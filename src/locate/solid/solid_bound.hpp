@@ -71,8 +71,8 @@ class SolidBounds {
   struct Side {
     const solid::Mesh& mesh;
     const solid::TriangleTree& tree;
-    bool material;  ///< balls lie in it, or outside
-    double error;   ///< the true surface may be off by this, mm
+    bool material;                      ///< balls lie in it, or outside
+    double error;                       ///< the true surface may be off by this, mm
     const std::vector<double>& widths;  ///< of its triangles, or none
   };
   [[nodiscard]] double off(const Side& side, solid::Vector centre) const;

@@ -11,8 +11,9 @@ namespace lekalo::locate {
 inline constexpr std::uint32_t kNoTriangle = 0xffffffff;
 
 /// A place where part and blank come close, or cross. The normal, of length 1 and in the blank's frame,
-/// points from what is not material of the blank into the part's material; the distance, less the width of the
-/// blank's triangle, is negative where the part's point lies outside the blank, or the blank's in the part.
+/// points from what is not material of the blank into the part's material; the distance, less the width of
+/// the blank's triangle, is negative where the part's point lies outside the blank, or the blank's in the
+/// part.
 struct SolidContact {
   solid::Vector part, blank;  ///< each in its own frame
   solid::Vector normal;

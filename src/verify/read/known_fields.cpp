@@ -117,6 +117,10 @@ constexpr Known kSolidTrees[] = {{"quaternion"}, {"x"},      {"y"},      {"z"},
                                  {"turn_x"},     {"turn_y"}, {"turn_z"}, {"nodes"}};
 constexpr Known kSolidCertificate[] = {
     {"pivot"}, {"part_balls"}, {"blank_balls"}, {"planes"}, {"trees", kSolidTrees}};
+constexpr Known kSolidUnderside[] = {{"z"}, {"flat"}};
+constexpr Known kSolidScan[] = {
+    {"guard"},  {"min_radius"},        {"max_dip"}, {"underside", kSolidUnderside},
+    {"widest"}, {"unknown_triangles"}, {"proved"},  {"assumptions"}};
 constexpr Known kSolidFile[] = {{"path"}, {"sha256"}, {"boxes"}};
 constexpr Known kSolidPlacement[] = {{"format", kFormat},
                                      {"status"},
@@ -140,6 +144,7 @@ constexpr Known kSolidPlacement[] = {{"format", kFormat},
                                      {"min_allowance"},
                                      {"shortfall"},
                                      {"contacts", kSolidContacts},
+                                     {"scan", kSolidScan},
                                      {"unknown_area_mm2"},
                                      {"certificate", kSolidCertificate},
                                      {"certificate_file", kSolidFile},

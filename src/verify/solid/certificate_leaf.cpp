@@ -245,8 +245,9 @@ class LeafProof {
       form.slope = normal, form.level = level, form.weight = number<Number>(1);
       return form;
     };
-    const Number foot = dot(n, face.at[0]), radius = as<Number>(a.radius);
-    forms.push_back(form_of(n, number<Number>(0) - foot - radius - bound_));
+    const Number foot = dot(n, face.at[0]), radius = as<Number>(a.radius),
+                 width = number<Number>(frame_.blank.width(term.triangle).low);
+    forms.push_back(form_of(n, number<Number>(0) - foot - radius - width - bound_));
     Answer all = std::min(not_below_zero(bound_), nowhere_positive(form_of(negative(n), foot - radius)));
     for (std::size_t k = 0; k < 3; ++k)
       all = std::min(all,

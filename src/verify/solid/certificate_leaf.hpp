@@ -34,9 +34,9 @@ struct LeafFrame {
 ///   so
 ///               the bound must not be below -s.
 ///   half-space: (n . T a - b) / |n| - r - bound.
-///   triangle of the blank, of the part: the height of the ball's centre over it less r, or s, and the bound,
-///               where the foot of the centre stays in the triangle and the height does not fall below -r, or
-///               -s; the bound must not be below 0.
+///   triangle of the blank, of the part: the height of the ball's centre over it less r and its width, or s,
+///               and the bound, where the foot of the centre stays in the triangle and the height does not
+///               fall below -r, or -s; the bound must not be below 0.
 /// So their sum with the multipliers is above 0, and it is shown not to be. With |w| <= (|w|^2 + l^2) / 2 l
 /// for a ball, and times 1 + |x|^2, the sum is a polynomial of degree 2 in x, convex in t: it is nowhere
 /// above the largest of its 27 Bernstein coefficients at the eight corners of the box of t. Spans decide that

@@ -15,38 +15,60 @@ namespace lekalo::verify {
 namespace {
 
 /// Calls visit(triangle, its exact squared distance) for the triangles that enclosures do not show to be
-/// `radius` away from a point, until it returns true.
-template <class Visit>
-bool any_within(const PlacedSolid& body, const Ball& ball, double radius, const Visit& visit) {
+/// `radius(triangle)` away from a point, and none of which is above `most`, until it returns true.
+template <class Radius, class Visit>
+bool any_within(const PlacedSolid& body, const Ball& ball, double most, const Radius& radius,
+                const Visit& visit) {
   const Vec3 p = as<Span>(ball.centre);
   const Box3 place = box_of(p);
   bool found = false;
-  body.tree().visit([&](const Box3& box) { return !found && !(gap(place, box) > radius); },
+  body.tree().visit([&](const Box3& box) { return !found && !(gap(place, box) > most); },
                     [&](std::uint32_t triangle) {
-                      if (found || distance({p, p, p}, body.triangle(triangle), radius).low > radius) return;
+                      const double within = found ? -1 : radius(triangle);
+                      if (within < 0 || distance({p, p, p}, body.triangle(triangle), within).low > within)
+                        return;
                       found = visit(triangle, exact_squared_distance(as<Fraction>(ball.centre),
                                                                      body.exact_triangle(triangle)));
                     });
   return found;
 }
 
-/// Says what of the surface comes nearer to the ball's centre than its radius.
+/// Says what of the surface comes nearer to the ball's centre than its radius, less the triangle's width.
 std::optional<std::string> nearer(const PlacedSolid& body, const Ball& ball) {
   if (sgn(ball.radius.exact) == 0) return std::nullopt;
-  const Fraction squared = ball.radius.exact * ball.radius.exact;
+  const auto width = [&](std::uint32_t triangle) { return body.mesh().width(triangle).low; };
   std::optional<std::string> fault;
-  any_within(body, ball, ball.radius.near.high, [&](std::uint32_t triangle, const Fraction& distance) {
-    if (distance >= squared) return false;
-    fault =
-        fmt::format("triangle {} comes nearer to its centre than its radius", body.mesh().numbers[triangle]);
-    return true;
-  });
+  any_within(
+      body, ball, step_up(ball.radius.near.high - body.narrowest()),
+      [&](std::uint32_t triangle) { return step_up(ball.radius.near.high - width(triangle)); },
+      [&](std::uint32_t triangle, const Fraction& distance) {
+        const Fraction rest = ball.radius.exact - Fraction(width(triangle));
+        if (sgn(rest) <= 0 || distance >= rest * rest) return false;
+        fault =
+            fmt::format("triangle {} comes nearer to its centre than its radius{}",
+                        body.mesh().numbers[triangle], body.mesh().widths.empty() ? "" : " less its width");
+        return true;
+      });
   return fault;
 }
 
 bool lies_on_surface(const PlacedSolid& body, const Ball& ball) {
-  return any_within(body, ball, 0,
-                    [](std::uint32_t, const Fraction& distance) { return sgn(distance) == 0; });
+  return any_within(
+      body, ball, 0, [](std::uint32_t) { return 0.0; },
+      [](std::uint32_t, const Fraction& distance) { return sgn(distance) == 0; });
+}
+
+/// Says whether all of the ball is within the width of one triangle.
+bool lies_in_width(const PlacedSolid& body, const Ball& ball) {
+  if (body.mesh().widths.empty()) return false;
+  const auto width = [&](std::uint32_t triangle) { return body.mesh().width(triangle).low; };
+  return any_within(
+      body, ball, step_up(body.widest() - ball.radius.near.low),
+      [&](std::uint32_t triangle) { return step_up(width(triangle) - ball.radius.near.low); },
+      [&](std::uint32_t triangle, const Fraction& distance) {
+        const Fraction rest = Fraction(width(triangle)) - ball.radius.exact;
+        return sgn(rest) >= 0 && distance <= rest * rest;
+      });
 }
 
 /// \pre the centre is not on the surface
@@ -62,6 +84,7 @@ std::optional<std::string> fault_of_part_ball(const PlacedSolid& part, const Bal
 }
 
 std::optional<std::string> fault_of_blank_ball(const PlacedSolid& blank, const Ball& ball) {
+  if (lies_in_width(blank, ball)) return std::nullopt;
   if (auto fault = nearer(blank, ball)) return fault;
   if (sgn(ball.radius.exact) == 0 && lies_on_surface(blank, ball)) return std::nullopt;
   if (holds(blank, ball)) return "its centre is in the blank";
@@ -74,15 +97,20 @@ std::optional<std::string> fault_of_plane(const PlacedSolid& blank, const HalfSp
   if (sgn(dot(exact_n, exact_n)) == 0) return "its normal is 0";
   const SolidMesh& mesh = blank.mesh();
   std::optional<std::string> fault;
+  // Below a triangle the material begins beyond its width.
+  const double stretch = std::max(0.0, length(n).low);
+  const auto lifted = [&](Span along, double width) { return (along + just(stretch) * just(width)).low; };
   const auto reaches_below = [&](const Box3& box) {
-    return !fault && !(dot(n, Vec3{Span{box.low[0], box.high[0]}, Span{box.low[1], box.high[1]},
-                                   Span{box.low[2], box.high[2]}})
-                           .low >= plane.level.near.high);
+    const Span along = dot(
+        n, Vec3{Span{box.low[0], box.high[0]}, Span{box.low[1], box.high[1]}, Span{box.low[2], box.high[2]}});
+    return !fault && !(along.low >= plane.level.near.high) &&
+           !(lifted(along, blank.narrowest()) >= plane.level.near.high);
   };
   blank.tree().visit(reaches_below, [&](std::uint32_t triangle) {
+    const double width = mesh.width(triangle).low;
     for (const std::uint32_t v : mesh.triangles[triangle])
-      if (!(dot(n, blank.at(v)).low >= plane.level.near.high) &&
-          dot(exact_n, blank.exactly_at(v)) < plane.level.exact)
+      if (!(lifted(dot(n, blank.at(v)), width) >= plane.level.near.high) &&
+          dot(exact_n, blank.exactly_at(v)) + Fraction(stretch) * Fraction(width) < plane.level.exact)
         fault = fmt::format("a corner of the blank's triangle {} is not in it", mesh.numbers[triangle]);
   });
   return fault;

@@ -15,7 +15,7 @@ struct Ball {
   Both3 centre;
   Both radius;
 };
-/// The half-space n . p >= level.
+/// The half-space n . p >= level; the triangles of the blank may reach out of it by their widths.
 struct HalfSpace {
   Both3 normal;
   Both level;
@@ -35,7 +35,8 @@ class CertificateTables {
 
   /// A ball in the closed material of the part; nothing, and once a finding, where it is not that.
   [[nodiscard]] const Ball* part_ball(std::size_t number);
-  /// A ball within which the blank has no material.
+  /// A ball within which the blank has no material: either its centre is not in the blank, and every triangle
+  /// is as far from it as the radius less the triangle's width, or the width of one triangle has all of it.
   [[nodiscard]] const Ball* blank_ball(std::size_t number);
   /// A half-space that holds the blank.
   [[nodiscard]] const HalfSpace* plane(std::size_t number);

@@ -102,6 +102,9 @@ PlacedSolid::PlacedSolid(const SolidMesh& mesh, const std::optional<SolidMotion>
     at_.push_back(motion_ ? (*motion_)(own) : own);
   }
   tree_ = BoxTree(boxes_of(mesh, at_));
+  if (mesh.widths.empty()) return;
+  narrowest_ = std::ranges::min(mesh.widths, {}, &Span::low).low;
+  widest_ = std::ranges::max(mesh.widths, {}, &Span::high).high;
 }
 
 Exact3 PlacedSolid::exactly_at(std::uint32_t vertex) const {

@@ -44,6 +44,9 @@ class PlacedSolid {
 
   [[nodiscard]] const SolidMesh& mesh() const { return *mesh_; }
   [[nodiscard]] const BoxTree& tree() const { return tree_; }
+  /// No triangle has less width, or more.
+  [[nodiscard]] double narrowest() const { return narrowest_; }
+  [[nodiscard]] double widest() const { return widest_; }
   [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return at_[vertex]; }
   [[nodiscard]] Exact3 exactly_at(std::uint32_t vertex) const;
   [[nodiscard]] Triangle3 triangle(std::uint32_t number) const;
@@ -62,6 +65,7 @@ class PlacedSolid {
   std::optional<SolidMotion> motion_;
   std::vector<Vec3> at_;
   BoxTree tree_;
+  double narrowest_ = 0, widest_ = 0;
 };
 
 }  // namespace lekalo::verify

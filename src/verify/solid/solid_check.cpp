@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "certificate.hpp"
+#include "scan_widths.hpp"
 #include "solid_document.hpp"
 #include "solid_number.hpp"
 #include "solid_window.hpp"
@@ -52,9 +53,10 @@ class SolidCheck {
 
   Result<LocateReport> run() {
     LEKALO_TRY(const std::optional<SolidMesh> part, read_input("part", inputs_.part, d_.part));
-    LEKALO_TRY(const std::optional<SolidMesh> blank, read_input("blank", inputs_.blank, d_.blank));
+    LEKALO_TRY(std::optional<SolidMesh> blank, read_input("blank", inputs_.blank, d_.blank));
     LEKALO_TRY(const Json certificate, certificate_of());
     const bool has_certificate = certificate.is_object();
+    if (blank) check_scan(*blank);
     if (part && blank) {
       LEKALO_TRY(const SolidPair pair, SolidPair::make(*part, *blank, d_.pose));
       check_clearance(pair);
@@ -82,6 +84,7 @@ class SolidCheck {
   Result<std::optional<SolidMesh>> read_input(const char* role, const Document& document,
                                               const WrittenSolid& written);
   [[nodiscard]] Result<Json> certificate_of() const;
+  void check_scan(SolidMesh& blank);
   void check_clearance(const SolidPair& pair);
   void check_contacts(const SolidPair& pair, const SolidMesh& part, const SolidMesh& blank);
   Result<void> check_certificate(Json certificate, const SolidMesh& part, const SolidMesh& blank);
@@ -118,6 +121,36 @@ Result<Json> SolidCheck::certificate_of() const {
   return read_solid_certificate_document(*inputs_.certificate);
 }
 
+/// Gives the blank its widths, and holds what the result says of them against them.
+void SolidCheck::check_scan(SolidMesh& blank) {
+  const auto is_off = [](const Decimal& written, Span is) {
+    const double slack = kReadingTolerance * std::max(1.0, is.high), value = approximate(written);
+    return !(value >= is.low - slack && value <= is.high + slack);
+  };
+  if (!d_.scan) {
+    if (sgn(d_.unknown_area.digits) != 0)
+      find("unknown_area_mm2 is {}, but all of a closed mesh is known", approximate(d_.unknown_area));
+    return;
+  }
+  ScanWidths widths = scan_widths(blank, *d_.scan);
+  if (is_off(d_.unknown_area, widths.unknown_area))
+    find("unknown_area_mm2 is {}, but {} mm2 are unknown", approximate(d_.unknown_area),
+         widths.unknown_area.high);
+  if (is_off(d_.scan->widest, widths.widest))
+    find("scan.widest is {}, but the widest triangle has {} mm", approximate(d_.scan->widest),
+         widths.widest.high);
+  if (d_.scan->unknown_triangles != widths.unknown)
+    find("scan.unknown_triangles is {}, but there are {}", d_.scan->unknown_triangles, widths.unknown);
+  if (d_.scan->proved != (widths.unknown == 0))
+    find("scan.proved is {}, but {} triangles are unknown", d_.scan->proved, widths.unknown);
+  if (widths.unknown > 0)
+    leave_open(
+        fmt::format("{} triangles of the scan are unknown, {:.6g} mm2, so that nothing of the blank is "
+                    "proved",
+                    widths.unknown, widths.unknown_area.high));
+  blank.widths = std::move(widths.of);
+}
+
 /// A part that touches the blank's surface is not inside.
 void SolidCheck::check_clearance(const SolidPair& pair) {
   const bool is_number = d_.clearance && sgn(d_.clearance->digits) > 0;
@@ -141,7 +174,9 @@ void SolidCheck::check_contacts(const SolidPair& pair, const SolidMesh& part, co
           std::tuple("blank", &blank, contact.blank_triangle, &contact.points.blank_point)})
       if (!is_near_triangle(*point, *mesh, number, slack))
         find("contact {}: {}_point is not on triangle {} of the {}", k, role, number, role);
-    if (const auto bound = pair.bound_of(contact.points, slack); !bound)
+    const auto triangle = blank.triangle_of_file(contact.blank_triangle);
+    const Span width = triangle ? blank.width(*triangle) : Span{};
+    if (const auto bound = pair.bound_of(contact.points, slack, width); !bound)
       find("contact {}: {}", k, bound.error().message);
   }
 }
@@ -166,8 +201,6 @@ void SolidCheck::check_derived() {
     find("inside is {}, but {} clearance", d_.inside, d_.clearance ? "there is a" : "there is no");
   if (d_.clearance && sgn(d_.clearance->digits) < 0)
     find("clearance {} is below 0, which no part in its blank has", approximate(*d_.clearance));
-  if (sgn(d_.unknown_area.digits) != 0)
-    find("unknown_area_mm2 is {}, but all of a closed mesh is known", approximate(d_.unknown_area));
   if (d_.gap.has_value() != (d_.clearance && d_.upper_bound))
     find("{}", d_.gap ? "there is a gap, but not both a clearance and an upper_bound" : "gap is null");
   if (d_.shortfall.has_value() != d_.clearance.has_value())

@@ -21,6 +21,9 @@ std::string place(const PlacedSolid& body, std::uint32_t triangle) {
 
 bool is_zero(const Decimal& value) { return sgn(value.digits) == 0; }
 
+/// Returns a distance less a width; it is itself where there is none.
+Span beyond(Span distance, Span width) { return width.high > 0 ? distance - width : distance; }
+
 /// Returns the enclosed distance of a point from a surface.
 Span distance_from(const Vec3& p, const PlacedSolid& body) {
   const BoxTree point({box_of(p)});
@@ -46,10 +49,14 @@ Result<SolidPair> SolidPair::make(const SolidMesh& part, const SolidMesh& blank,
 
 SolidPair::Nearest SolidPair::nearest() const {
   Nearest found{{kInfinity, kInfinity}};
-  part_.tree().visit_pairs(blank_.tree(), found.least.high, [&](std::uint32_t a, std::uint32_t b) {
-    const Span apart = distance(part_.triangle(a), blank_.triangle(b), found.least.high);
+  double limit = kInfinity;
+  part_.tree().visit_pairs(blank_.tree(), limit, [&](std::uint32_t a, std::uint32_t b) {
+    const Span width = blank_.mesh().width(b),
+               apart = beyond(distance(part_.triangle(a), blank_.triangle(b), limit), width);
     found.least.low = std::min(found.least.low, apart.low);
-    if (apart.high < found.least.high) found.least.high = apart.high, found.part = a, found.blank = b;
+    if (!(apart.high < found.least.high)) return;
+    found.least.high = apart.high, found.part = a, found.blank = b;
+    limit = blank_.mesh().widths.empty() ? apart.high : plus(just(apart.high), blank_.widest()).high;
   });
   return found;
 }
@@ -67,9 +74,9 @@ SolidAnswer SolidPair::check(const Decimal& clearance) const {
     answer.fault = fmt::format(
         "the clearance {} mm is above {} mm: so near is triangle {} of the part, placed at {}, to triangle "
         "{} "
-        "of the blank, at {}",
+        "of the blank, at {}{}",
         approximate(clearance), near.least.high, near.part + 1, place(part_, near.part), near.blank + 1,
-        place(blank_, near.blank));
+        place(blank_, near.blank), blank_.mesh().widths.empty() ? "" : ", less its width");
     return answer;
   }
   if (!(near.least.low > 0 && near.least.low >= claimed.high)) check_exactly(clearance, answer);
@@ -79,12 +86,14 @@ SolidAnswer SolidPair::check(const Decimal& clearance) const {
 
 void SolidPair::check_exactly(const Decimal& clearance, SolidAnswer& answer) const {
   const double claimed = enclosed(clearance).high;
-  const Fraction exact = to_fraction(clearance), squared = exact * exact;
-  double limit = claimed;  // below 0 once there is a fault, which ends the walk
+  const Fraction exact = to_fraction(clearance);
+  // It is below 0 once there is a fault, which ends the walk.
+  double limit = blank_.mesh().widths.empty() ? claimed : plus(just(claimed), blank_.widest()).high;
   part_.tree().visit_pairs(blank_.tree(), limit, [&](std::uint32_t a, std::uint32_t b) {
     if (answer.fault) return;
-    const Span apart = distance(part_.triangle(a), blank_.triangle(b), claimed);
-    if (apart.low > 0 && apart.low >= claimed) return;
+    const Span width = blank_.mesh().width(b), apart = distance(part_.triangle(a), blank_.triangle(b), limit);
+    if (apart.low > 0 && beyond(apart, width).low >= claimed) return;
+    const Fraction most = exact + Fraction(width.high), least = exact + Fraction(width.low);
     const ExactDistance found = exact_distance(part_.exact_triangle(a), blank_.exact_triangle(b));
     const auto say = [&](const char* how) {
       return fmt::format("triangle {} of the part, placed at {}, {} triangle {} of the blank, at {}", a + 1,
@@ -92,8 +101,11 @@ void SolidPair::check_exactly(const Decimal& clearance, SolidAnswer& answer) con
     };
     if (found.pierces) {
       answer.fault = say("passes through");
-    } else if (found.squared < squared) {
+    } else if (found.squared < least * least) {
       answer.fault = say(sgn(found.squared) == 0 ? "touches" : "is nearer than the clearance to");
+    } else if (found.squared < most * most) {
+      answer.open = say("is as near as the clearance and the width allow to") +
+                    ": which of the two is more is a matter of the last digits, and was not rechecked";
     } else if (sgn(found.squared) == 0 && !answer.open) {
       answer.open =
           say("touches") + ": that the part does not pass through the blank's surface was not rechecked";
@@ -116,7 +128,7 @@ void SolidPair::check_inside(SolidAnswer& answer) const {
   }
 }
 
-Result<double> SolidPair::bound_of(const SolidContact& contact, double slack) const {
+Result<double> SolidPair::bound_of(const SolidContact& contact, double slack, Span width) const {
   Vec3 near_part{}, near_blank{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     near_part[axis] = enclosed(contact.part_point[axis]);
@@ -125,7 +137,8 @@ Result<double> SolidPair::bound_of(const SolidContact& contact, double slack) co
   near_part = motion_(near_part);
   const double off_part = distance_from(near_part, part_).high,
                off_blank = distance_from(near_blank, blank_).high;
-  const Span apart = length(near_part - near_blank), said = enclosed(contact.distance);
+  const Span between = length(near_part - near_blank), apart = beyond(between, width),
+             said = enclosed(contact.distance);
   const auto refuse = [](std::string sentence) { return failure(ErrorCode::refuted, std::move(sentence)); };
   if (!(off_part <= slack))
     return refuse(
@@ -134,9 +147,10 @@ Result<double> SolidPair::bound_of(const SolidContact& contact, double slack) co
     return refuse(
         fmt::format("blank_point {} is {} mm off the blank's surface", place(near_blank), off_blank));
   if (!(apart.low <= said.high + slack && apart.high >= said.low - slack))
-    return refuse(
-        fmt::format("the points are {} mm apart, not {}", apart.low, approximate(contact.distance)));
-  return (apart + just(off_part) + just(off_blank)).high;
+    return refuse(fmt::format("the points are {} mm apart{}, not {}", apart.low,
+                              width.high > 0 ? " but for the width of the blank's triangle" : "",
+                              approximate(contact.distance)));
+  return (between + just(off_part) + just(off_blank)).high;
 }
 
 }  // namespace lekalo::verify

@@ -9,9 +9,10 @@
 namespace lekalo::verify {
 
 /// The answer to a claim "the part lies in the blank, and its surface is nowhere nearer to the blank's
-/// than so many millimetres". The claim is shown where there is neither a fault nor something open.
+/// than so many millimetres". Of a blank with widths the distance from each triangle counts less its width.
+/// The claim is shown where there is neither a fault nor something open.
 struct SolidAnswer {
-  Span least;                        ///< holds the least distance of the two surfaces, mm
+  Span least;                        ///< holds the least distance of the two surfaces less the widths, mm
   std::optional<std::string> fault;  ///< why it is not true
   std::optional<std::string> open;   ///< why that is not told
 };
@@ -33,8 +34,9 @@ class SolidPair {
 
   /// Returns a bound above the least distance of the surfaces, mm, which is the clearance of a part in the
   /// blank: the distance of the two points and what they are off the surfaces. Refuted where a point is off
-  /// its surface, or their distance is not the one that is said, by more than `slack`.
-  [[nodiscard]] Result<double> bound_of(const SolidContact& contact, double slack) const;
+  /// its surface, or their distance less the width of the blank's triangle is not the one that is said, by
+  /// more than `slack`.
+  [[nodiscard]] Result<double> bound_of(const SolidContact& contact, double slack, Span width = {}) const;
 
  private:
   SolidPair(const SolidMesh& part, const SolidMesh& blank, const SolidMotion& motion)

@@ -51,7 +51,7 @@ class Reader {
     read_inputs();
     read_window();
     d_.pose = pose(fields_);
-    d_.inside = truth("inside");
+    d_.inside = truth(fields_, "inside");
     d_.clearance = fields_.number_or_null("clearance");
     d_.upper_bound = fields_.number_or_null("upper_bound");
     d_.gap = fields_.number_or_null("gap");
@@ -62,16 +62,17 @@ class Reader {
       if (value && is_beyond_all_sizes(*value)) fields_.complain("a length is beyond all sizes");
     fields_.each("contacts", [&](Json item, const std::string& path) { read_contact(item, path); });
     fields_.require(
-        {"warnings", "seed", "work", "version", "method", "certificate", "certificate_file", "run"});
+        {"warnings", "seed", "work", "version", "method", "scan", "certificate", "certificate_file", "run"});
+    read_scan();
     read_proof();
     return std::move(d_);
   }
 
  private:
-  bool truth(std::string_view key) {
-    const Json value = fields_.get(key);
+  static bool truth(Fields& fields, std::string_view key) {
+    const Json value = fields.get(key);
     if (!value.is_bool())
-      fields_.complain(fmt::format("field {} is neither true nor false", fields_.name(key)));
+      fields.complain(fmt::format("field {} is neither true nor false", fields.name(key)));
     return value.is_true();
   }
   static Decimal length(Fields& fields, std::string_view key) {
@@ -128,6 +129,37 @@ class Reader {
          contact.index("part_triangle"),
          contact.index("blank_triangle")});
     (void)contact.number("multiplier");
+  }
+
+  void read_scan() {
+    const Json written = fields_.get("scan");
+    if (written.is_null() || !complaint_.empty()) return;
+    Fields fields(written, "scan", complaint_);
+    WrittenSolidScan& scan = d_.scan.emplace();
+    const auto size = [&](Fields& of, std::string_view key, bool positive) {
+      Decimal value = length(of, key);
+      if (sgn(value.digits) < (positive ? 1 : 0))
+        of.complain(fmt::format("field {} is not {} 0", of.name(key), positive ? "above" : "from"));
+      return value;
+    };
+    scan.guard = size(fields, "guard", false);
+    fields.require({"min_radius", "max_dip", "underside"});
+    if (!fields.get("min_radius").is_null()) scan.min_radius = size(fields, "min_radius", true);
+    if (!fields.get("max_dip").is_null()) scan.max_dip = size(fields, "max_dip", false);
+    if (!scan.min_radius && !scan.max_dip) fields.complain("scan has neither a min_radius nor a max_dip");
+    if (const Json side = fields.get("underside"); !side.is_null()) {
+      Fields of(side, "scan.underside", complaint_);
+      scan.underside = {length(of, "z"), size(of, "flat", true)};
+    }
+    for (const Decimal* off : {&scan.guard, scan.underside ? &scan.underside->flat : nullptr})
+      if (off != nullptr && scan.min_radius && compare(*off, *scan.min_radius) >= 0)
+        fields.complain("scan.min_radius is not above what the points, or the underside, may be off");
+    scan.widest = size(fields, "widest", false);
+    scan.unknown_triangles = fields.index("unknown_triangles");
+    scan.proved = truth(fields, "proved");
+    std::size_t sentences = 0;
+    fields.each("assumptions", [&](Json item, const std::string&) { sentences += item.is_string() ? 1 : 0; });
+    if (sentences == 0) fields.complain("scan.assumptions is without a sentence");
   }
 
   void read_proof() {

@@ -35,6 +35,19 @@ struct WrittenSolidContact {
   std::size_t part_triangle = 0, blank_triangle = 0;
 };
 
+/// What the result says of a blank from a scanner.
+struct WrittenSolidScan {
+  struct Underside {
+    Decimal z, flat;
+  };
+  Decimal guard;
+  std::optional<Decimal> min_radius, max_dip;  ///< at least one is there
+  std::optional<Underside> underside;
+  Decimal widest;
+  std::size_t unknown_triangles = 0;
+  bool proved = false;
+};
+
 struct SolidDocument {
   std::string status;
   WrittenSolid part, blank;
@@ -44,6 +57,7 @@ struct SolidDocument {
   std::optional<Decimal> clearance, upper_bound, gap, shortfall;
   Decimal min_allowance, unknown_area;
   std::vector<WrittenSolidContact> contacts;
+  std::optional<WrittenSolidScan> scan;
   /// The certificate where the result itself holds it, else null.
   Json certificate;
   /// The number of boxes that the result states of the certificate's file.

@@ -22,12 +22,17 @@ struct SolidMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   /// The number of each triangle in the file, from 0 and ascending; closed() may leave some out.
   std::vector<std::uint32_t> numbers;
+  /// What material may lie inside each triangle, enclosed (scan_widths.hpp); empty for a mesh taken as drawn.
+  std::vector<Span> widths;
 
   /// Returns the triangle that has this number in the file; nothing where it is left out, or none.
   [[nodiscard]] std::optional<std::uint32_t> triangle_of_file(std::size_t number) const {
     const auto found = std::ranges::lower_bound(numbers, number);
     if (found == numbers.end() || *found != number) return std::nullopt;
     return static_cast<std::uint32_t>(found - numbers.begin());
+  }
+  [[nodiscard]] Span width(std::uint32_t triangle) const {
+    return widths.empty() ? just(0) : widths[triangle];
   }
   [[nodiscard]] Span enclosed(std::uint32_t vertex, std::size_t axis) const {
     const double value = near[vertex][axis];
