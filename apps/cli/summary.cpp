@@ -197,6 +197,8 @@ std::string headline(const io::SolidDocument& d) {
                      d.min_allowance)
                : "No placement in the window has the part inside the blank; this is proved.";
   if (!d.inside()) return "No placement was found that has the part inside the blank.";
+  if (d.scan && !d.scan->proved())
+    return "A placement was found, but parts of the blank are unknown, so it is not proved to hold.";
   if (d.status == "optimal") return "The best placement was found and proved.";
   if (d.status == "stopped") return "Stopped early: a placement that holds, maybe not the best.";
   return fmt::format("The placement that --method {} found; it proves nothing about others.", d.method);
@@ -244,6 +246,22 @@ std::string demand_line(const io::SolidDocument& d) {
                      open ? "; it is open whether another placement has them" : "");
 }
 
+std::string scan_lines(const io::SolidDocument& d) {
+  if (!d.scan) return "";
+  const io::SolidScanRecord& scan = *d.scan;
+  std::string text = fmt::format(
+      "  scan               guard {:.6g} mm; material begins up to {:.6g} mm inside its triangles\n",
+      scan.guard, scan.widest);
+  for (const std::string& sentence : scan.assumptions) text += "  assumed            " + sentence + "\n";
+  if (!scan.proved())
+    text += fmt::format(
+        "  unknown            {} triangles, {:.6g} mm2, are too wide for what is assumed, so nothing is "
+        "proved: "
+        "measure there, or close the underside with --underside z=LEVEL --flat MM\n",
+        scan.unknown_triangles, scan.unknown_area);
+  return text;
+}
+
 std::string contact_lines(const io::SolidDocument& d) {
   std::string text;
   for (const locate::SolidTouch& touch : d.contacts)
@@ -282,8 +300,8 @@ std::string locate_summary(const io::LocateDocument& d, const std::vector<std::s
 }
 
 std::string solid_summary(const io::SolidDocument& d, const std::vector<std::string>& written) {
-  return headline(d) + "\n" + pose_lines(d) + bound_line(d) + demand_line(d) + contact_lines(d) +
-         note_lines(d.warnings, written);
+  return headline(d) + "\n" + pose_lines(d) + bound_line(d) + demand_line(d) + scan_lines(d) +
+         contact_lines(d) + note_lines(d.warnings, written);
 }
 
 void tell(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stderr); }

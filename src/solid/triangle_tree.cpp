@@ -162,7 +162,8 @@ std::optional<Nearest> TriangleTree::nearest(Vector p, double most, std::optiona
   return best;
 }
 
-double TriangleTree::least_reach(Vector p, const std::vector<double>& widths, double least) const {
+double TriangleTree::least_sum(Vector p, const std::vector<double>& widths, double times,
+                               double least) const {
   const double rounding = kRounding * std::max(largest_, largest_coordinate(p));
   double best = std::numeric_limits<double>::infinity();
   std::vector<std::pair<double, std::uint32_t>> open{{squared_gap(nodes_[0].box, p), 0}};
@@ -175,7 +176,7 @@ double TriangleTree::least_reach(Vector p, const std::vector<double>& widths, do
     if (node.right == 0) {
       for (std::uint32_t k = node.begin; k < node.end; ++k) {
         const Found here = find(corners_[k], p, rounding);
-        best = std::min(best, std::min(here.low, std::sqrt(here.squared)) + widths[order_[k]]);
+        best = std::min(best, std::min(here.low, std::sqrt(here.squared)) + times * widths[order_[k]]);
       }
       continue;
     }

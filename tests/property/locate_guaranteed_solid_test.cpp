@@ -86,7 +86,8 @@ TEST(LocateGuaranteedSolid, ARightTriangleCountsByHalfItsLongestSide) {
     }
     const double exact = 5 - std::sqrt(25 - square / 4);
     EXPECT_GE(made->widths[k], exact);
-    EXPECT_LE(made->widths[k], exact + 1e-12);
+    EXPECT_LE(made->widths[k], exact + made->width_error);
+    EXPECT_LT(made->width_error, 1e-12);
   }
 }
 

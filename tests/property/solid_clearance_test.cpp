@@ -95,6 +95,15 @@ TEST(TriangleTree, DistancesAndSidesAreThoseOfTheDefinition) {
       EXPECT_LT(near->high - near->low, 1e-11);
       EXPECT_NEAR(norm(p - near->place), exact, 1e-11);
       EXPECT_NEAR(to_triangle(near->place, all[near->triangle]), 0, 1e-11);
+      std::vector<double> widths;
+      double most = std::numeric_limits<double>::infinity(), least = most;
+      for (const auto& corners : all) {
+        widths.push_back(random.uniform(0, 3));
+        most = std::min(most, to_triangle(p, corners) + widths.back());
+        least = std::min(least, to_triangle(p, corners) - widths.back());
+      }
+      EXPECT_NEAR(tree.least_sum(p, widths, 1, 0), most, 1e-11);
+      EXPECT_NEAR(tree.least_sum(p, widths, -1, -3), least, 1e-11);
       EXPECT_FALSE(tree.nearest(p, 0.999 * exact - 1e-9));
       EXPECT_TRUE(tree.nearest(p, 1.001 * exact + 1e-9));
       EXPECT_EQ(tree.holds(p), inside(p, all)) << i;

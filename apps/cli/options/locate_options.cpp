@@ -51,8 +51,9 @@ struct LocateWords {
   std::string part, blank, units, trim, gap, min_allowance, method, starts, start_rule, seed, work, time,
       alternatives, nc, nc_out, nc_mode, nc_angle_decimals, control, allow, chord_tolerance, wcs, scan_frame,
       output, certificate, picture, report, allowances, drawing, deviations, compare, mirror, lock_x, lock_y,
-      features, criterion, give_up, trade_off, join, curve, repair, uncertainty, coverage, min_radius,
-      max_dip, step, drop_outliers, simplify, slice_height, slice_thickness, freedom, tilt, shift, start;
+      features, criterion, give_up, trade_off, join, curve, repair, underside, flat, uncertainty, coverage,
+      min_radius, max_dip, step, drop_outliers, simplify, slice_height, slice_thickness, freedom, tilt, shift,
+      start;
   std::vector<std::string> part_layers, blank_layers;
   std::vector<std::string> window;
   bool json = false, strict = false;
@@ -141,6 +142,25 @@ void read_solid_search(const LocateWords& words, WordReader& read, LocateOptions
   o.start = words.start;
 }
 
+/// The statements about a scanner's mesh, of which those about its points are read already.
+void read_solid_scan(const LocateWords& words, const locate::ScanOptions& m, bool given, WordReader& read,
+                     LocateOptions& o) {
+  const std::string_view level = words.underside;
+  read.require(words.underside.empty() == words.flat.empty(), "--underside and --flat need each other");
+  read.require(level.empty() || level.starts_with("z="),
+               fmt::format("--underside: \"{}\" is no level like z=0", level));
+  locate::SolidUnderside side;
+  if (level.starts_with("z="))
+    read.number("--underside", words.underside.substr(2), -kLargestLength, kLargestLength,
+                "z= and a level in mm up to 1e9", side.z);
+  read.number("--flat", words.flat, kSmallestLength, kLargestLength, "a length in mm above 0", side.flat);
+  if (!given) return;
+  jobs::SolidScanOptions& scan = o.solid.scan.emplace();
+  scan.uncertainty = m.uncertainty, scan.coverage_factor = m.coverage_factor;
+  scan.min_radius = m.min_radius, scan.max_dip = m.max_dip;
+  if (!level.empty()) scan.underside = side;
+}
+
 void read_shapes(const LocateWords& words, WordReader& read, LocateOptions& o) {
   const auto length = [&](const char* option, const std::string& word, double least,
                           std::optional<double>& to) {
@@ -175,11 +195,12 @@ void read_shapes(const LocateWords& words, WordReader& read, LocateOptions& o) {
   read.require(height.has_value() == thickness.has_value(),
                "--slice-height and --slice-thickness need each other");
   if (height && thickness) scan.slice = io::ScanSlice{*height, *thickness};
-  const bool other =
-      m.min_radius || m.max_dip || m.step || m.drop_outliers || simplify || height || !words.coverage.empty();
+  const bool other = m.min_radius || m.max_dip || m.step || m.drop_outliers || simplify || height ||
+                     !words.coverage.empty() || !words.underside.empty();
   read.require(uncertainty || !other,
                "a scan needs --uncertainty MM, the standard uncertainty of one measured point");
   if (uncertainty) o.job.blank.scan = scan;
+  read_solid_scan(words, m, uncertainty.has_value(), read, o);
 }
 
 void read_program(const LocateWords& words, WordReader& read, LocateOptions& o) {
@@ -256,11 +277,13 @@ void check_method(const LocateWords& words, WordReader& read, LocateOptions& o) 
 }
 
 /// The options that solids have, too, and those that they alone have; all others are for outlines.
-constexpr std::array<std::string_view, 15> kOfBoth{
-    "--part",    "--blank",  "--units",       "--window",     "--gap",
-    "--method",  "--work",   "--time",        "--json",       "--output",
-    "--picture", "--report", "--certificate", "--allowances", "--min-allowance"};
-constexpr std::array<std::string_view, 4> kOfSolids{"--freedom", "--tilt", "--shift", "--start"};
+constexpr std::array<std::string_view, 19> kOfBoth{
+    "--part",        "--blank",    "--units",       "--window",     "--gap",
+    "--method",      "--work",     "--time",        "--json",       "--output",
+    "--picture",     "--report",   "--certificate", "--allowances", "--min-allowance",
+    "--uncertainty", "--coverage", "--min-radius",  "--max-dip"};
+constexpr std::array<std::string_view, 6> kOfSolids{"--freedom", "--tilt",      "--shift",
+                                                    "--start",   "--underside", "--flat"};
 
 bool is_typed(const FormOption& option) {
   if (const auto* const flag = std::get_if<bool*>(&option.to)) return **flag;
@@ -319,6 +342,15 @@ void check_turns(const LocateWords& words, LocateOptions& o) {
            "--tilt goes with --freedom six");
 }
 
+/// A scanner's mesh has its place in space; what is between its points has to be said.
+void check_solid_scan(LocateOptions& o) {
+  if (o.solid.scan && !o.solid.scan->min_radius && !o.solid.scan->max_dip)
+    o.not_for_solids += (o.not_for_solids.empty() ? "" : "; ") +
+                        std::string(
+                            "--uncertainty for a solid needs --min-radius MM or --max-dip MM, which say "
+                            "what the surface does between its points");
+}
+
 Result<LocateOptions> to_options(const LocateWords& words, const std::vector<FormOption>& options) {
   LocateOptions o;
   WordReader read;
@@ -333,6 +365,7 @@ Result<LocateOptions> to_options(const LocateWords& words, const std::vector<For
   read_search(words, read, o);
   read_solid_search(words, read, o);
   check_turns(words, o);
+  check_solid_scan(o);
   read_program(words, read, o);
   read_outputs(words, read, o);
   check_method(words, read, o);
@@ -383,7 +416,8 @@ void add_input_options(Form& form, LocateWords& w) {
 
 void add_scan_options(Form& form, LocateWords& w) {
   const OptionAdder add(form, "A blank from a scan");
-  add("--uncertainty", w.uncertainty, "MM", "The blank is a scan; standard uncertainty of one point");
+  add("--uncertainty", w.uncertainty, "MM",
+      "The blank is a scan, of solids a mesh; standard uncertainty of one point");
   add("--coverage", w.coverage, "K", "The surface lies within K times that of each point [2]");
   add("--min-radius", w.min_radius, "MM", "No dent of the blank is sharper than this radius");
   add("--max-dip", w.max_dip, "MM", "Between neighbouring points the surface dips at most this deep");
@@ -391,6 +425,9 @@ void add_scan_options(Form& form, LocateWords& w) {
       "Neighbours further apart leave the blank unknown between them [3 median spacings]");
   add("--drop-outliers", w.drop_outliers, "MM", "Leave out and list points with no other this near [none]");
   add("--simplify", w.simplify, "MM", "The outline may be drawn this much further in than it must [0.02]");
+  add("--underside", w.underside, "z=MM",
+      "Solids: the side that no scanner sees lies at this level, is solid and flat to --flat");
+  add("--flat", w.flat, "MM", "Each point of the underside lies within this of material");
   add("--slice-height", w.slice_height, "MM", "Take the points of a 3D scan about this height");
   add("--slice-thickness", w.slice_thickness, "MM", "and this far up and down together");
 }

@@ -20,6 +20,15 @@ enum class SolidMethod { certified, climb };
 /// Returns the method's name as it stands in results.
 [[nodiscard]] const char* name_of(SolidMethod method) noexcept;
 
+/// The statements about a blank that is a scanner's mesh.
+struct SolidScanOptions {
+  double uncertainty = 0;            ///< standard uncertainty of one point, mm, >= 0
+  double coverage_factor = 2;        ///< the surface lies within so many of them of each point
+  std::optional<double> min_radius;  ///< see locate::SolidScan, mm; one of the two has to be given
+  std::optional<double> max_dip;
+  std::optional<locate::SolidUnderside> underside;
+};
+
 /// The way a solid is to be placed.
 /// \pre numbers are in the ranges said here
 struct SolidLocateOptions {
@@ -36,6 +45,8 @@ struct SolidLocateOptions {
   double gap = 1e-2;         ///< see locate::SolidOptions, mm, > 0
   double min_allowance = 0;  ///< mm, >= 0
   SolidMethod method = SolidMethod::certified;
+  /// Without it the blank is taken as drawn.
+  std::optional<SolidScanOptions> scan;
   /// They change the time and nothing else.
   unsigned threads = kUsualThreads;
 };
@@ -71,8 +82,11 @@ struct LocatedSolid {
   std::string result;
   std::string certificate, allowances, picture, report;
 
-  /// True if the answer is yes: the part lies in the blank and has the allowance.
-  [[nodiscard]] bool holds() const noexcept { return document.inside() && !(*document.shortfall() > 0); }
+  /// True if the answer is yes: the part lies in the blank and has the allowance, and all of the blank is
+  /// known.
+  [[nodiscard]] bool holds() const noexcept {
+    return document.inside() && !(*document.shortfall() > 0) && (!document.scan || document.scan->proved());
+  }
 };
 
 /// Says which job a part and a blank are for: true if both are solids, for locate_solid, and false if neither
@@ -80,15 +94,16 @@ struct LocatedSolid {
 /// for points where a solid has to be.
 [[nodiscard]] Result<bool> are_solids(const File& part, const File& blank);
 
-/// Places a solid in a blank, both closed meshes taken as drawn. Before anything is handed out the very bytes
+/// Places a solid in a blank, both closed meshes; the part is taken as drawn, and so is a blank that is no
+/// scan. Before anything is handed out the very bytes
 /// of the result are put before the checker of verify/verify.hpp, as in locate().
 ///
 /// Deterministic: only SolidDocument::seconds and ::threads are not functions of the job. `run` is for the
 /// search: its unit of work is a box bounded, a program solved or a pose measured.
 ///
 /// Errors: bad_input as of io::parse_solid and solid::closed_mesh, for points, and for a start that is no
-/// result for solids; usage as of locate::locate_solid; environment where a drawing library fails; refuted
-/// where the checker does not confirm the result, which is a mistake of ours.
+/// result for solids; usage as of locate::locate_solid and locate::guaranteed_solid; environment where a
+/// drawing library fails; refuted where the checker does not confirm the result, which is a mistake of ours.
 [[nodiscard]] Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& run = {},
                                                 const Stopwatch& stopwatch = {});
 

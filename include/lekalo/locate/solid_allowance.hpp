@@ -11,8 +11,8 @@
 namespace lekalo::locate {
 
 /// The surface of a placed part with the allowance at its vertices: the distance to the surface of the blank,
-/// negative outside its material. Long edges of the part are cut, since the allowance in the middle of a
-/// large triangle is not that at its corners.
+/// less its widths, and negative outside its material. Long edges of the part are cut, since the allowance in
+/// the middle of a large triangle is not that at its corners.
 struct MeasuredPart {
   solid::Mesh mesh;  ///< the part's surface, in its own frame; its first vertices are the part's
   std::vector<std::uint32_t> numbers;  ///< the triangle of the part in which each of its triangles lies
@@ -21,10 +21,12 @@ struct MeasuredPart {
 };
 
 /// \param part, blank  closed
+/// \param widths  of the blank's triangles, mm, or none (SolidProblem::blank_widths)
 /// \param triangles  edges are cut until there are about this many, and never above four times as many
 /// The same for any number of threads. The allowance between the vertices is not known.
 [[nodiscard]] MeasuredPart measured_part(const solid::Mesh& part, const solid::Mesh& blank,
                                          const solid::Motion& blank_from_part, std::size_t triangles = 40'000,
-                                         unsigned threads = kUsualThreads);
+                                         unsigned threads = kUsualThreads,
+                                         const std::vector<double>& widths = {});
 
 }  // namespace lekalo::locate

@@ -35,9 +35,11 @@ class TriangleTree {
                                                double most = std::numeric_limits<double>::infinity(),
                                                std::optional<std::uint32_t> near = {}) const;
 
-  /// A bound from below of the least of distance and width together, mm, over all triangles, as near to it as
-  /// that of `nearest`. \param widths  one of each triangle, none below `least`. \pre there are triangles
-  [[nodiscard]] double least_reach(Vector p, const std::vector<double>& widths, double least) const;
+  /// A bound from below of the least sum, over all triangles, of the distance and so many times the
+  /// triangle's width, mm, as near as that of `nearest`. \param least  no width is less, so many times \pre
+  /// there are triangles, each with a width
+  [[nodiscard]] double least_sum(Vector p, const std::vector<double>& widths, double times,
+                                 double least) const;
 
   /// Returns whether a way straight up from p crosses the triangles an odd number of times; exact, whatever
   /// the way meets: it counts as p moved by less than every number. \pre p lies on no triangle, where either

@@ -41,6 +41,20 @@ void write(JsonWriter& json, const locate::SolidTouch& touch) {
   json.end();
 }
 
+void write(JsonWriter& json, const SolidScanRecord& scan) {
+  json.begin_object().fields(
+      {{"guard", scan.guard}, {"min_radius", scan.min_radius}, {"max_dip", scan.max_dip}});
+  json.key("underside");
+  if (scan.underside)
+    json.object({{"z", scan.underside->z}, {"flat", scan.underside->flat}});
+  else
+    json.value(nullptr);
+  json.fields(
+      {{"widest", scan.widest}, {"unknown_triangles", scan.unknown_triangles}, {"proved", scan.proved()}});
+  json.key("assumptions").list(scan.assumptions);
+  json.end();
+}
+
 void write_head(JsonWriter& json, const SolidDocument& d) {
   line_of(json, "format").object({{"name", "lekalo-locate"}, {"version", 1}});
   lines(json, {{"status", d.status}, {"units", "mm"}});
@@ -67,7 +81,12 @@ void write_placement(JsonWriter& json, const SolidDocument& d) {
                {"shortfall", d.shortfall()}});
   list_of_lines(line_of(json, "contacts"), d.contacts,
                 [&](const locate::SolidTouch& one) { write(json, one); });
-  lines(json, {{"unknown_area_mm2", 0}});
+  line_of(json, "scan");
+  if (d.scan)
+    write(json, *d.scan);
+  else
+    json.value(nullptr);
+  lines(json, {{"unknown_area_mm2", d.scan ? d.scan->unknown_area : 0}});
 }
 
 void write_proof(JsonWriter& json, const SolidDocument& d) {

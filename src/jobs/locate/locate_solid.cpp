@@ -170,6 +170,7 @@ io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&
   d.window = {in.problem.start, in.pivot, job.options.shift, in.turn_deg};
   d.pose = found.best.pose, d.clearance = safe_clearance(found.best, in);
   d.upper_bound = found.upper_bound, d.min_allowance = job.options.min_allowance;
+  d.scan = in.scan;
   d.status = found.status;
   if (d.status == io::name_of(locate::Status::optimal) && !d.inside())
     d.status = io::name_of(locate::Status::stopped);

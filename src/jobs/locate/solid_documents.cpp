@@ -28,7 +28,9 @@ std::string allowances_csv(const SolidInputs& in, const io::SolidDocument& d) {
     const Vector p = in.problem.part.vertices[k], q = motion(p);
     const solid::Nearest nearest = *blank.nearest(q, std::numeric_limits<double>::infinity(), near);
     near = nearest.triangle;
-    const double allowance = blank.holds(q) ? nearest.low : -nearest.high;
+    const double inside =
+                     d.scan ? blank.least_sum(q, in.problem.blank_widths, -1, -d.scan->widest) : nearest.low,
+                 allowance = blank.holds(q) ? inside : -nearest.high;
     text += fmt::format("{},{},{},{},{},{},{},{},{}\n", k, p.x, p.y, p.z, q.x, q.y, q.z, allowance,
                         in.blank.numbers[nearest.triangle]);
   }
@@ -36,14 +38,15 @@ std::string allowances_csv(const SolidInputs& in, const io::SolidDocument& d) {
 }
 
 draw::SolidScene scene_of(const SolidLocateJob& job, const SolidInputs& in, const io::SolidDocument& d) {
-  locate::MeasuredPart part =
-      locate::measured_part(in.problem.part, in.problem.blank, motion_of(d.pose), 40'000, d.threads);
+  locate::MeasuredPart part = locate::measured_part(in.problem.part, in.problem.blank, motion_of(d.pose),
+                                                    40'000, d.threads, in.problem.blank_widths);
   draw::SolidScene scene;
   scene.part_name = job.part.name, scene.blank_name = job.blank.name;
   scene.status = d.status, scene.method = d.method;
   scene.part = std::move(part.mesh), scene.allowances = std::move(part.allowances);
   scene.blank = in.problem.blank;
   scene.placement = {d.pose, d.inside(), d.clearance.value_or(0), d.contacts, d.work};
+  scene.unknown_area = d.scan ? d.scan->unknown_area : 0;
   scene.upper_bound = d.upper_bound;
   scene.min_allowance = d.min_allowance, scene.shortfall = d.shortfall().value_or(0);
   return scene;

@@ -112,6 +112,24 @@ void set_window(const SolidLocateOptions& o, SolidInputs& in) {
   p.turn = radians_up(in.turn_deg);
 }
 
+/// Gives the blank's triangles their widths.
+Result<void> read_scan(const SolidScanOptions& how, SolidInputs& in) {
+  /// A point is off by so much at most for each of its coordinates: the square root of 3, rounded up.
+  constexpr double kDiagonal = 1.7321;
+  locate::SolidProblem& p = in.problem;
+  locate::SolidScan scan;
+  scan.coordinate_error = p.blank_coordinate_error;
+  scan.guard = how.coverage_factor * how.uncertainty + kDiagonal * scan.coordinate_error;
+  scan.min_radius = how.min_radius, scan.max_dip = how.max_dip, scan.underside = how.underside;
+  LEKALO_TRY(locate::GuaranteedSolid made, locate::guaranteed_solid(p.blank, scan));
+  in.scan =
+      io::SolidScanRecord{scan.guard,  scan.min_radius,     scan.max_dip,      scan.underside,
+                          made.widest, made.unknown.size(), made.unknown_area, std::move(made.assumptions)};
+  p.blank_widths = std::move(made.widths);
+  p.blank_width_error = made.width_error;
+  return {};
+}
+
 }  // namespace
 
 Result<bool> are_solids(const File& part, const File& blank) {
@@ -130,6 +148,7 @@ Result<SolidInputs> read_inputs(const SolidLocateJob& job) {
   locate::SolidProblem& p = in.problem;
   LEKALO_CHECK(read_solid(job.part, how, p.part, p.part_coordinate_error, in.part, in.notices));
   LEKALO_CHECK(read_solid(job.blank, how, p.blank, p.blank_coordinate_error, in.blank, in.notices));
+  if (job.options.scan) LEKALO_CHECK(read_scan(*job.options.scan, in));
   LEKALO_CHECK(read_start(job.start, p.start));
   set_window(job.options, in);
   return in;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct SolidInputs {
   solid::Vector pivot;  ///< of its window
   double turn_deg = 0;  ///< the half width of its turns
   ReadSolid part, blank;
+  std::optional<io::SolidScanRecord> scan;
   std::vector<std::string> notices;
 };
 

@@ -107,7 +107,8 @@ class Cutting {
 }  // namespace
 
 MeasuredPart measured_part(const solid::Mesh& part, const solid::Mesh& blank,
-                           const solid::Motion& blank_from_part, std::size_t triangles, unsigned threads) {
+                           const solid::Motion& blank_from_part, std::size_t triangles, unsigned threads,
+                           const std::vector<double>& widths) {
   MeasuredPart measured{part, {}, {}};
   for (std::size_t k = 0; k < part.triangles.size(); ++k)
     measured.numbers.push_back(static_cast<std::uint32_t>(k));
@@ -119,6 +120,7 @@ MeasuredPart measured_part(const solid::Mesh& part, const solid::Mesh& blank,
     round.cut();
   }
   const solid::TriangleTree tree(blank);
+  const double widest = widths.empty() ? 0 : *std::max_element(widths.begin(), widths.end());
   const std::vector<Vector>& places = measured.mesh.vertices;
   measured.allowances.resize(places.size());
   constexpr std::size_t kChunk = 512;
@@ -126,8 +128,11 @@ MeasuredPart measured_part(const solid::Mesh& part, const solid::Mesh& blank,
     for (std::size_t k = kChunk * chunk; k < std::min(places.size(), kChunk * (chunk + 1)); ++k) {
       ask(8);
       const Vector p = blank_from_part(places[k]);
-      const solid::Nearest nearest = *tree.nearest(p);
-      measured.allowances[k] = tree.holds(p) ? nearest.low : -nearest.high;
+      if (!tree.holds(p))
+        measured.allowances[k] = -tree.nearest(p)->high;
+      else
+        measured.allowances[k] =
+            widths.empty() ? tree.nearest(p)->low : tree.least_sum(p, widths, -1, -widest);
     }
   });
   return measured;

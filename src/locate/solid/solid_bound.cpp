@@ -122,7 +122,7 @@ double SolidBounds::off(const Side& side, Vector centre) const {
 std::optional<SolidBall> SolidBounds::ball(const Side& side, Vector centre) const {
   if (side.tree.holds(centre) != side.material) return std::nullopt;
   const double far = side.widths.empty() ? side.tree.nearest(centre)->low
-                                         : side.tree.least_reach(centre, side.widths, meter_.narrowest());
+                                         : side.tree.least_sum(centre, side.widths, 1, meter_.narrowest());
   const double radius = far - off(side, centre);
   if (!(radius > 0)) return std::nullopt;
   return SolidBall{centre, radius};

@@ -143,11 +143,12 @@ void SolidCheck::check_scan(SolidMesh& blank) {
     find("scan.unknown_triangles is {}, but there are {}", d_.scan->unknown_triangles, widths.unknown);
   if (d_.scan->proved != (widths.unknown == 0))
     find("scan.proved is {}, but {} triangles are unknown", d_.scan->proved, widths.unknown);
-  if (widths.unknown > 0)
-    leave_open(
-        fmt::format("{} triangles of the scan are unknown, {:.6g} mm2, so that nothing of the blank is "
-                    "proved",
-                    widths.unknown, widths.unknown_area.high));
+  if (widths.unknown > 0) {
+    open_ = true;
+    note(fmt::format(
+        "{} triangles of the scan are unknown, {:.6g} mm2, so that nothing of the blank is proved",
+        widths.unknown, widths.unknown_area.high));
+  }
   blank.widths = std::move(widths.of);
 }
 

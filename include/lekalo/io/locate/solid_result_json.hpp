@@ -7,6 +7,7 @@
 
 #include "lekalo/io/locate/result_json.hpp"
 #include "lekalo/io/solid/solid_file.hpp"
+#include "lekalo/locate/guaranteed_solid.hpp"
 #include "lekalo/locate/solid.hpp"
 
 namespace lekalo::io {
@@ -30,6 +31,18 @@ struct SolidWindow {
   double turn_deg = 0;
 };
 
+/// The statements about a blank from a scanner, and what they leave open (locate/guaranteed_solid.hpp).
+struct SolidScanRecord {
+  double guard = 0;                           ///< mm
+  std::optional<double> min_radius, max_dip;  ///< mm
+  std::optional<locate::SolidUnderside> underside;
+  double widest = 0;  ///< mm
+  std::size_t unknown_triangles = 0;
+  double unknown_area = 0;  ///< mm2
+  std::vector<std::string> assumptions;
+  [[nodiscard]] bool proved() const noexcept { return unknown_triangles == 0; }
+};
+
 struct SolidDocument {
   std::string status;  ///< optimal, stopped, infeasible, unproved
   std::string method;  ///< certified, climb
@@ -45,6 +58,8 @@ struct SolidDocument {
   std::optional<double> upper_bound;
   double min_allowance = 0;
   std::vector<locate::SolidTouch> contacts;
+  /// Without one the blank is taken as drawn.
+  std::optional<SolidScanRecord> scan;
   /// Without trees when there is none, or when it is in certificate_file; its triangles are those of the
   /// meshes that were placed.
   locate::SolidProof proof;
