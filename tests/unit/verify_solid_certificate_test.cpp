@@ -107,6 +107,21 @@ TEST(SolidCertificate, CornersOverFacesProveItWhereTheirFeetStay) {
   }
 }
 
+TEST(SolidCertificate, ABallMayGoThroughAFaceUpToItsRadius) {
+  const auto through = [](Json certificate, double x) {
+    certificate["trees"][0]["x"] = {-x, x};
+    return cube_in_cube(certificate).told();
+  };
+  // Corners are 1 over their faces, the balls of radius 1 are 2 over them.
+  Json balls = by_faces(0.5);
+  balls["part_balls"] = Json::array({{-4, -4, -4, 1}, {4, -4, -4, 1}});
+  for (const auto& [certificate, most] :
+       {std::pair{by_faces(0.5), 1.0}, {balls, 3.0}, {by_part_faces(0.5), 3.0}}) {
+    EXPECT_EQ(through(certificate, most), "confirmed") << most;
+    EXPECT_TRUE(says(through(certificate, most + 0.001), "do not prove")) << most;
+  }
+}
+
 TEST(SolidCertificate, TurnsMoveWhatIsNotAtThePivot) {
   // The corners (-5, -5) and (5, -5) are 10 cos apart along x.
   const double t = std::tan(2 * std::numbers::pi / 180 / 2) * (1 + 1e-15);
