@@ -6,6 +6,8 @@
 #include "lekalo/base/random.hpp"
 #include "support/cases.hpp"
 #include "support/layout_texts.hpp"
+#include "support/solid_files.hpp"
+#include "support/solids.hpp"
 
 /// Every command with the N-th call to the system failing, for N = 1, 2, ... until the command runs to its
 /// end: disks that are full or broken, memory that is out. Whatever fails, the command ends by itself, with a
@@ -40,6 +42,10 @@ std::vector<Command> commands() {
        {"locate", "--part", "ring.json", "--blank", "plate.svg", "--blank-layers", "plate", "--window", "0",
         "0", "--gap", "0.5", "--features", "features.json", "-o", "r.json"},
        {"r.json"}},
+      {"locate_solid",
+       {"locate", "--part", "part.stl", "--blank", "casting.ply", "--gap", "0.5", "-o", "s.json",
+        "--certificate", "s.cert", "--allowances", "s.csv", "--picture", "s.html"},
+       {"s.json", "s.cert", "s.csv", "s.html"}},
       {"verify", {"verify", "result.json", "--json"}, {}},
       {"check", {"check", "layout.json", "--json", "--picture", "c.svg"}, {"c.svg"}},
       {"show_dxf", {"show", corpus + "dxf/layers.dxf", "--json"}, {}},
@@ -71,6 +77,9 @@ void write_inputs(const TemporaryFolder& folder) {
   write_bytes(folder / "pocket.json", R"({"units": "mm", "outer": [{"line": {"from": [0, 0], "to": [20, 0]}},
     {"line": {"from": [20, 0], "to": [20, 16]}}, {"line": {"from": [20, 16], "to": [0, 16]}},
     {"line": {"from": [0, 16], "to": [0, 0]}}]})");
+  write_bytes(folder / "part.stl", solid_files::stl_text(cases::block({-20, -15, -10}, {20, 15, 10})));
+  write_bytes(folder / "casting.ply", solid_files::ply<float>(cases::block({-22, -17, -13}, {24, 17, 11}),
+                                                              solid_files::PlyForm::little));
   write_bytes(folder / "o.nc", kPlateProgram);
   write_bytes(folder / "p.nc",
               "G21 G90 G17\nG0 Z5\nG0 X4 Y4\nG1 Z-1 F100\nG1 X16\nG1 Y12\nG1 X4\nG1 Y4\nG0 Z5\nM2\n");
