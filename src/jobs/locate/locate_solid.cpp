@@ -91,8 +91,12 @@ Result<Found> found_by_method(const SolidInputs& in, const SolidLocateOptions& o
                std::move(result.proof)};
 }
 
+/// The search may have met a crossing where the part nearly touches, and that has no triangles.
 std::vector<locate::SolidTouch> with_file_numbers(std::vector<locate::SolidTouch> contacts,
                                                   const SolidInputs& in) {
+  std::erase_if(contacts, [&](const locate::SolidTouch& touch) {
+    return touch.part_triangle >= in.part.numbers.size() || touch.blank_triangle >= in.blank.numbers.size();
+  });
   for (locate::SolidTouch& touch : contacts) {
     touch.part_triangle = in.part.numbers[touch.part_triangle];
     touch.blank_triangle = in.blank.numbers[touch.blank_triangle];
