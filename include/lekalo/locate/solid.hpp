@@ -43,7 +43,7 @@ struct SolidProblem {
   /// Every coordinate may differ from the true one (the decimal in the file) by up to this, mm. The errors
   /// are taken off the clearance and added to the upper bound.
   double part_coordinate_error = 0, blank_coordinate_error = 0;
-  /// What the blank's material may lie inside each of its triangles, mm, >= 0 (GuaranteedSolid::widths);
+  /// The material may begin so far inside each triangle of the blank, mm, >= 0 (GuaranteedSolid::widths);
   /// empty for a blank taken as drawn. None is below the true one, or above it by more than the error.
   std::vector<double> blank_widths = {};
   double blank_width_error = 0;

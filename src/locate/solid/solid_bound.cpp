@@ -113,7 +113,7 @@ SolidBounds::SolidBounds(const SolidMeter& meter)
       blank_{meter.blank(), meter.clearance().blank(), false, meter.blank_error() + meter.width_error(),
              meter.widths()} {}
 
-/// What a distance from the surface may be off, mm.
+/// A distance from the surface may be off by this, mm.
 double SolidBounds::off(const Side& side, Vector centre) const {
   return side.error + kRounding * (side.tree.largest() + norm(centre));
 }
@@ -182,7 +182,7 @@ std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const 
     made.part.push_back({one, seen(one.centre)});
   made.blank = balls(blank_, contact.blank, -n);
   if (contact.blank_triangle != kNoTriangle) {
-    // Of the widths of neighbours the larger one counts here, the smaller ones do beside the surface.
+    // The largest width of neighbours counts here, and beside the surface the smallest.
     const double within = meter_.width(contact.blank_triangle) - 4 * off(blank_, contact.blank);
     if (within > 0) made.blank.insert(made.blank.begin(), {contact.blank, within});
   }

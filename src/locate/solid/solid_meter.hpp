@@ -47,7 +47,7 @@ class SolidMeter {
   /// No point of the surfaces is farther off that of the file, mm.
   [[nodiscard]] double part_error() const noexcept { return part_error_; }
   [[nodiscard]] double blank_error() const noexcept { return blank_error_; }
-  /// Of the blank's triangles; empty for one taken as drawn.
+  /// The widths of the blank's triangles; none of one taken as drawn.
   [[nodiscard]] const std::vector<double>& widths() const noexcept { return widths_; }
   [[nodiscard]] double width(std::uint32_t blank_triangle) const {
     return widths_.empty() ? 0 : widths_[blank_triangle];

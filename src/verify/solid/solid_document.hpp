@@ -35,7 +35,7 @@ struct WrittenSolidContact {
   std::size_t part_triangle = 0, blank_triangle = 0;
 };
 
-/// What the result says of a blank from a scanner.
+/// The statements of the result about a blank from a scanner.
 struct WrittenSolidScan {
   struct Underside {
     Decimal z, flat;
