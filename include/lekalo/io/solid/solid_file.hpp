@@ -46,9 +46,9 @@ struct SolidFile {
 /// OBJ, PLY or points; nullptr for anything else. It looks at the beginning and at the number of the bytes.
 [[nodiscard]] const FileFormat* solid_format_by_content(std::string_view bytes);
 
-/// Says whether a file holds a solid and can hold nothing else: STL or OBJ by its content, or by its name where
-/// the content fits no format; by that, too, models that are not read (STEP, IGES, 3MF, OFF). PLY and points
-/// may also be measured outlines.
+/// Says whether a file holds a solid and can hold nothing else: STL or OBJ by its content, or by its name
+/// where the content fits no format; by that, too, models that are not read (STEP, IGES, 3MF, OFF). PLY and
+/// points may also be measured outlines.
 [[nodiscard]] bool is_only_solid(std::string_view bytes, const std::string& name);
 
 /// Reads STL (text and binary), OBJ, PLY (text and binary, either order) and text of points "x y z"
