@@ -22,13 +22,6 @@ using cases::Bitten;
 using solid::Motion;
 using solid::Vector;
 
-/// How far a place is from the air about the true blank; negative in it.
-double depth(const Bitten& blank, Vector p) {
-  double depth = cases::kBall - norm(p);
-  for (const Vector c : blank.bites) depth = std::min(depth, norm(p - c) - blank.radius);
-  return depth;
-}
-
 Vector of_triangle(const solid::Mesh& mesh, std::size_t k, Random& random) {
   const auto& t = mesh.triangles[k];
   const Vector a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
@@ -97,7 +90,7 @@ TEST(LocateScannedSolid, ThePlacedPartNeverLeavesTheTrueBlank) {
     const Motion motion = motion_of(best.pose);
     for (std::size_t t = 0; t < problem.part.triangles.size(); ++t)
       for (int i = 0; i < 4; ++i)
-        ASSERT_GE(depth(drawn.blank, motion(of_triangle(problem.part, t, random))), best.clearance);
+        ASSERT_GE(drawn.blank.depth(motion(of_triangle(problem.part, t, random))), best.clearance);
   }
   EXPECT_GT(inside, 0U) << "no part was placed, so nothing was tested";
   EXPECT_GT(closed, 0U) << "no bound was closed";

@@ -23,6 +23,12 @@ struct Bitten {
     if (norm(p) > kBall) return false;
     return std::none_of(bites.begin(), bites.end(), [&](solid::Vector c) { return norm(p - c) < radius; });
   }
+  /// How far a place is from the air, negative in it.
+  [[nodiscard]] double depth(solid::Vector p) const {
+    double depth = kBall - norm(p);
+    for (const solid::Vector c : bites) depth = std::min(depth, norm(p - c) - radius);
+    return depth;
+  }
   /// How far the material goes from the middle in a direction.
   [[nodiscard]] double reach(solid::Vector u) const {
     double least = kBall;
