@@ -122,6 +122,24 @@ TEST(SolidCertificate, ABallMayGoThroughAFaceUpToItsRadius) {
   }
 }
 
+/// A ball that goes through the wall of a narrow core sticks out of the material by half the core's width.
+TEST(SolidCertificate, AFaceBoundsNothingBelowZero) {
+  solid::Mesh blank = cases::block({-6, -6, -6}, {6, 6, 6});
+  cases::append(blank, cases::block({-2, -2, -0.0625}, {2, 2, 0.0625}));
+  for (const auto& [bound, told] : {std::pair{0.0, "confirmed"}, {-0.5, "do not prove"}}) {
+    SolidResultFiles files =
+        cube_in_cube(one_leaf(Json::array({{"face", 0, 14, 1}}), Json::array({{-0.25, -0.25, 1, 4}}),
+                              Json::array(), Json::array(), 0.1),
+                     bound, "xyz", 0.1);
+    files.blank = solid_files::stl_binary(blank);
+    files.result["inputs"][1]["triangles"] = 24, files.result["inside"] = false;
+    files.result["clearance"] = files.result["gap"] = files.result["shortfall"] = nullptr;
+    files.result["contacts"] = Json::array();
+    files.result["status"] = "infeasible", files.result["min_allowance"] = 1;
+    EXPECT_TRUE(says(files.told(), told)) << files.told();
+  }
+}
+
 TEST(SolidCertificate, TurnsMoveWhatIsNotAtThePivot) {
   // The corners (-5, -5) and (5, -5) are 10 cos apart along x.
   const double t = std::tan(2 * std::numbers::pi / 180 / 2) * (1 + 1e-15);
