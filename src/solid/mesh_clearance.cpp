@@ -136,8 +136,9 @@ struct MeshClearance::Walk {
         best.low = std::min(best.low, -widest());
         return;
       }
-      const auto [gap, part, blank] = stack[--count];
-      if (apart(gap, blank)) continue;
+      const Open open = stack[--count];
+      const std::uint32_t part = open.part, blank = open.blank;
+      if (apart(open.gap, blank)) continue;
       ask();
       const TriangleTree::Node &p = of_parts[part], &b = of_blanks[blank];
       if (p.right == 0 && b.right == 0) {
