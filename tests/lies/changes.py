@@ -1,15 +1,18 @@
 """Changes of a file that was written, one at a time.
 
-Of JSON: every number by its last place (or the least that a claim tells apart) up and down, by its sign and by more, every text and truth, every member and
-item taken out, members given twice and members that are not known, neighbours of a list exchanged and lists turned
-round. Of a text of lines: every number by one in its last digit and by its sign, every word taken out, every line
-taken out, every two lines exchanged.
+Of JSON: every number by its last place (or the least that a claim tells apart) up and down, by its sign and by more,
+every text and truth, every member and item taken out, members given twice and members that are not known, neighbours
+of a list exchanged and lists turned round. Of a text of lines: every number by one in its last digit and by its sign,
+every word taken out, every line taken out, every two lines exchanged. Of a binary STL: every triangle taken out, given
+twice, exchanged with the next or turned round, its normal and attribute, a corner of it alone, and every corner of the
+surface in all of its triangles.
 """
 
 import copy
 import json
 import math
 import re
+import struct
 from dataclasses import dataclass, field
 
 
@@ -143,3 +146,47 @@ def of_text(text, skip=lambda line: False, decimals=None):
             left = line[:found.start()] + line[found.end():]
             if left.strip():
                 yield Change(path, "word deleted", changed([left]), line)
+
+
+def of_stl(text):
+    """All changes of a binary STL."""
+    data = text.encode(errors="surrogateescape")
+    head, rows = data[:80], [struct.unpack_from("<12fH", data, at) for at in range(84, len(data), 50)]
+
+    def packed(changed, count=None, before=head):
+        body = b"".join(struct.pack("<12fH", *row) for row in changed)
+        return (before + struct.pack("<I", len(changed) if count is None else count) + body).decode(
+            errors="surrogateescape")
+
+    def put(k, *others):
+        return lambda: packed(rows[:k] + list(others) + rows[k + 1:])
+
+    def move(corner, other):
+        return lambda: packed([row[:3] + sum((other if row[at:at + 3] == corner else row[at:at + 3]
+                                              for at in (3, 6, 9)), ()) + row[12:] for row in rows])
+
+    yield Change("head", "text", lambda: packed(rows, before=b"x" * 80), head)
+    for step in (1, -1):
+        yield Change("count", f"{step:+}", lambda step=step: packed(rows, len(rows) + step), len(rows))
+    for k, row in enumerate(rows):
+        path = f"triangle {k}"
+        yield Change(path, "deleted", put(k), row)
+        yield Change(path, "twice", put(k, row, row), row)
+        yield Change(path, "turned round", put(k, row[:3] + row[9:12] + row[6:9] + row[3:6] + row[12:]), row)
+        yield Change(path, "normal", put(k, (1.0,) + row[1:]), row)
+        yield Change(path, "attribute", put(k, row[:12] + (1,)), row)
+        yield Change(path, "corner", put(k, row[:3] + (row[3] + 0.5,) + row[4:]), row)
+    for k in range(len(rows) - 1):
+        yield Change(f"triangle {k}", "exchanged",
+                     lambda k=k: packed(rows[:k] + [rows[k + 1], rows[k]] + rows[k + 2:]), rows[k])
+    for k, corner in enumerate(sorted({row[at:at + 3] for row in rows for at in (3, 6, 9)})):
+        for axis in range(3):
+            for how, value in of_number(corner[axis], next_single):
+                other = corner[:axis] + (value,) + corner[axis + 1:]
+                yield Change(f"corner {k}/{axis}", how, move(corner, other), corner)
+
+
+def next_single(value, way):
+    """The next number of single precision."""
+    word = struct.unpack("<i", struct.pack("<f", value))[0]
+    return struct.unpack("<f", struct.pack("<i", word + (way if value > 0 else -way)))[0] if value else way * 1e-30

@@ -18,7 +18,7 @@ import kinds
 import verify_lies
 
 # The kinds of results, and the words with which their table begins.
-TABLES = {"placement of solids": "Placements of solids:", "placement": "Placements:", "layout": "**Layouts.**",
+TABLES = {"placement, solids": "Placements of solids:", "placement": "Placements:", "layout": "**Layouts.**",
           "report of nest": "**Reports of nest and check.**", "report of check": "**Reports of nest and check.**",
           "report of pocket": "**Reports of simulate and pocket", "report of simulate": "**Reports of simulate and pocket"}
 

@@ -1,5 +1,6 @@
 """The kinds of results, each made by the program itself from the examples."""
 
+import functools
 import hashlib
 import json
 import re
@@ -29,6 +30,12 @@ SHEET = "steel 2 mm#1"
 
 # Contacts and multipliers are claims to a millionth of the blank's size, and of 1 (docs/formats.md).
 TO_A_MILLIONTH = ((r"/contacts/\d+/(part_at|blank_at|distance)", 1e-3), (r"/.*/multiplier$", 4e-6))
+# Placements of solids leave room for roundings in their poses and windows, and their certificates are looser still. A
+# point of contact may move along its face by what changes no distance.
+OF_SOLIDS = ((r"/contacts/\d+/(part|blank)_point", 0.05), (r"/certificate/trees/\d+/(x|y|z|turn)", 1e-9),
+             (r"/certificate/(part|blank)_balls|/certificate/planes|/certificate/.*/nodes/\d+/1$", 0.02),
+             (r"/certificate/.*/quaternion|/(window/)?(quaternion|x$|y$|z$)|/(upper_bound|gap)$", 1e-6),
+             (r"/window/(shift|turn_deg)$", 1e-9))
 
 
 def least_step(value, way, path):
@@ -37,6 +44,13 @@ def least_step(value, way, path):
         if re.match(rule, path):
             return value + way * step
     return changes.next_double(value, way, path)
+
+
+def step_of_solids(value, way, path):
+    if re.match(r"/certificate/.*/nodes/\d+/\d+/3$", path):  # a multiplier of a term, of any scale
+        return value * (1 + 0.1 * way)
+    return next((value + way * step for rule, step in OF_SOLIDS if re.match(rule, path)),
+                least_step(value, way, path))
 
 
 @dataclass
@@ -53,17 +67,20 @@ class Kind:
     step: object = least_step
     form: str = "json"
     decimals: object = None  # of a text: as many as claims tell apart
+    unproved: bool = False  # the untouched result claims no bound, and 1 confirms the rest
     report_of: str = ""  # the document whose digests follow the target, so that nothing but its meaning is amiss
     skip: object = lambda line: False
 
 
 def digest(text):
-    return hashlib.sha256(text.encode()).hexdigest()
+    return hashlib.sha256(text.encode(errors="surrogateescape")).hexdigest()
 
 
 def all_changes(kind, text):
     if kind.form == "json":
         return list(changes.of_json(text, kind.step))
+    if kind.form == "stl":
+        return list(changes.of_stl(text))
     return list(changes.of_text(text, kind.skip, kind.decimals))
 
 
@@ -126,14 +143,47 @@ def kinds():
     yield Kind("program, rewritten", bracket,
                [region + ["-o", "r.json", "--nc", "bracket.nc", "--nc-out", "o.nc"]], "o.nc", of_r,
                truth.rewritten, form="text", report_of="r.json")
-    blocks = {"part.stl": solids.stl((-20, -15, -10), (20, 15, 10)), "casting.stl": solids.stl((-22, -17, -13), (24, 17, 11))}
-    solid = ["locate", "--part", "part.stl", "--blank", "casting.stl", "--gap", "0.2", "-o", "r.json"]
-    for freedom, words in (("shifted", ["--freedom", "xyz"]), ("turned about z", ["--freedom", "c-xyz"]),
-                           ("turned", ["--tilt", "1", "--shift", "2", "--min-allowance", "3"])):
-        yield Kind(f"placement of solids, {freedom}", [], [solid + words], "r.json", of_r, solids.oracle, written=blocks,
-                   inputs=["part.stl", "casting.stl"], step=solids.least_step)
+    yield from of_solids()
     yield from of_layouts()
     yield from of_pockets()
+
+
+def box(low, high):
+    """An OBJ of a box, two triangles a side."""
+    corners = [f"v {x} {y} {z}" for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
+    sides = ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4))
+    return "\n".join(corners + [f"f {a} {b} {c}\nf {a} {c} {d}" for a, b, c, d in sides]) + "\n"
+
+
+def of_solids():
+    meshes = ["examples/solid/part.stl", "examples/solid/casting.stl"]
+    climb = ["locate", "--part", "part.stl", "--blank", "casting.stl", "--method", "climb"]
+    near = climb[:5] + ["--start", "s.json", "-o", "r.json"]
+    start, of_r, stl = climb + ["-o", "s.json"], ["verify", "r.json"], ["part.stl", "casting.stl"]
+    placed = functools.partial(Kind, target="r.json", verify=of_r, oracle=solids.result, step=step_of_solids)
+    turned = near + ["--tilt", "1", "--shift", "0.5"]
+    yield placed("placement, solids", meshes, [start, turned + ["--gap", "0.05", "--min-allowance", "1"]],
+                 inputs=stl + ["s.json"])
+    about_z = near + ["--freedom", "c-xyz", "--window", "-1", "2", "--shift", "0.5", "--gap", "0.05"]
+    yield placed("placement, solids, c-xyz", meshes, [start, about_z], inputs=stl)
+    moved = [start, near + ["--freedom", "xyz", "--shift", "5", "--gap", "0.003", "--certificate", "c.json"]]
+    yield placed("placement, solids, xyz", meshes, moved, inputs=stl + ["c.json"])
+    yield placed("placement, solids, proof in a file", meshes, moved, target="c.json", oracle=solids.certificate,
+                 report_of="r.json")
+    none = climb[:5] + ["--freedom", "xyz", "--shift", "0.3", "-o", "r.json"]
+    yield placed("placement, solids, none", meshes, [none], inputs=stl)
+    yield placed("placement, solids, climb", meshes, [climb + ["--min-allowance", "2", "-o", "r.json"]], inputs=stl,
+                 base=1, unproved=True)
+    boxes = {"part.obj": box((0, 0, 0), (1, 0.75, 0.5)),
+             "blank.obj": box((-0.0625, -0.0625, -0.03125), (1.125, 0.875, 0.625))}
+    inches = [["locate", "--part", "part.obj", "--blank", "blank.obj", "--units", "inch", "--shift", "1", "--tilt", "1",
+               "--gap", "0.1", "-o", "r.json"]]
+    yield placed("placement, solids, inches", [], inches, written=boxes, inputs=list(boxes))
+    for role, file in (("part", "part.stl"), ("blank", "casting.stl")):
+        yield Kind(f"placement, solids, another {role}", meshes, [start, turned + ["--gap", "0.1"]], file, of_r,
+                   solids.mesh(role), form="stl", report_of="r.json")
+        yield Kind(f"placement, solids, another {role} in inches", [], inches, f"{role}.obj", of_r, solids.mesh(role),
+                   written=boxes, form="text", report_of="r.json")
 
 
 def of_layouts():

@@ -1,191 +1,400 @@
-"""The truth about placements of solids: blocks along the axes, for which a clearance is that of eight corners."""
+"""Decides which changes of a placement of solids, or of its meshes, leave every claim true.
 
+All of it is computed in fractions; of pairs of triangles only those that doubles show to be nearest. What a leaf of
+the certificate proves says tests/support/check_solid_certificate.py, which was written from docs/formats.md alone.
+"""
+
+import collections
+import hashlib
+import itertools
 import json
 import math
 import pathlib
-import re
 import struct
-import subprocess
 import sys
-import tempfile
 from fractions import Fraction as F
 
-import changes
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
+
+import check_solid_certificate as proof
+import exact
 import truth
+from check_solid_certificate import cross, dot, plus, sub, times
 
-SCRIPT = pathlib.Path(__file__).parent.parent / "support" / "check_solid_certificate.py"
-INFORMATION = [r"/(seed|work|version|method|run|warnings)(/.*)?$", r"/inputs/\d+/path$", r"/contacts/\d+/multiplier$"]
-MAY_GO = r"/contacts/\d+$|/certificate/trees/\d+/nodes/\d+/\d+$"
-FACES = ((0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6),
-         (1, 3, 5), (3, 7, 5))
-SLACK = F("4e-15")  # of roundings, as a share
-
-
-# The least steps that claims tell apart: contacts to a millionth of the blank's size, the pose and its window to their
-# roundings (docs/formats.md).
-STEPS = ((r"/contacts/\d+/(part_point|blank_point|distance)", 1e-3),
-         (r"/(window/)?(quaternion/\d|x|y|z|shift|pivot/\d|min_allowance|shortfall|gap)$", 1e-9))
+INFORMATION = [r"/(seed|work|version|method|run|warnings)(/.*)?$", r"/inputs/\d+/path$", r"/certificate_file/path$",
+               r"/contacts/\d+/multiplier$"]
+# Items that each say something for themselves; a term, a ball or a node is missed where it is needed.
+MAY_GO = r"/contacts/\d+$|/certificate/(part_balls|blank_balls|planes)/\d+$|/certificate/trees/\d+/nodes/\d+(/\d+)?$"
+UNITS = {"mm": F(1), "inch": F(254, 10), "m": F(1000)}
+SLACK = F(4, 10 ** 15)  # of numbers of poses that were computed in doubles
 
 
-def least_step(value, way, path):
-    for rule, step in STEPS:
-        if re.match(rule, path):
-            return value + way * step
-    return changes.next_double(value, way, path)
+def bytes_of(text):
+    return text.encode(errors="surrogateescape")
 
 
-def corners(low, high):
-    return [tuple((low, high)[k >> axis & 1][axis] for axis in range(3)) for k in range(8)]
+def triangles_of(text, unit):
+    """The triangles of a binary STL or of an OBJ without faces of more corners, in mm."""
+    data = bytes_of(text)
+    if len(data) >= 84 and len(data) == 84 + 50 * struct.unpack_from("<I", data, 80)[0]:
+        rows = [struct.unpack_from("<9f", data, at + 12) for at in range(84, len(data), 50)]
+        return [[[F(c) * UNITS[unit] for c in row[k:k + 3]] for k in (0, 3, 6)] for row in rows]
+    points, made = [], []
+    for words in (line.split("#")[0].split() for line in text.splitlines()):
+        if words[:1] == ["v"]:
+            if len(words) != 4:
+                raise ValueError("a vertex with more than three numbers")
+            points.append([F(word) * UNITS[unit] for word in words[1:]])
+        elif words[:1] == ["f"]:
+            corners = [int(word) for word in words[1:]]
+            if len(corners) != 3 or not all(1 <= k <= len(points) for k in corners):
+                raise ValueError("a face that is no triangle of vertices before it")
+            made.append([points[k - 1] for k in corners])
+    return made
 
 
-def stl(low, high):
-    """A block along the axes as STL text."""
-    points = corners(low, high)
-    rows = ["facet normal 0 0 0\nouter loop\n" + "".join("vertex {} {} {}\n".format(*points[v]) for v in face) +
-            "endloop\nendfacet\n" for face in FACES]
-    return "solid block\n" + "".join(rows) + "endsolid block\n"
+class Mesh:
+    """A closed surface, and what was found out about balls beside it."""
+
+    def __init__(self, triangles):
+        self.all = triangles
+        self.kept = [t for t in triangles if any(proof.normal(t))]
+        self.known = {}
+        edges = collections.Counter(
+            frozenset((tuple(t[k - 1]), tuple(t[k]))) for t in self.kept for k in range(3))
+        if not self.kept or any(count % 2 for count in edges.values()):
+            raise ValueError("the surface is open")
+
+    def ball_holds(self, ball, wanted):
+        key = (tuple(ball), wanted)
+        if key not in self.known:
+            self.known[key] = proof.ball_holds(ball, self.kept, wanted)
+        return self.known[key]
+
+    def one_of_each_component(self):
+        parent = {}
+
+        def root(p):
+            while parent.setdefault(p, p) != p:
+                p = parent[p]
+            return p
+        for corners in ([tuple(p) for p in t] for t in self.kept):
+            for p in corners[1:]:
+                parent[root(p)] = root(corners[0])
+        return [list(p) for p in {root(p) for p in list(parent)}]
 
 
-def triangles(text):
-    numbers = [tuple(map(F, row)) for row in re.findall(r"vertex (\S+) (\S+) (\S+)", text)]
-    return [numbers[k:k + 3] for k in range(0, len(numbers), 3)]
+# Distances. ----------------------------------------------------------------------------------------------------
+
+def of_segments(a, b, c, d):
+    """The least squared distance of the segments a b and c d; exact of fractions."""
+    u, v, w = sub(b, a), sub(d, c), sub(a, c)
+    uu, uv, vv, uw, vw = dot(u, u), dot(u, v), dot(v, v), dot(u, w), dot(v, w)
+    found = []
+    det = uu * vv - uv * uv
+    if det > 0:
+        s, t = (uv * vw - vv * uw) / det, (uu * vw - uv * uw) / det
+        if 0 <= s <= 1 and 0 <= t <= 1:
+            found.append(plus(w, sub(times(u, s), times(v, t))))
+    # Else the nearest points are at an end of one of them.
+    for p, e, way in ((sub(a, c), v, 1), (sub(b, c), v, 1), (sub(c, a), u, 1), (sub(d, a), u, 1)):
+        square = dot(e, e)
+        t = min(max(dot(p, e) / square, 0), 1) if square else 0
+        found.append(sub(p, times(e, t)))
+    return min(dot(x, x) for x in found)
 
 
-def binary(mesh):
-    return bytes(80) + struct.pack("<I", len(mesh)) + b"".join(
-        struct.pack("<12fH", 0, 0, 0, *(float(c) for p in t for c in p), 0) for t in mesh)
+def pierces(a, b, t, slack):
+    """A segment may pass through a triangle, or come as near to it as a share `slack` of its size."""
+    n = proof.normal(t)
+    room = slack * (1 + dot(n, n))
+    above, below = dot(n, sub(a, t[0])), dot(n, sub(b, t[0]))
+    if above * below > 0 and min(abs(above), abs(below)) > room:
+        return False
+    way = sub(b, a)
+    sides = [dot(cross(sub(t[k - 2], t[k]), way), sub(t[k], a)) for k in range(3)]
+    return max(sides) <= room or min(sides) >= -room
 
 
-def minus(a, b):
-    return [x - y for x, y in zip(a, b)]
+def of_triangles(s, t):
+    corners = [proof.squared_distance(p, t) for p in s] + [proof.squared_distance(p, s) for p in t]
+    return min(corners + [of_segments(s[k - 1], s[k], t[j - 1], t[j]) for k in range(3) for j in range(3)])
 
 
-def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
+def sides_of(t):
+    return ((t[0], t[1]), (t[1], t[2]), (t[2], t[0]))
 
 
-def placed(pose, point):
-    w, x, y, z = (F(c) for c in pose["quaternion"])
-    rows = ((w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)),
-            (2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)),
-            (2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z))
-    size = w * w + x * x + y * y + z * z
-    return [dot(row, point) / size + F(pose[axis]) for row, axis in zip(rows, "xyz")]
+def may_pierce(s, t):
+    return any(pierces(*side, t, 1e-9) for side in sides_of(s)) or any(pierces(*side, s, 1e-9) for side in sides_of(t))
 
 
-def turn_from(start, pose):
-    """The Cayley vector of the rotation from one to the other."""
-    a, b = [F(c) for c in pose["quaternion"]], [F(c) for c in start["quaternion"]]
-    w = dot(a, b)
-    axis = [a[i] * b[0] - b[i] * a[0] - (a[j] * b[k] - a[k] * b[j]) for i, j, k in ((1, 2, 3), (2, 3, 1), (3, 1, 2))]
-    return [c / w for c in axis]
+def boxes(triangles):
+    return [[(min(p[k] for p in t), max(p[k] for p in t)) for k in range(3)] for t in triangles]
 
 
-def in_window(document):
+def least_distance(part, blank):
+    """The least squared distance of two surfaces, or None where they may pass through each other."""
+    near = [[[float(c) for c in p] for p in t] for t in part], [[[float(c) for c in p] for p in t] for t in blank]
+    pairs = []
+    for (i, a), (j, b) in itertools.product(*map(enumerate, map(boxes, near))):
+        apart = sum(max(l - high, low - h, 0.0) ** 2 for (low, high), (l, h) in zip(a, b))
+        pairs.append((apart, i, j))
+    pairs.sort()
+    least, found = math.inf, []
+    for apart, i, j in pairs:
+        if apart > least + 1e-6:
+            break
+        if apart == 0 and may_pierce(near[0][i], near[1][j]):
+            return None
+        distance = of_triangles(near[0][i], near[1][j])
+        least = min(least, distance)
+        found.append((distance, i, j))
+    return min(of_triangles(part[i], blank[j]) for distance, i, j in found if distance <= least + 1e-9)
+
+
+# Poses. --------------------------------------------------------------------------------------------------------
+
+def quaternion(pose):
+    if len(pose["quaternion"]) != 4 or not any(pose["quaternion"]):
+        raise ValueError("no rotation")
+    return pose["quaternion"]
+
+
+def place(pose, p):
+    return plus(proof.turned(quaternion(pose), p), [pose[axis] for axis in "xyz"])
+
+
+def between(before, after):
+    """A quaternion of the turn that comes after one rotation to give another."""
+    return proof.product(after, before[:1] + times(before[1:], -1))
+
+
+def most_turns(document):
+    degrees = document["window"]["turn_deg"]
+    cosine, sine = exact.turn(exact.D(degrees.numerator) / degrees.denominator * exact.PI / 360)
+    most = F(sine / cosine)
+    return {"xyz": [F(0)] * 3, "c-xyz": [F(0), F(0), most], "six": [most] * 3}[document["freedom"]]
+
+
+def pose_is_allowed(document):
     window = document["window"]
-    most = {"xyz": (0, 0, 0), "c-xyz": (0, 0, 1), "six": (1, 1, 1)}[document["freedom"]]
-    degrees, shift = F(window["turn_deg"]), F(window["shift"])
-    if not 0 <= degrees <= 90 or shift < 0:
+    shift = window["shift"]
+    if shift < 0 or not 0 <= window["turn_deg"] <= 90:
         return False
-    tangent = math.tan(math.radians(float(degrees) / 2))
-    pivot = [F(c) for c in window["pivot"]]
-    middle = placed(window, pivot)
-    slack = SLACK * (sum(map(abs, pivot)) + sum(abs(F(document[axis])) for axis in "xyz") + shift)
-    if any(abs(c) > shift + slack for c in minus(placed(document, pivot), middle)) or \
-            any(abs(c) > F(m * tangent) + (SLACK if document["freedom"] != "xyz" else 0)
-                for c, m in zip(turn_from(window, document), most)):
+    slack = F(0) if document["freedom"] == "xyz" else SLACK
+    w, *turn = between(quaternion(window), quaternion(document))
+    if w == 0 or any(abs(x / w) > most + slack for x, most in zip(turn, most_turns(document))):
         return False
-    # The certificate covers all of it.
-    certificate = document["certificate"]
-    tree = certificate["trees"][0]
-    return len(certificate["trees"]) == 1 and certificate["pivot"] == window["pivot"] and \
-        not any(turn_from(window, tree)) and \
-        all(F(tree[a][0]) <= c - shift and F(tree[a][1]) >= c + shift for a, c in zip("xyz", middle)) and \
-        all(F(tree[a][1]) >= m * F(tangent) * (1 + F("1e-15")) and F(tree[a][0]) <= -m * F(tangent) * (1 + F("1e-15"))
-            for a, m in zip(("turn_x", "turn_y", "turn_z"), most))
+    pivot = window["pivot"]
+    size = shift + sum(map(abs, pivot)) + sum(abs(document[axis]) for axis in "xyz")
+    return all(abs(x) <= shift + SLACK * size for x in sub(place(document, pivot), place(window, pivot)))
 
 
-def contact_holds(contact, document, part, blank, size):
-    slack = F("1e-6") * size
-    def off(point, triangle):
-        normal = [dot((u, v), (w, -x)) for u, v, w, x in [
-            (e[(k + 1) % 3], e[(k + 2) % 3], f[(k + 2) % 3], f[(k + 1) % 3])
-            for e, f in [(minus(triangle[1], triangle[0]), minus(triangle[2], triangle[0]))] for k in range(3)]]
-        flat = [k for k in range(3) if normal[k]][0]
-        low = [min(p[k] for p in triangle) for k in range(3)]
-        high = [max(p[k] for p in triangle) for k in range(3)]
-        outside = max(max(l - c, c - h, 0) for l, c, h in zip(low, point, high))
-        # A triangle of a block is half of a rectangle: beyond its long side it is the other half.
-        u, v = [k for k in range(3) if k != flat]
-        signs = []
-        for a, b in zip(triangle, triangle[1:] + triangle[:1]):
-            signs.append((b[u] - a[u]) * (point[v] - a[v]) - (b[v] - a[v]) * (point[u] - a[u]))
-        scale = max(high[u] - low[u], high[v] - low[v])
-        beyond = min(max(-s for s in signs), max(signs)) / scale
-        return max(outside, beyond)
-    one, other = [F(c) for c in contact["part_point"]], [F(c) for c in contact["blank_point"]]
-    apart = minus(placed(document, one), other)
-    return off(one, part[contact["part_triangle"]]) <= slack and off(other, blank[contact["blank_triangle"]]) <= slack and \
-        abs(math.sqrt(dot(apart, apart)) - contact["distance"]) <= slack
-
-
-def named(document):
-    """The inputs, in whatever order."""
-    return {one["role"]: dict(one, path="") for one in document["inputs"]}
-
-
-def derived(document, inside):
-    clearance, bound = document["clearance"], document["upper_bound"]
-    if document["inside"] is not inside or (clearance is None) is inside or document["unknown_area_mm2"] != 0:
+def root_covers(document, tree):
+    window = document["window"]
+    if any(between(quaternion(window), tree["quaternion"])[1:]):
         return False
-    least = F(document["min_allowance"])
-    if (F(bound) < least) != (document["status"] == "infeasible") or document["status"] == "unproved" or \
-            document["status"] == "optimal" and not inside:
+    middle = place(window, window["pivot"]) + [F(0)] * 3
+    for axis, at, most in zip(proof.AXES, middle, [window["shift"]] * 3 + most_turns(document)):
+        low, high = tree[axis]
+        if low > at - most or high < at + most:
+            return False
+    return True
+
+
+# Claims. -------------------------------------------------------------------------------------------------------
+
+class Solids:
+    """What a placement of solids claims. Meshes, clearances and leaves that were looked at before are kept."""
+
+    def __init__(self, files):
+        self.files, self.meshes, self.clearances, self.leaves = files, {}, {}, {}
+
+    def mesh(self, path, unit):
+        key = self.files[path], unit
+        if key not in self.meshes:
+            self.meshes[key] = Mesh(triangles_of(*key))
+        return self.meshes[key]
+
+    def holds(self, document, certificate):
+        """All claims; numbers are fractions."""
+        if document["format"] != {"name": "lekalo-locate", "version": 1} or document["units"] != "mm":
+            return False
+        proof_in = document["certificate_file"]
+        for entry in document["inputs"] + ([proof_in] if proof_in else []):
+            if hashlib.sha256(bytes_of(self.files[entry["path"]])).hexdigest() != entry["sha256"]:
+                return False
+        roles = {entry["role"]: entry for entry in document["inputs"]}
+        if len(roles) != len(document["inputs"]) or not {"part", "blank"} <= roles.keys() <= {"part", "blank", "start"}:
+            return False
+        part, blank = (self.mesh(roles[role]["path"], roles[role]["units"]) for role in ("part", "blank"))
+        if any(roles[role]["triangles"] != len(mesh.all) for role, mesh in (("part", part), ("blank", blank))):
+            return False
+        return (derived(document, certificate) and pose_is_allowed(document) and
+                all(contact_holds(document, contact, part, blank) for contact in document["contacts"]) and
+                self.clearance_holds(document, part, blank) and self.is_proved(document, certificate, part, blank))
+
+    def clearance_holds(self, document, part, blank):
+        there = [[place(document, p) for p in t] for t in part.kept]
+        if not document["inside"]:
+            # A corner outside is enough, and what else there may be is not excused.
+            return any(not proof.inside(p, blank.kept) for t in there[:48] for p in t)
+        key = part, blank, tuple(document["quaternion"]), tuple(document[axis] for axis in "xyz")
+        if key not in self.clearances:
+            least = least_distance(there, blank.kept)
+            lies_in = least and not any(proof.inside(p, there) for p in blank.one_of_each_component()) and all(
+                proof.inside(place(document, p), blank.kept) for p in part.one_of_each_component())
+            self.clearances[key] = least if lies_in else None
+        least = self.clearances[key]
+        return least is not None and document["clearance"] ** 2 <= least
+
+    def is_proved(self, document, certificate, part, blank):
+        if certificate is None:
+            return document["upper_bound"] is None
+        if certificate["pivot"] != document["window"]["pivot"]:
+            return False
+        rows = [row for table in ("part_balls", "blank_balls", "planes") for row in certificate[table]]
+        if any(len(row) != 4 for row in rows) or any(
+                ball[3] < 0 for table in ("part_balls", "blank_balls") for ball in certificate[table]):
+            return False
+        leaves = 0
+        covers = False
+        for tree in certificate["trees"]:
+            covers = covers or root_covers(document, tree)
+            if any(low > high for low, high in (tree[axis] for axis in proof.AXES)):
+                return False
+            cells = [[tree[axis] for axis in proof.AXES]]
+            for node in tree["nodes"]:
+                cell = cells.pop()
+                if isinstance(node[0], str):
+                    k, (_, at) = proof.AXES.index(node[0]), node
+                    if not cell[k][0] <= at <= cell[k][1]:
+                        return False
+                    cells += [cell[:k] + [half] + cell[k + 1:] for half in ([at, cell[k][1]], [cell[k][0], at])]
+                    continue
+                leaves += 1
+                if not self.leaf_holds(node, cell, tree, certificate, document["upper_bound"], part, blank):
+                    return False
+            if cells:
+                return False
+        return covers and (not document["certificate_file"] or document["certificate_file"]["boxes"] == leaves)
+
+    def leaf_holds(self, leaf, cell, tree, certificate, bound, part, blank):
+        first = {"part_face": part.all}
+        second = {"face": blank.all, "plane": certificate["planes"]}
+        used = []
+        for kind, i, j, m in leaf:
+            one, other = first.get(kind, certificate["part_balls"]), second.get(kind, certificate["blank_balls"])
+            if kind not in ("ball", "plane", "face", "part_face") or m < 0 or any(
+                    k != int(k) or not 0 <= k < len(rows) for k, rows in ((i, one), (j, other))):
+                return False
+            used.append((kind, str(one[int(i)]), str(other[int(j)]), m))
+        key = part, blank, str(used), str(cell), str(tree["quaternion"]), str(certificate["pivot"]), bound
+        if key not in self.leaves:
+            self.leaves[key] = any(m > 0 for *_, m in leaf) and proof.wrong_with(
+                leaf, cell, tree["quaternion"], certificate, bound, part.all, blank.all,
+                holds=lambda ball, _, wanted: (part if wanted else blank).ball_holds(ball, wanted)) is None
+        return self.leaves[key]
+
+
+def derived(document, certificate):
+    """The fields that follow from others, and the status."""
+    clearance, bound, least = document["clearance"], document["upper_bound"], document["min_allowance"]
+    gap, shortfall, status = document["gap"], document["shortfall"], document["status"]
+    if document["inside"] != (clearance is not None) or (shortfall is None) != (clearance is None) or \
+            document["unknown_area_mm2"] != 0 or (gap is None) != (clearance is None or bound is None):
         return False
-    if not inside:
-        return document["gap"] is None and document["shortfall"] is None
-    near = lambda value, real: abs(F(value) - real) <= F("1e-15") * (abs(F(bound)) + F(clearance) + least)
-    missing = least - F(clearance)
-    return 0 <= F(clearance) <= F(bound) and near(document["gap"], F(bound) - F(clearance)) and \
-        (near(document["shortfall"], missing) if missing > 0 else document["shortfall"] == 0)
+    if clearance is not None:
+        missing = max(F(0), least - clearance)
+        if clearance < 0 or abs(shortfall - missing) > (F(1, 10 ** 15) * (abs(least) + clearance) if missing else 0):
+            return False
+        if bound is not None and (bound < clearance or
+                                  abs(gap - (bound - clearance)) > F(1, 10 ** 15) * (abs(bound) + clearance)):
+            return False
+    if status in ("stopped", "unproved"):
+        return status == "stopped" or certificate is None
+    return bound is not None and (bound < least) == (status == "infeasible") and \
+        status in ("optimal", "infeasible") and (status == "infeasible" or document["inside"])
 
 
-def proved(document, part, blank):
-    """What the stranger's script says of the certificate."""
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        (folder / "part").write_bytes(binary(part))
-        (folder / "blank").write_bytes(binary(blank))
-        (folder / "result").write_text(json.dumps(document))
-        (folder / "list").write_text(f"{folder}/part {folder}/blank {folder}/result -\n")
-        ran = subprocess.run([sys.executable, "-B", str(SCRIPT), str(folder / "list")], capture_output=True, text=True)
-        return ran.stdout.strip() == "proved"
+def contact_holds(document, contact, part, blank):
+    sizes = [max(p[k] for t in blank.all for p in t) - min(p[k] for t in blank.all for p in t) for k in range(3)]
+    slack = max(F(1), *sizes) / 10 ** 6
+    for role, mesh in (("part", part), ("blank", blank)):
+        number, point = contact[f"{role}_triangle"], contact[f"{role}_point"]
+        if number != int(number) or not 0 <= number < len(mesh.all) or len(point) != 3 or \
+                proof.squared_distance(point, mesh.all[int(number)]) > slack ** 2:
+            return False
+    way = sub(place(document, contact["part_point"]), contact["blank_point"])
+    return abs(proof.root(dot(way, way)) - contact["distance"]) <= slack
 
 
-def oracle(context):
-    before = json.loads(context.text)
-    part, blank = triangles(context.files["part.stl"]), triangles(context.files["casting.stl"])
-    sides = [(min(c), max(c)) for c in zip(*(p for t in blank for p in t))]
-    size = max(high - low for low, high in sides)
+# Oracles. ------------------------------------------------------------------------------------------------------
 
-    def all_true(document):
-        points = [placed(document, p) for t in part for p in t]
-        least = min(min(c - low, high - c) for p in points for c, (low, high) in zip(p, sides))
-        same = all(document[key] == before[key] for key in ("format", "units"))
-        inputs = named(document) == named(before)
-        return same and inputs and derived(document, least > 0) and \
-            (least <= 0 or F(document["clearance"]) <= least) and in_window(document) and \
-            all(contact_holds(c, document, part, blank, size) for c in document["contacts"]) and \
-            proved(document, part, blank)
+def fractions_of(text):
+    return json.loads(text, parse_float=F, parse_int=F)
+
+
+def certificate_of(document, files):
+    if document["certificate_file"] is None:
+        return document["certificate"]
+    return fractions_of(files[document["certificate_file"]["path"]])["certificate"]
+
+
+def decide(claims, document):
+    try:
+        return claims.holds(document, certificate_of(document, claims.files)) or None
+    except (KeyError, TypeError, ValueError, IndexError, ZeroDivisionError, AttributeError):
+        return None
+
+
+def result(context):
+    before, claims = json.loads(context.text), Solids(context.files)
 
     def holds(change):
         if truth.matches(INFORMATION, change.path):
             return "information"
-        after = truth.document_of(change)
-        if after is None or not truth.may_hold(change, before, after, MAY_GO):
+        if change.how == "given twice" or not truth.may_hold(change, before, json.loads(change.text()), MAY_GO):
             return None
-        try:
-            return all_true(after) or None
-        except (KeyError, TypeError, IndexError, ZeroDivisionError):
-            return None
+        return decide(claims, fractions_of(change.text()))
     return holds
+
+
+def of_another_file(context, text):
+    """The files after a change of one, and the result with the digest that it has then."""
+    one, other = (hashlib.sha256(bytes_of(file)).hexdigest() for file in (context.text, text))
+    return dict(context.files, **{context.kind.target: text}), fractions_of(context.files["r.json"].replace(one, other))
+
+
+def certificate(context):
+    before, claims = json.loads(context.text), Solids(context.files)
+
+    def holds(change):
+        after = json.loads(change.text())
+        if change.how == "given twice" or after.get("format") != before["format"] or \
+                not truth.may_hold(change, before, after, MAY_GO):
+            return None
+        claims.files, document = of_another_file(context, change.text())
+        return decide(claims, document)
+    return holds
+
+
+def mesh(role):
+    """Another part or blank, whose digest the result has."""
+    def oracle(context):
+        entry = next(entry for entry in context.json("r.json")["inputs"] if entry["role"] == role)
+        before = triangles_of(context.text, entry["units"])
+
+        def holds(change):
+            text = change.text()
+            try:
+                # Normals, attributes, comments and corners that no triangle has are for nobody.
+                if triangles_of(text, entry["units"]) == before:
+                    return "information"
+            except (ValueError, IndexError, struct.error):
+                return None
+            files, document = of_another_file(context, text)
+            return decide(Solids(files), document)
+        return holds
+    return oracle

@@ -140,16 +140,17 @@ class Walk:
         if ran is None:
             return
         status, words = ran.returncode, ran.stderr.decode(errors="replace")
-        verdict = judge() if status == 0 else None
+        confirmed = status == 0 or self.kind.unproved and status == 1 and "not rechecked" not in words
+        verdict = judge() if confirmed else None
         if verdict == "information":
             self.count["information"] += 1
             return
         self.count["changes"] += 1
         if status in (2, 3, 4):
             self.count["refused"] += 1
-        elif status == 1 and any(word in words for word in ("not rechecked", "unchecked", "not there", "no certificate")):
+        elif status == 1 and not confirmed and any(word in words for word in ("not rechecked", "unchecked", "not there", "no certificate")):
             self.count["weak"] += 1
-        elif status == 0 and verdict:
+        elif confirmed and verdict:
             self.count["excused"] += 1
             self.excused[claim] += 1
         else:

@@ -65,15 +65,15 @@ def largest(forms, cell):
             values.append(c + dot(linear, x) + dot(square, xx) + dot(mixed, [x[k - 2] * x[k - 1] for k in range(3)]))
     return max(values)
 
-def wrong_with(leaf, cell, q, c, beta, part, blank):
+def wrong_with(leaf, cell, q, c, beta, part, blank, holds=ball_holds):
     none, forms, middle = [F(0)] * 3, [], [(lo + hi) / 2 for lo, hi in cell]
     def turn_there(v): return turned([F(1)] + middle[3:], turned(q, v))
     def place_there(v): return plus(turn_there(sub(v, c["pivot"])), middle)
     for kind, i, j, m in ((kind, int(i), int(j), m) for kind, i, j, m in leaf if m > 0):
         a = c["part_balls"][i] if kind != "part_face" else None
         b = c["blank_balls"][j] if kind in ("ball", "part_face") else None
-        if a and not ball_holds(a, part, True): return f"part ball {i}"
-        if b and not ball_holds(b, blank, False): return f"blank ball {j}"
+        if a and not holds(a, part, True): return f"part ball {i}"
+        if b and not holds(b, blank, False): return f"blank ball {j}"
         p = a and turned(q, sub(a[:3], c["pivot"]))
         if a and b:
             w = sub(place_there(a[:3]), b[:3])
@@ -117,4 +117,5 @@ def check(part, blank, result, certificate):
         if open_: return "the tree ends early"
     return "proved"
 
-for line in open(sys.argv[1]): print(check(*line.split()), flush=True)
+if __name__ == "__main__":
+    for line in open(sys.argv[1]): print(check(*line.split()), flush=True)
