@@ -25,8 +25,8 @@ TEST(SolidScan, EveryPlacementIsConfirmedAndHoldsInTheTrueBlank) {
     const Bitten blank = cases::bitten(random);
     SolidScanOptions scan;
     scan.uncertainty = random.uniform(0.001, 0.04), scan.min_radius = blank.radius;
-    solid::Mesh part = cases::scanned(blank, 8, 0, random);
-    for (Vector& p : part.vertices) p = 0.9 * p;
+    solid::Mesh part = cases::scanned(blank, 20, 0, random);
+    for (Vector& p : part.vertices) p = 0.88 * p;
     const solid::Mesh mesh =
         cases::scanned(blank, static_cast<std::uint32_t>(200 / blank.radius), 1.9 * scan.uncertainty, random);
     // Binary numbers of either length, and decimals.
@@ -50,7 +50,7 @@ TEST(SolidScan, EveryPlacementIsConfirmedAndHoldsInTheTrueBlank) {
       EXPECT_GE(blank.depth(motion(p)), *d.clearance - 1e-5);
     }
   }
-  EXPECT_GT(placed, 0U);
+  EXPECT_GE(3 * placed, cases::case_count(4)) << "few parts were placed, so little was tested";
 }
 
 }  // namespace
