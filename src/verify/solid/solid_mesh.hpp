@@ -22,7 +22,8 @@ struct SolidMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   /// The number of each triangle in the file, from 0 and ascending; closed() may leave some out.
   std::vector<std::uint32_t> numbers;
-  /// Material may begin so far inside each triangle, enclosed (scan_widths.hpp); empty for a mesh taken as drawn.
+  /// Material may begin so far inside each triangle, enclosed (scan_widths.hpp); empty for a mesh taken as
+  /// drawn.
   std::vector<Span> widths;
 
   /// Returns the triangle that has this number in the file; nothing where it is left out, or none.
