@@ -24,7 +24,7 @@ from check_solid_certificate import cross, dot, plus, sub, times
 INFORMATION = [r"/(seed|work|version|method|run|warnings)(/.*)?$", r"/inputs/\d+/path$", r"/certificate_file/path$",
                r"/contacts/\d+/multiplier$"]
 # Items that each say something for themselves; a term, a ball or a node is missed where it is needed.
-MAY_GO = r"/contacts/\d+$|/certificate/(part_balls|blank_balls|planes)/\d+$|/certificate/trees/\d+/nodes/\d+(/\d+)?$"
+MAY_GO = r"/(contacts|inputs)/\d+$|/certificate/(part_balls|blank_balls|planes)/\d+$|/certificate/trees/\d+/nodes/\d+(/\d+)?$"
 UNITS = {"mm": F(1), "inch": F(254, 10), "m": F(1000)}
 SLACK = F(4, 10 ** 15)  # of numbers of poses that were computed in doubles
 

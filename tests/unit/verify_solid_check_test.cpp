@@ -1,5 +1,6 @@
 // What the checker says of results for solids without a certificate, field by field.
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -181,6 +182,27 @@ TEST(SolidCheck, FilesHaveTheirUnitAndTheirTriangles) {
   for (const int file : {0, 1}) files.result["inputs"][file]["units"] = "inch";
   files.result["clearance"] = 6.35;
   EXPECT_EQ(files.told(), "unproved");
+}
+
+TEST(SolidCheck, AFileHasARoleAndAStartSaysNothingElse) {
+  const auto with_input = [](Json input) {
+    SolidResultFiles files = cube_in_cube();
+    files.result["inputs"].push_back(std::move(input));
+    return files.told();
+  };
+  const Json start({{"role", "start"}, {"path", "s.json"}, {"sha256", ""}});
+  EXPECT_EQ(with_input(start), "unproved");
+  Json other = start;
+  other["role"] = "stop";
+  EXPECT_EQ(with_input(other),
+            "bad input: result.json: field inputs[2].role is \"stop\", not \"part\", \"blank\", \"start\"");
+  for (const char* key : {"units", "triangles"}) {
+    other = start;
+    other[key] = 12;
+    EXPECT_EQ(
+        with_input(other),
+        fmt::format("bad input: result.json: field inputs[2].{} is said of a start, which is no solid", key));
+  }
 }
 
 TEST(SolidCheck, WhatItDoesNotReadIsIncomplete) {

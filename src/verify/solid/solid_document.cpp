@@ -14,6 +14,7 @@ namespace lekalo::verify {
 namespace {
 
 constexpr std::array<std::string_view, 4> kStatuses{"optimal", "stopped", "infeasible", "unproved"};
+constexpr std::array<std::string_view, 3> kRoles{"part", "blank", "start"};
 /// In the order of SolidUnit and of SolidFreedom.
 constexpr std::array<std::string_view, 3> kUnits{"mm", "inch", "m"}, kFreedoms{"xyz", "c-xyz", "six"};
 
@@ -98,8 +99,13 @@ class Reader {
     std::size_t parts = 0, blanks = 0;
     fields_.each("inputs", [&](Json item, const std::string& path) {
       Fields input(item, path, complaint_);
-      const std::string role = input.text("role");
-      if (role != "part" && role != "blank") return;
+      const std::string_view role = kRoles[word_of(input, "role", kRoles)];
+      if (role == "start") {
+        for (const std::string_view key : {"units", "triangles"})
+          if (!input.get(key).text.empty())
+            input.complain(fmt::format("field {} is said of a start, which is no solid", input.name(key)));
+        return;
+      }
       ++(role == "part" ? parts : blanks);
       WrittenSolid& solid = role == "part" ? d_.part : d_.blank;
       solid.unit = static_cast<SolidUnit>(word_of(input, "units", kUnits));
