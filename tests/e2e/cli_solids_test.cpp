@@ -86,7 +86,9 @@ TEST_F(Solids, APartThatDoesNotFitIsToldWithWhatToTry) {
   EXPECT_NE(read_bytes(folder_ / "r.svg").find("<svg"), std::string::npos);
   for (const char* words : {"inside the blank", "the part is not inside the blank", "--shift"})
     EXPECT_NE(ran.err.find(words), std::string::npos) << ran.err;
-  EXPECT_EQ(verify("r.json").status, 0);
+  const Ran verified = verify("r.json");
+  EXPECT_EQ(verified.status, 0);
+  EXPECT_NE(verified.err.find("not inside there, and the bound holds"), std::string::npos) << verified.err;
 }
 
 TEST_F(Solids, ADemandThatNoPoseMeetsIsProvedImpossible) {

@@ -89,16 +89,23 @@ int exit_status_of(verify::Verdict verdict) {
   return 4;
 }
 
-const char* sentence_of(verify::Verdict verdict) {
+/// A solid that is not inside has no clearance.
+const char* sentence_of(verify::Verdict verdict, bool has_clearance) {
   switch (verdict) {
     case verify::Verdict::confirmed:
-      return "Confirmed: the clearance and the bound hold.\n";
+      return has_clearance ? "Confirmed: the clearance and the bound hold.\n"
+                           : "Confirmed: the part is not inside there, and the bound holds.\n";
     case verify::Verdict::incomplete:
-      return "Incomplete: the clearance and the bound hold, but not everything was rechecked.\n";
+      return has_clearance
+                 ? "Incomplete: the clearance and the bound hold, but not everything was rechecked.\n"
+                 : "Incomplete: the part is not inside there, and the bound holds, but not everything was "
+                   "rechecked.\n";
     case verify::Verdict::stated_regions:
       return "Confirmed for the stated regions: how a file became its region was not rechecked.\n";
     case verify::Verdict::unproved:
-      return "Unproved: the clearance holds, but there is no certificate for a bound.\n";
+      return has_clearance
+                 ? "Unproved: the clearance holds, but there is no certificate for a bound.\n"
+                 : "Unproved: the part is not inside there, and there is no certificate for a bound.\n";
     case verify::Verdict::refuted:
       return "Refuted: something in this result is not true.\n";
   }
@@ -106,7 +113,7 @@ const char* sentence_of(verify::Verdict verdict) {
 }
 
 std::string words(const verify::LocateReport& report) {
-  std::string text = sentence_of(report.verdict);
+  std::string text = sentence_of(report.verdict, !report.clearance_low.empty());
   for (const std::string& finding : report.findings) text += "  not true           " + finding + "\n";
   if (!report.clearance_low.empty())
     text += fmt::format("  exact allowance    between {} and {} mm\n", report.clearance_low,
