@@ -149,13 +149,13 @@ def of_text(text, skip=lambda line: False, decimals=None):
 
 
 def of_stl(text):
-    """All changes of a binary STL."""
+    """All changes of a binary STL but for those that change no shape: its head, normals, attributes, order and turns."""
     data = text.encode(errors="surrogateescape")
     head, rows = data[:80], [struct.unpack_from("<12fH", data, at) for at in range(84, len(data), 50)]
 
-    def packed(changed, count=None, before=head):
+    def packed(changed, count=None):
         body = b"".join(struct.pack("<12fH", *row) for row in changed)
-        return (before + struct.pack("<I", len(changed) if count is None else count) + body).decode(
+        return (head + struct.pack("<I", len(changed) if count is None else count) + body).decode(
             errors="surrogateescape")
 
     def put(k, *others):
@@ -165,23 +165,18 @@ def of_stl(text):
         return lambda: packed([row[:3] + sum((other if row[at:at + 3] == corner else row[at:at + 3]
                                               for at in (3, 6, 9)), ()) + row[12:] for row in rows])
 
-    yield Change("head", "text", lambda: packed(rows, before=b"x" * 80), head)
     for step in (1, -1):
         yield Change("count", f"{step:+}", lambda step=step: packed(rows, len(rows) + step), len(rows))
     for k, row in enumerate(rows):
         path = f"triangle {k}"
         yield Change(path, "deleted", put(k), row)
         yield Change(path, "twice", put(k, row, row), row)
-        yield Change(path, "turned round", put(k, row[:3] + row[9:12] + row[6:9] + row[3:6] + row[12:]), row)
-        yield Change(path, "normal", put(k, (1.0,) + row[1:]), row)
-        yield Change(path, "attribute", put(k, row[:12] + (1,)), row)
         yield Change(path, "corner", put(k, row[:3] + (row[3] + 0.5,) + row[4:]), row)
-    for k in range(len(rows) - 1):
-        yield Change(f"triangle {k}", "exchanged",
-                     lambda k=k: packed(rows[:k] + [rows[k + 1], rows[k]] + rows[k + 2:]), rows[k])
     for k, corner in enumerate(sorted({row[at:at + 3] for row in rows for at in (3, 6, 9)})):
         for axis in range(3):
-            for how, value in of_number(corner[axis], next_single):
+            # By less than the stock a corner may often move.
+            for how, value in (("last place up", next_single(corner[axis], 1)), ("far more", corner[axis] + 64),
+                               ("far less", corner[axis] - 64)):
                 other = corner[:axis] + (value,) + corner[axis + 1:]
                 yield Change(f"corner {k}/{axis}", how, move(corner, other), corner)
 
