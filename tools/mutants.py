@@ -31,7 +31,7 @@ import time
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 SOURCES = os.path.join(ROOT, "src", "verify")
 EXPLAINED = os.path.join(ROOT, "tests", "mutation", "explained.txt")
-LATER = ("solid/",)  # copied without a mutant, because no command reaches it yet
+LATER = ("solid/",)  # copied without a mutant, because its survivors have no tests yet
 CONSTANTS = 1000  # drawn of all, by SEED
 SEED = 1
 BLOCK = 64  # a file's mutants begin at a multiple, so that a change of one file leaves the numbers of most others
