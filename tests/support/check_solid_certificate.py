@@ -18,7 +18,6 @@ def stl(path):
     data = open(path, "rb").read()
     rows = [struct.unpack_from("<12f", data, at)[3:] for at in range(84, len(data), 50)]
     return [[[F(x) for x in row[k:k + 3]] for k in (0, 3, 6)] for row in rows]
-
 def product(a, b):  # of quaternions
     return [a[0] * b[0] - dot(a[1:], b[1:])] + plus(plus(times(b[1:], a[0]), times(a[1:], b[0])), cross(a[1:], b[1:]))
 def turned(q, p): return times(product(product(q, [0] + p), q[:1] + times(q[1:], -1))[1:], 1 / dot(q, q))
