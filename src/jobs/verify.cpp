@@ -37,6 +37,7 @@ class Evidence {
     verify::LocateInputs inputs{document(result_), document(*input("part")), document(*input("blank")), {}};
     if (certificate_) inputs.certificate = document(*certificate_);
     for (const auto& [role, to] : {std::pair{"features", &inputs.features},
+                                   {"points", &inputs.points},
                                    {"nc", &inputs.program},
                                    {"allow", &inputs.allow},
                                    {"last-result", &inputs.earlier}})

@@ -37,7 +37,7 @@ Result<jobs::LocateJob> read_files(const LocateOptions& o, jobs::File part, jobs
 Result<jobs::SolidLocateJob> read_solids(const LocateOptions& o, jobs::File part, jobs::File blank) {
   jobs::SolidLocateJob job{std::move(part), std::move(blank), {}, o.solid, {}, o.warnings};
   LEKALO_CHECK(read_if_named(o.start, job.start));
-  job.outputs.certificate = o.outputs.certificate;
+  job.outputs.certificate = o.outputs.certificate, job.outputs.mesh = o.mesh;
   job.outputs.allowances = o.outputs.allowances;
   job.outputs.report = o.outputs.report;
   if (!o.picture.empty())
@@ -103,11 +103,12 @@ Result<int> locate_solid(const LocateOptions& o, jobs::File part, jobs::File bla
   LEKALO_TRY(const jobs::SolidLocateJob job, read_solids(o, std::move(part), std::move(blank)));
   LEKALO_TRY(const jobs::LocatedSolid made, searched(job, o, jobs::locate_solid));
   const ToTheEnd to_the_end;
-  const std::vector<Output> documents{{&o.output, &made.result},
-                                      {&o.outputs.certificate, &made.certificate},
-                                      {&o.picture, &made.picture},
-                                      {&o.report, &made.report},
-                                      {&o.allowances, &made.allowances}};
+  std::vector<Output> documents{{&o.output, &made.result},
+                                {&o.outputs.certificate, &made.certificate},
+                                {&o.picture, &made.picture},
+                                {&o.report, &made.report},
+                                {&o.allowances, &made.allowances}};
+  if (!made.mesh.empty()) documents.push_back({&o.mesh, &made.mesh});
   LEKALO_TRY(const std::vector<std::string> written, write_all(o, made.result, documents));
   tell(solid_summary(made.document, written));
   return made.holds() ? 0 : 1;
@@ -123,6 +124,7 @@ Result<int> run_locate(const LocateOptions& o) {
                               {"--allowances", o.allowances},
                               {"--drawing", o.drawing},
                               {"--deviations", o.outputs.deviations},
+                              {"--mesh", o.mesh},
                               {"--nc-out", o.outputs.program}},
                              {{"--part", o.part},
                               {"--blank", o.blank},

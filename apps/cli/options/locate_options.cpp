@@ -53,7 +53,7 @@ struct LocateWords {
       output, certificate, picture, report, allowances, drawing, deviations, compare, mirror, lock_x, lock_y,
       features, criterion, give_up, trade_off, join, curve, repair, underside, flat, uncertainty, coverage,
       min_radius, max_dip, step, drop_outliers, simplify, slice_height, slice_thickness, freedom, tilt, shift,
-      start;
+      start, mesh, mesh_step;
   std::vector<std::string> part_layers, blank_layers;
   std::vector<std::string> window;
   bool json = false, strict = false;
@@ -154,11 +154,21 @@ void read_solid_scan(const LocateWords& words, const locate::ScanOptions& m, boo
     read.number("--underside", words.underside.substr(2), -kLargestLength, kLargestLength,
                 "z= and a level in mm up to 1e9", side.z);
   read.number("--flat", words.flat, kSmallestLength, kLargestLength, "a length in mm above 0", side.flat);
+  o.mesh = words.mesh;
+  read.require(o.mesh.empty() || o.mesh.ends_with(".ply"),
+               fmt::format("--mesh: the name \"{}\" does not end in .ply", o.mesh));
+  read.require(o.mesh.empty() || given, "--mesh is for a scan, which --uncertainty MM says that the blank is");
+  std::optional<double> step;
+  if (!words.mesh_step.empty())
+    read.number("--mesh-step", words.mesh_step, kSmallestLength, kLargestLength, "a length in mm above 0",
+                step.emplace());
+  read.require(!step || !o.mesh.empty(), "--mesh-step needs --mesh FILE.ply, the mesh of the points");
   if (!given) return;
   jobs::SolidScanOptions& scan = o.solid.scan.emplace();
   scan.uncertainty = m.uncertainty, scan.coverage_factor = m.coverage_factor;
   scan.min_radius = m.min_radius, scan.max_dip = m.max_dip;
   if (!level.empty()) scan.underside = side;
+  scan.drop_outliers = m.drop_outliers, scan.step = step;
 }
 
 void read_shapes(const LocateWords& words, WordReader& read, LocateOptions& o) {
@@ -277,13 +287,13 @@ void check_method(const LocateWords& words, WordReader& read, LocateOptions& o) 
 }
 
 /// The options that solids have, too, and those that they alone have; all others are for outlines.
-constexpr std::array<std::string_view, 19> kOfBoth{
+constexpr std::array<std::string_view, 20> kOfBoth{
     "--part",        "--blank",    "--units",       "--window",     "--gap",
     "--method",      "--work",     "--time",        "--json",       "--output",
     "--picture",     "--report",   "--certificate", "--allowances", "--min-allowance",
-    "--uncertainty", "--coverage", "--min-radius",  "--max-dip"};
-constexpr std::array<std::string_view, 6> kOfSolids{"--freedom", "--tilt",      "--shift",
-                                                    "--start",   "--underside", "--flat"};
+    "--uncertainty", "--coverage", "--min-radius",  "--max-dip",    "--drop-outliers"};
+constexpr std::array<std::string_view, 8> kOfSolids{"--freedom",   "--tilt", "--shift", "--start",
+                                                    "--underside", "--flat", "--mesh",  "--mesh-step"};
 
 bool is_typed(const FormOption& option) {
   if (const auto* const flag = std::get_if<bool*>(&option.to)) return **flag;
@@ -425,6 +435,9 @@ void add_scan_options(Form& form, LocateWords& w) {
       "Neighbours further apart leave the blank unknown between them [3 median spacings]");
   add("--drop-outliers", w.drop_outliers, "MM", "Leave out and list points with no other this near [none]");
   add("--simplify", w.simplify, "MM", "The outline may be drawn this much further in than it must [0.02]");
+  add("--mesh", w.mesh, "FILE.ply",
+      "Points in space, or a mesh with holes, become this closed mesh, which is then the blank");
+  add("--mesh-step", w.mesh_step, "MM", "About the length of its edges [as the points allow, 300,000 triangles]");
   add("--underside", w.underside, "z=MM",
       "Solids: the side that no scanner sees lies at this level, is solid and flat to --flat");
   add("--flat", w.flat, "MM", "Each point of the underside lies within this of material");

@@ -20,13 +20,17 @@ enum class SolidMethod { certified, climb };
 /// Returns the method's name as it stands in results.
 [[nodiscard]] const char* name_of(SolidMethod method) noexcept;
 
-/// The statements about a blank that is a scanner's mesh.
+/// The statements about a blank that is a scanner's mesh, or points.
 struct SolidScanOptions {
   double uncertainty = 0;            ///< standard uncertainty of one point, mm, >= 0
   double coverage_factor = 2;        ///< the surface lies within so many of them of each point
   std::optional<double> min_radius;  ///< see locate::SolidScan, mm; one of the two has to be given
   std::optional<double> max_dip;
   std::optional<locate::SolidUnderside> underside;
+  /// Points without another one this near are left out, mm, > 0.
+  std::optional<double> drop_outliers;
+  /// About the length of the edges between points, mm, > 0; without it as solid::PointSurfaceOptions says.
+  std::optional<double> step;
 };
 
 /// The way a solid is to be placed.
@@ -58,6 +62,8 @@ enum class SolidPictureForm { png, html };
 struct SolidLocateOutputs {
   /// The name of a certificate file. When it is empty, the proof stands in the result, if it is not too long.
   std::string certificate;
+  /// The name of the file for the mesh of a blank that is points, or whose mesh does not close.
+  std::string mesh;
   /// The allowance at every corner of the part as CSV.
   bool allowances = false;
   std::optional<SolidPictureForm> picture;
@@ -80,7 +86,7 @@ struct LocatedSolid {
   io::SolidDocument document;
   /// The bytes of `document`, which are what was checked.
   std::string result;
-  std::string certificate, allowances, picture, report;
+  std::string certificate, mesh, allowances, picture, report;
 
   /// True if the answer is yes: the part lies in the blank and has the allowance, and all of the blank is
   /// known.
@@ -91,18 +97,20 @@ struct LocatedSolid {
 
 /// Says which job a part and a blank are for: true if both are solids, for locate_solid, and false if neither
 /// is, for locate. A PLY or points beside an outline are a scan in the plane. bad_input for one of each, and
-/// for points where a solid has to be.
+/// for a part that is points.
 [[nodiscard]] Result<bool> are_solids(const File& part, const File& blank);
 
 /// Places a solid in a blank, both closed meshes; the part is taken as drawn, and so is a blank that is no
-/// scan. Before anything is handed out the very bytes
-/// of the result are put before the checker of verify/verify.hpp, as in locate().
+/// scan. Points of a scan, or one whose mesh does not close, are meshed first, if the mesh has a name: it is
+/// then the blank of the result. Before anything is handed out the very bytes of the result are put before the
+/// checker of verify/verify.hpp, as in locate().
 ///
 /// Deterministic: only SolidDocument::seconds and ::threads are not functions of the job. `run` is for the
 /// search: its unit of work is a box bounded, a program solved or a pose measured.
 ///
-/// Errors: bad_input as of io::parse_solid and solid::closed_mesh, for points, and for a start that is no
-/// result for solids; usage as of locate::locate_solid and locate::guaranteed_solid; environment where a
+/// Errors: bad_input as of io::parse_solid, solid::closed_mesh and solid::surface_through, for points that
+/// nobody says how to mesh or that contradict what is said of them, and for a start that is no result for
+/// solids; usage as of locate::locate_solid and locate::guaranteed_solid; environment where a
 /// drawing library fails; refuted where the checker does not confirm the result, which is a mistake of ours.
 [[nodiscard]] Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& run = {},
                                                 const Stopwatch& stopwatch = {});

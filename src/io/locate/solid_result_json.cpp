@@ -19,7 +19,11 @@ void write(JsonWriter& json, solid::Vector p) { json.list({p.x, p.y, p.z}); }
 void write(JsonWriter& json, const SolidInputRecord& input) {
   json.begin_object().fields(
       {{"role", input.role}, {"path", input.file.path}, {"sha256", input.file.sha256}});
-  if (input.unit) json.fields({{"units", name_of(*input.unit)}, {"triangles", input.triangles}});
+  if (input.unit) json.field("units", name_of(*input.unit));
+  if (input.role == "points")
+    json.field("points", input.points);
+  else if (input.unit)
+    json.field("triangles", input.triangles);
   json.end();
 }
 
@@ -51,6 +55,7 @@ void write(JsonWriter& json, const SolidScanRecord& scan) {
     json.value(nullptr);
   json.fields(
       {{"widest", scan.widest}, {"unknown_triangles", scan.unknown_triangles}, {"proved", scan.proved()}});
+  json.key("left_out").list(scan.left_out);
   json.key("assumptions").list(scan.assumptions);
   json.end();
 }

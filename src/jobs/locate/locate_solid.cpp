@@ -20,16 +20,26 @@ namespace {
 
 using solid::Vector;
 
+/// The file that counts as the blank.
+const File& blank_of(const SolidLocateJob& job, const SolidInputs& in) {
+  return in.meshed ? in.meshed->mesh : job.blank;
+}
+
 io::SolidInputRecord record_of(const char* role, const File& file) {
   return {role, {file.name, io::sha256(file.bytes)}, std::nullopt, 0};
 }
 
 std::vector<io::SolidInputRecord> input_records(const SolidLocateJob& job, const SolidInputs& in) {
   std::vector<io::SolidInputRecord> records;
-  for (const auto& [role, file, read] :
-       {std::tuple{"part", &job.part, &in.part}, {"blank", &job.blank, &in.blank}}) {
+  const File& blank = blank_of(job, in);
+  for (const auto& [role, file, read] : {std::tuple{"part", &job.part, &in.part}, {"blank", &blank, &in.blank}}) {
     io::SolidInputRecord record = record_of(role, *file);
     record.unit = read->unit, record.triangles = read->triangles;
+    records.push_back(std::move(record));
+  }
+  if (in.meshed) {
+    io::SolidInputRecord record = record_of("points", job.blank);
+    record.unit = in.meshed->unit, record.points = in.meshed->points;
     records.push_back(std::move(record));
   }
   if (job.start) records.push_back(record_of("start", *job.start));
@@ -123,9 +133,11 @@ void place_proof(const SolidLocateJob& job, LocatedSolid& made) {
 
 /// Puts the bytes about to be handed out before the independent checker, with the proof also where that is
 /// too long to be kept.
-Result<verify::LocateReport> rechecked(const SolidLocateJob& job, const LocatedSolid& made) {
-  verify::LocateInputs inputs{
-      {"result", made.result}, {job.part.name, job.part.bytes}, {job.blank.name, job.blank.bytes}, {}};
+Result<verify::LocateReport> rechecked(const SolidLocateJob& job, const SolidInputs& in,
+                                       const LocatedSolid& made) {
+  const File& blank = blank_of(job, in);
+  verify::LocateInputs inputs{{"result", made.result}, {job.part.name, job.part.bytes}, {blank.name, blank.bytes}, {}};
+  if (in.meshed) inputs.points = {job.blank.name, job.blank.bytes};
   std::string with_proof;
   if (!made.certificate.empty()) inputs.certificate = {"certificate", made.certificate};
   if (inputs.certificate && !made.document.certificate_file) {
@@ -138,14 +150,14 @@ Result<verify::LocateReport> rechecked(const SolidLocateJob& job, const LocatedS
 }
 
 /// The result says, too, what the checker leaves open, as where it does not read the form of a file.
-Result<void> self_check(const SolidLocateJob& job, LocatedSolid& made) {
+Result<void> self_check(const SolidLocateJob& job, const SolidInputs& in, LocatedSolid& made) {
   made.result = io::result_json(made.document);
-  Result<verify::LocateReport> report = rechecked(job, made);
+  Result<verify::LocateReport> report = rechecked(job, in, made);
   if (report && report->verdict == verify::Verdict::incomplete) {
     std::vector<std::string>& warnings = made.document.warnings;
     warnings.insert(warnings.end(), report->notes.begin(), report->notes.end());
     made.result = io::result_json(made.document);
-    report = rechecked(job, made);
+    report = rechecked(job, in, made);
   }
   return held_against(report,
                       made.document.upper_bound ? verify::Verdict::confirmed : verify::Verdict::unproved);
@@ -207,7 +219,8 @@ Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& r
   made.document.seconds = seconds;
   place_proof(job, made);
   LEKALO_CHECK(add_pictures(job, in, made));
-  LEKALO_CHECK(self_check(job, made));
+  LEKALO_CHECK(self_check(job, in, made));
+  if (in.meshed) made.mesh = std::move(in.meshed->mesh.bytes);
   return made;
 }
 

@@ -10,6 +10,7 @@
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/limits.hpp"
 #include "lekalo/geom/trig.hpp"
+#include "point_blank.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -27,12 +28,10 @@ FileKind kind_of(const File& file) {
   return format == &io::kPointsFormat ? FileKind::points : FileKind::outline;
 }
 
-tl::unexpected<Error> refuse_points(const std::string& name) {
-  return failure(
-      ErrorCode::bad_input,
-      fmt::format("{}: points are not a closed surface, so nothing says where the material is; mesh "
-                  "them in the program that they come from, and export STL, PLY or OBJ",
-                  name));
+tl::unexpected<Error> refuse_points(const std::string& name, const char* way_out) {
+  return failure(ErrorCode::bad_input,
+                 fmt::format("{}: points are not a closed surface, so nothing says where the material is; {}", name,
+                             way_out));
 }
 
 tl::unexpected<Error> refuse_pair(const std::string& solid, const std::string& outline) {
@@ -42,11 +41,9 @@ tl::unexpected<Error> refuse_pair(const std::string& solid, const std::string& o
                              solid, outline));
 }
 
-Result<void> read_solid(const File& file, const io::SolidOptions& how, solid::Mesh& mesh, double& error,
-                        ReadSolid& read, std::vector<std::string>& notices) {
-  LEKALO_TRY(io::SolidFile parsed, io::parse_solid(file.bytes, file.name, how));
-  if (parsed.mesh.triangles.empty() && !parsed.mesh.vertices.empty()) return refuse_points(file.name);
-  notices.insert(notices.end(), parsed.notices.begin(), parsed.notices.end());
+/// Closes the mesh of a file that was read.
+Result<void> close_solid(const File& file, io::SolidFile parsed, solid::Mesh& mesh, double& error,
+                         ReadSolid& read, std::vector<std::string>& notices) {
   error = parsed.coordinate_error, read.unit = parsed.unit;
   read.triangles = parsed.mesh.triangles.size();
   Result<solid::ClosedMesh> closed = solid::closed_mesh(std::move(parsed.mesh));
@@ -54,6 +51,44 @@ Result<void> read_solid(const File& file, const io::SolidOptions& how, solid::Me
   for (const std::string& notice : closed->notices) notices.push_back(file.name + ": " + notice);
   mesh = std::move(closed->mesh);
   read.numbers = std::move(closed->numbers);
+  return {};
+}
+
+Result<void> read_part(const SolidLocateJob& job, SolidInputs& in) {
+  LEKALO_TRY(io::SolidFile parsed, io::parse_solid(job.part.bytes, job.part.name, {job.options.units}));
+  if (parsed.mesh.triangles.empty() && !parsed.mesh.vertices.empty())
+    return refuse_points(job.part.name, "export the part as STL, PLY or OBJ with triangles");
+  in.notices.insert(in.notices.end(), parsed.notices.begin(), parsed.notices.end());
+  return close_solid(job.part, std::move(parsed), in.problem.part, in.problem.part_coordinate_error, in.part,
+                     in.notices);
+}
+
+/// A blank of points is meshed first; so is one whose mesh does not close, from its corners, if that has a name.
+Result<void> read_blank(const SolidLocateJob& job, SolidInputs& in) {
+  LEKALO_TRY(io::SolidFile parsed, io::parse_solid(job.blank.bytes, job.blank.name, {job.options.units}));
+  in.notices.insert(in.notices.end(), parsed.notices.begin(), parsed.notices.end());
+  const bool points = parsed.mesh.triangles.empty() && !parsed.mesh.vertices.empty();
+  if (!points) {
+    io::SolidFile kept = job.outputs.mesh.empty() ? io::SolidFile{} : parsed;
+    Result<void> closed = close_solid(job.blank, std::move(parsed), in.problem.blank,
+                                      in.problem.blank_coordinate_error, in.blank, in.notices);
+    if (closed) {
+      if (!job.outputs.mesh.empty())
+        in.notices.push_back(fmt::format("{} closes as it is, so {} is not written", job.blank.name, job.outputs.mesh));
+      return {};
+    }
+    if (job.outputs.mesh.empty()) return closed;
+    in.notices.push_back(fmt::format("{}; it is meshed anew from its corners", closed.error().message));
+    parsed = std::move(kept);
+  }
+  LEKALO_CHECK(mesh_points(job, parsed, in));
+  LEKALO_TRY(io::SolidFile meshed, io::parse_solid(in.meshed->mesh.bytes, in.meshed->mesh.name,
+                                                   {io::SolidUnit::millimetre}));
+  // What its surface is like where points lie close is nobody's to mend.
+  std::vector<std::string> unsaid;
+  LEKALO_CHECK(close_solid(in.meshed->mesh, std::move(meshed), in.problem.blank, in.problem.blank_coordinate_error,
+                           in.blank, unsaid));
+  in.problem.blank_coordinate_error = parsed.coordinate_error;
   return {};
 }
 
@@ -122,9 +157,9 @@ Result<void> read_scan(const SolidScanOptions& how, SolidInputs& in) {
   scan.guard = how.coverage_factor * how.uncertainty + kDiagonal * scan.coordinate_error;
   scan.min_radius = how.min_radius, scan.max_dip = how.max_dip, scan.underside = how.underside;
   LEKALO_TRY(locate::GuaranteedSolid made, locate::guaranteed_solid(p.blank, scan));
-  in.scan =
-      io::SolidScanRecord{scan.guard,  scan.min_radius,     scan.max_dip,      scan.underside,
-                          made.widest, made.unknown.size(), made.unknown_area, std::move(made.assumptions)};
+  in.scan = io::SolidScanRecord{scan.guard,  scan.min_radius,     scan.max_dip,      scan.underside,
+                                made.widest, made.unknown.size(), made.unknown_area, std::move(in.left_out),
+                                std::move(made.assumptions)};
   p.blank_widths = std::move(made.widths);
   p.blank_width_error = made.width_error;
   return {};
@@ -135,8 +170,8 @@ Result<void> read_scan(const SolidScanOptions& how, SolidInputs& in) {
 Result<bool> are_solids(const File& part, const File& blank) {
   const FileKind of_part = kind_of(part), of_blank = kind_of(blank);
   if (of_part != FileKind::solid && of_blank != FileKind::solid && of_part != FileKind::scan) return false;
-  if (of_part == FileKind::points) return refuse_points(part.name);
-  if (of_blank == FileKind::points) return refuse_points(blank.name);
+  if (of_part == FileKind::points)
+    return refuse_points(part.name, "export the part as STL, PLY or OBJ with triangles");
   if (of_part == FileKind::outline) return refuse_pair(blank.name, part.name);
   if (of_blank == FileKind::outline) return refuse_pair(part.name, blank.name);
   return true;
@@ -144,12 +179,11 @@ Result<bool> are_solids(const File& part, const File& blank) {
 
 Result<SolidInputs> read_inputs(const SolidLocateJob& job) {
   SolidInputs in;
-  const io::SolidOptions how{job.options.units};
-  locate::SolidProblem& p = in.problem;
-  LEKALO_CHECK(read_solid(job.part, how, p.part, p.part_coordinate_error, in.part, in.notices));
-  LEKALO_CHECK(read_solid(job.blank, how, p.blank, p.blank_coordinate_error, in.blank, in.notices));
+  LEKALO_CHECK(read_part(job, in));
+  LEKALO_CHECK(read_blank(job, in));
   if (job.options.scan) LEKALO_CHECK(read_scan(*job.options.scan, in));
-  LEKALO_CHECK(read_start(job.start, p.start));
+  if (in.meshed) LEKALO_CHECK(hold_against_points(job, in));
+  LEKALO_CHECK(read_start(job.start, in.problem.start));
   set_window(job.options, in);
   return in;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lekalo/jobs/file.hpp"
 #include "lekalo/jobs/locate_solid.hpp"
 
 namespace lekalo::jobs {
@@ -17,12 +18,24 @@ struct ReadSolid {
   std::vector<std::uint32_t> numbers;
 };
 
+/// The mesh that was made of a blank's points.
+struct MeshedPoints {
+  File mesh;
+  io::SolidUnit unit = io::SolidUnit::millimetre;  ///< of the points
+  std::size_t points = 0;
+};
+
 /// The files of a job, read.
 struct SolidInputs {
   locate::SolidProblem problem;
   solid::Vector pivot;  ///< of its window
   double turn_deg = 0;  ///< the half width of its turns
   ReadSolid part, blank;
+  /// Where the blank's file has points: what counts as the blank instead of it.
+  std::optional<MeshedPoints> meshed;
+  /// Its points until they have been held against the mesh, and the numbers of those that were left out.
+  std::vector<solid::Vector> points;
+  std::vector<std::uint32_t> left_out;
   std::optional<io::SolidScanRecord> scan;
   std::vector<std::string> notices;
 };

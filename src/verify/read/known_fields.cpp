@@ -109,7 +109,7 @@ constexpr Known kPlacement[] = {{"format", kFormat},
                                 {"run"},
                                 // A file of a certificate has these.
                                 {"intervals", kIntervals}};
-constexpr Known kSolidInputs[] = {{"role"}, {"path"}, {"sha256"}, {"units"}, {"triangles"}};
+constexpr Known kSolidInputs[] = {{"role"}, {"path"}, {"sha256"}, {"units"}, {"triangles"}, {"points"}};
 constexpr Known kSolidWindow[] = {{"quaternion"}, {"x"}, {"y"}, {"z"}, {"pivot"}, {"shift"}, {"turn_deg"}};
 constexpr Known kSolidContacts[] = {{"part_point"},     {"blank_point"}, {"part_triangle"},
                                     {"blank_triangle"}, {"distance"},    {"multiplier"}};
@@ -120,7 +120,7 @@ constexpr Known kSolidCertificate[] = {
 constexpr Known kSolidUnderside[] = {{"z"}, {"flat"}};
 constexpr Known kSolidScan[] = {
     {"guard"},  {"min_radius"},        {"max_dip"}, {"underside", kSolidUnderside},
-    {"widest"}, {"unknown_triangles"}, {"proved"},  {"assumptions"}};
+    {"widest"}, {"unknown_triangles"}, {"proved"},  {"left_out"}, {"assumptions"}};
 constexpr Known kSolidFile[] = {{"path"}, {"sha256"}, {"boxes"}};
 constexpr Known kSolidPlacement[] = {{"format", kFormat},
                                      {"status"},

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "certificate.hpp"
+#include "measured_points.hpp"
 #include "scan_widths.hpp"
 #include "solid_document.hpp"
 #include "solid_number.hpp"
@@ -56,7 +57,10 @@ class SolidCheck {
     LEKALO_TRY(std::optional<SolidMesh> blank, read_input("blank", inputs_.blank, d_.blank));
     LEKALO_TRY(const Json certificate, certificate_of());
     const bool has_certificate = certificate.is_object();
-    if (blank) check_scan(*blank);
+    if (blank) {
+      check_scan(*blank);
+      LEKALO_CHECK(check_points(*blank));
+    }
     if (part && blank) {
       LEKALO_TRY(const SolidPair pair, SolidPair::make(*part, *blank, d_.pose));
       check_clearance(pair);
@@ -85,6 +89,7 @@ class SolidCheck {
                                               const WrittenSolid& written);
   [[nodiscard]] Result<Json> certificate_of() const;
   void check_scan(SolidMesh& blank);
+  Result<void> check_points(const SolidMesh& blank);
   void check_clearance(const SolidPair& pair);
   void check_contacts(const SolidPair& pair, const SolidMesh& part, const SolidMesh& blank);
   Result<void> check_certificate(Json certificate, const SolidMesh& part, const SolidMesh& blank);
@@ -150,6 +155,27 @@ void SolidCheck::check_scan(SolidMesh& blank) {
         widths.unknown, widths.unknown_area.high));
   }
   blank.widths = std::move(widths.of);
+}
+
+/// Holds the blank against the points that it was made from.
+Result<void> SolidCheck::check_points(const SolidMesh& blank) {
+  if (d_.points.has_value() != inputs_.points.has_value()) {
+    find("the result {} points that its blank was made from", d_.points ? "was checked without the" : "names no");
+    return {};
+  }
+  if (!d_.points) {
+    if (d_.scan && !d_.scan->left_out.empty()) find("scan.left_out names points, but there is no file of points");
+    return {};
+  }
+  if (!d_.scan) {
+    find("the blank was made from points, but scan is null");
+    return {};
+  }
+  LEKALO_TRY(const auto points, read_measured_points(*inputs_.points, d_.points->unit));
+  if (points.size() != d_.points->count)
+    find("{} points are said to be measured, but {} has {}", d_.points->count, inputs_.points->name, points.size());
+  for (const std::string& fault : faults_of_points(points, blank, *d_.scan)) find("{}", fault);
+  return {};
 }
 
 /// A part that touches the blank's surface is not inside.

@@ -14,7 +14,7 @@ namespace lekalo::verify {
 namespace {
 
 constexpr std::array<std::string_view, 4> kStatuses{"optimal", "stopped", "infeasible", "unproved"};
-constexpr std::array<std::string_view, 3> kRoles{"part", "blank", "start"};
+constexpr std::array<std::string_view, 4> kRoles{"part", "blank", "start", "points"};
 /// In the order of SolidUnit and of SolidFreedom.
 constexpr std::array<std::string_view, 3> kUnits{"mm", "inch", "m"}, kFreedoms{"xyz", "c-xyz", "six"};
 
@@ -106,6 +106,14 @@ class Reader {
             input.complain(fmt::format("field {} is said of a start, which is no solid", input.name(key)));
         return;
       }
+      const std::string_view other = role == "points" ? "triangles" : "points";
+      if (!input.get(other).text.empty())
+        input.complain(fmt::format("field {} is not said of the {}", input.name(other), role));
+      if (role == "points") {
+        if (d_.points) fields_.complain("inputs name two files of points");
+        d_.points = {static_cast<SolidUnit>(word_of(input, "units", kUnits)), input.index("points")};
+        return;
+      }
       ++(role == "part" ? parts : blanks);
       WrittenSolid& solid = role == "part" ? d_.part : d_.blank;
       solid.unit = static_cast<SolidUnit>(word_of(input, "units", kUnits));
@@ -163,6 +171,10 @@ class Reader {
     scan.widest = size(fields, "widest", false);
     scan.unknown_triangles = fields.index("unknown_triangles");
     scan.proved = truth(fields, "proved");
+    fields.require({"left_out"});
+    fields.each("left_out", [&](Json item, const std::string& path) {
+      scan.left_out.push_back(fields.index_of(item, path));
+    });
     std::size_t sentences = 0;
     fields.each("assumptions", [&](Json item, const std::string&) { sentences += item.is_string() ? 1 : 0; });
     if (sentences == 0) fields.complain("scan.assumptions is without a sentence");

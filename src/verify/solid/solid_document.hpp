@@ -19,6 +19,12 @@ struct WrittenSolid {
   std::size_t triangles = 0;
 };
 
+/// Points that the blank's mesh was made from.
+struct WrittenPoints {
+  SolidUnit unit = SolidUnit::millimetre;
+  std::size_t count = 0;
+};
+
 enum class SolidFreedom : std::uint8_t { xyz, c_xyz, six };
 
 /// The poses that were looked at.
@@ -46,11 +52,14 @@ struct WrittenSolidScan {
   Decimal widest;
   std::size_t unknown_triangles = 0;
   bool proved = false;
+  /// The numbers of points that count as none of the surface.
+  std::vector<std::size_t> left_out;
 };
 
 struct SolidDocument {
   std::string status;
   WrittenSolid part, blank;
+  std::optional<WrittenPoints> points;
   SolidWindow window;
   SolidPose pose;
   bool inside = false;

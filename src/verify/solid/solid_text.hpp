@@ -19,6 +19,9 @@ class SolidMaker {
   /// Returns the sentence of refusal for the three numbers of a text, or none.
   [[nodiscard]] std::optional<std::string> add_vertex(const std::string_view* words);
   [[nodiscard]] std::optional<std::string> add_vertex(const std::array<double, 3>& xyz);
+  [[nodiscard]] std::optional<std::string> add_vertex(std::array<Decimal, 3> numbers) {
+    return add(std::move(numbers));
+  }
   [[nodiscard]] std::optional<std::string> add_triangle(const std::array<std::uint32_t, 3>& corners);
   /// Gives the file up: it is not read any further.
   void leave_open(std::string sentence) { reading_.open = std::move(sentence); }

@@ -15,12 +15,13 @@ namespace lekalo::io {
 /// The result document of `lekalo locate` for solids (docs/formats.md, "Results for solids"). Triangles of
 /// contacts have the numbers of their file.
 
-/// One file that the result was made from. `unit` and `triangles` are for solids only.
+/// One file that the result was made from.
 struct SolidInputRecord {
-  std::string role;  ///< "part", "blank" or "start"
+  std::string role;  ///< "part", "blank", "points" or "start"
   FileRecord file;
-  std::optional<SolidUnit> unit;
-  std::size_t triangles = 0;
+  std::optional<SolidUnit> unit;  ///< of a solid, or of points
+  std::size_t triangles = 0;      ///< of a solid
+  std::size_t points = 0;         ///< of the points that the blank was made from
 };
 
 /// The poses that were looked at: see locate::SolidProblem.
@@ -39,6 +40,8 @@ struct SolidScanRecord {
   double widest = 0;  ///< mm
   std::size_t unknown_triangles = 0;
   double unknown_area = 0;  ///< mm2
+  /// Points that count as none of the surface, by their numbers in the file of points.
+  std::vector<std::uint32_t> left_out;
   std::vector<std::string> assumptions;
   [[nodiscard]] bool proved() const noexcept { return unknown_triangles == 0; }
 };

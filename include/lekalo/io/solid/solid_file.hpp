@@ -61,4 +61,7 @@ struct SolidFile {
 [[nodiscard]] Result<SolidFile> parse_solid(std::string_view bytes, const std::string& name,
                                             const SolidOptions& options = {});
 
+/// The mesh as binary PLY, little-endian: every coordinate is the double itself. \pre at most 2^31 vertices
+[[nodiscard]] std::string ply_text(const solid::Mesh& mesh);
+
 }  // namespace lekalo::io

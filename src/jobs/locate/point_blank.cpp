@@ -1,0 +1,91 @@
+#include "point_blank.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "lekalo/base/stop.hpp"
+#include "lekalo/solid/point_surface.hpp"
+#include "lekalo/solid/triangle_tree.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+using solid::Vector;
+
+tl::unexpected<Error> bad(const File& file, const std::string& sentence) {
+  return failure(ErrorCode::bad_input, fmt::format("{}: {}", file.name, sentence));
+}
+
+/// The part of the radius that the ball of the mesh may have: what it does not pass is then small enough for the
+/// assumption to cover.
+constexpr double kBall = 0.8;
+
+}  // namespace
+
+Result<void> mesh_points(const SolidLocateJob& job, const io::SolidFile& file, SolidInputs& in) {
+  const std::optional<SolidScanOptions>& scan = job.options.scan;
+  if (job.outputs.mesh.empty() || !scan || !scan->min_radius)
+    return bad(job.blank,
+               "points are not a closed surface, so nothing says where the material is; with --uncertainty MM, "
+               "--min-radius MM and --mesh FILE.ply they are meshed first, and --underside z=LEVEL --flat MM closes "
+               "the side on which the blank stands");
+  std::vector<Vector> points = file.mesh.vertices;
+  if (scan->drop_outliers) {
+    in.left_out = solid::lonely_points(points, *scan->drop_outliers);
+    std::vector<Vector> kept;
+    std::size_t next = 0;
+    for (std::uint32_t k = 0; k < points.size(); ++k) {
+      if (next < in.left_out.size() && in.left_out[next] == k)
+        ++next;
+      else
+        kept.push_back(points[k]);
+    }
+    if (!in.left_out.empty())
+      in.notices.push_back(fmt::format("{}: {} points have no other within {} mm and are left out", job.blank.name,
+                                       in.left_out.size(), *scan->drop_outliers));
+    points = std::move(kept);
+  }
+  const double guard = scan->coverage_factor * scan->uncertainty;
+  solid::PointSurfaceOptions how;
+  how.ball = std::max(kBall * (*scan->min_radius - guard), 0.1 * *scan->min_radius);
+  how.step = scan->step;
+  if (scan->underside) how.floor = scan->underside->z;
+  Result<solid::PointSurface> made = solid::surface_through(points, how);
+  if (!made) return failure(made.error().code, fmt::format("{}: {}", job.blank.name, made.error().message));
+  if (made->below > 0)
+    in.notices.push_back(fmt::format("{}: {} points lie below the underside and are not used", job.blank.name,
+                                     made->below));
+  in.points = std::move(points);
+  in.meshed = MeshedPoints{{job.outputs.mesh, io::ply_text(made->mesh)}, file.unit, file.mesh.vertices.size()};
+  return {};
+}
+
+Result<void> hold_against_points(const SolidLocateJob& job, SolidInputs& in) {
+  const locate::SolidProblem& p = in.problem;
+  const solid::TriangleTree tree(p.blank);
+  const double guard = in.scan->guard, widest = in.scan->widest;
+  const double narrowest = *std::min_element(p.blank_widths.begin(), p.blank_widths.end());
+  std::size_t against = 0;
+  double deepest = 0;
+  Vector there;
+  for (const Vector q : in.points) {
+    ask();
+    if (tree.nearest(q, guard + narrowest)) continue;
+    const double depth = tree.least_sum(q, p.blank_widths, -1, -widest);
+    if (!(depth > guard) || !tree.holds(q)) continue;
+    ++against;
+    if (depth > deepest) deepest = depth, there = q;
+  }
+  in.points = {};
+  if (against == 0) return {};
+  return bad(job.blank,
+             fmt::format("{} of its points lie inside the material that --min-radius {} promises, the deepest {:.4g} "
+                         "mm deep at ({:.6g}, {:.6g}, {:.6g}): they are outliers, which --drop-outliers MM leaves out, "
+                         "or the surface has places that no such ball reaches, or voids",
+                         against, *in.scan->min_radius, deepest, there.x, there.y, there.z));
+}
+
+}  // namespace lekalo::jobs
