@@ -19,6 +19,8 @@ namespace {
 constexpr double kMostCells = 4e7;
 /// As many triangles as the surface is meant to have at most, if nobody says how fine it is to be.
 constexpr double kTriangles = 300'000;
+/// Edges may become so many times longer than they should be, so that the cells are not too many.
+constexpr double kCoarser = 4;
 /// A floor's cells away from its rim are joined to squares of twice so many cells.
 constexpr std::int32_t kFloorSquare = 8;
 
@@ -54,16 +56,20 @@ double cells_of(const Box& box, const Sizes& sizes) {
          (sizes.step * sizes.step * sizes.step);
 }
 
-Sizes sizes_for(const std::vector<Vector>& points, const Box& box, const PointSurfaceOptions& options) {
+Result<Sizes> sizes_for(const std::vector<Vector>& points, const Box& box, const PointSurfaceOptions& options) {
   Sizes sizes;
   const double area = area_of(points, box);
-  sizes.step = options.step.value_or(
+  const double wanted = options.step.value_or(
       std::max(1.2 * std::sqrt(area / static_cast<double>(points.size())), std::sqrt(2 * area / kTriangles)));
-  while (true) {
+  for (sizes.step = wanted; sizes.step <= kCoarser * wanted; sizes.step *= 1.1) {
     sizes.ball = std::max(options.ball, 3 * sizes.step);
     if (cells_of(box, sizes) <= kMostCells) return sizes;
-    sizes.step *= 1.1;
   }
+  const Vector size = box.high - box.low;
+  return failure(ErrorCode::bad_input,
+                 fmt::format("the points reach over {:.6g} x {:.6g} x {:.6g} mm, too far for edges of {:.4g} mm; leave "
+                             "out those that lie far away, or say that the edges may be longer",
+                             size.x, size.y, size.z, wanted));
 }
 
 /// The side of the grid's cells, outside or not, becomes a surface through points.
@@ -237,7 +243,7 @@ class Surface {
 
 /// Where the ball falls in, the surface is two sheets that are hardly apart.
 bool encloses_something(const PointSurface& made) {
-  constexpr double kSheets = 0.1;
+  constexpr double kSheets = 0.25;
   double volume = 0, area = 0;
   for (const auto& [a, b, c] : made.mesh.triangles) {
     const Vector first = made.mesh.vertices.front(), p = made.mesh.vertices[a] - first;
@@ -276,7 +282,7 @@ Result<PointSurface> surface_through(const std::vector<Vector>& points, const Po
   if (options.floor) box.low.z = *options.floor;
   if (box.low == box.high)
     return failure(ErrorCode::bad_input, "all points are at one place, so they give no surface");
-  const Sizes sizes = sizes_for(used, box, options);
+  LEKALO_TRY(const Sizes sizes, sizes_for(used, box, options));
   const std::size_t below = points.size() - used.size();
   const PointGrid grid(std::move(used), box, sizes.step, sizes.ball, options.floor.has_value());
   PointSurface made{Surface(grid, options.floor.has_value()).made(), sizes.step, sizes.ball, below};

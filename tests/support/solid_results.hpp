@@ -25,11 +25,14 @@ struct SolidResultFiles {
   std::string part, blank;
   /// The certificate, where it stands in a file of its own.
   std::optional<std::string> certificate;
+  /// The points that the blank was made from.
+  std::optional<std::string> points = {};
 
   [[nodiscard]] Result<verify::LocateReport> report() const {
     const std::string text = result.dump();
     verify::LocateInputs inputs{{"result.json", text}, {"part.stl", part}, {"blank.stl", blank}, {}};
     if (certificate) inputs.certificate = verify::Document{"certificate.json", *certificate};
+    if (points) inputs.points = verify::Document{"points.xyz", *points};
     return verify::verify_locate(inputs);
   }
   /// The verdict in a word, or "bad input", then what was found.

@@ -9,6 +9,7 @@
 #include "lekalo/io/text/sha256.hpp"
 #include "lekalo/jobs/verify.hpp"
 #include "support/json.hpp"
+#include "support/scanned_blanks.hpp"
 #include "support/solid_cases.hpp"
 #include "support/solid_files.hpp"
 
@@ -63,6 +64,8 @@ verify::Verdict verdict(const SolidLocateJob& job, const LocatedSolid& located) 
                if (role == "certificate") return File{"c.json", located.certificate};
                if (role == "part") return job.part;
                if (role == "start") return job.start;
+               if (role == "points") return job.blank;
+               if (role == "blank" && !located.mesh.empty()) return File{job.outputs.mesh, located.mesh};
                return role == "blank" ? std::optional(job.blank) : std::nullopt;
              });
   EXPECT_TRUE(done.has_value()) << (done ? "" : done.error().message);
@@ -328,7 +331,7 @@ TEST(JobsLocateSolid, BadFilesAreRefusedWithPlaceAndWayOut) {
   solid::Mesh open = cases::block({-22, -17, -13}, {24, 17, 11});
   open.triangles.pop_back();
   refuses(solid_files::obj(open), {"open", "triangle", "close it"});
-  refuses(solid_files::points(open.vertices), {"points are not a closed surface", "mesh them"});
+  refuses(solid_files::points(open.vertices), {"points are not a closed surface", "--mesh FILE.ply"});
   refuses("", {});
   refuses("v 0 0 nan\n", {});
 }
@@ -352,6 +355,112 @@ TEST(JobsLocateSolid, AStartIsAResultForSolids) {
   refuses(with("\"quaternion\": [", "\"quaternion\": [1"), "out of all measure");
   refuses(with("\"x\": ", "\"x\": 1e300, \"was\": "), "out of all measure");
   refuses(with("\"quaternion\": [", "\"theta\": ["), "theta");
+}
+
+/// A casting as it stands on a table, as points that a scanner measured about a millimetre apart.
+SolidLocateJob points_job(std::vector<solid::Vector>& points) {
+  Random random(7);
+  const cases::Casting casting(random);
+  points = casting.scanned(0.018, random).vertices;
+  points.pop_back();  // the middle of the underside, which nobody saw
+  SolidLocateJob job;
+  job.part = {"part.stl", solid_files::stl_binary(cases::Casting::part())};
+  job.blank = {"scan.xyz", solid_files::points(points)};
+  job.options.method = SolidMethod::climb;
+  job.options.scan = SolidScanOptions{0.01, 2, 5, {}, locate::SolidUnderside{0, 0.1}, {}, {}};
+  job.outputs.mesh = "mesh.ply";
+  return job;
+}
+
+TEST(JobsLocateSolid, PointsAreMeshedAndThePlacementHoldsInTheTrueBlank) {
+  std::vector<solid::Vector> points;
+  const SolidLocateJob job = points_job(points);
+  const LocatedSolid located = made(job);
+  ASSERT_TRUE(located.holds());
+  Random random(7);
+  const cases::Casting casting(random);
+  const solid::Motion motion = motion_of(located.document.pose);
+  EXPECT_GT(*located.document.clearance, 0.7);
+  for (const solid::Vector p : cases::Casting::part().vertices)
+    EXPECT_GE(casting.depth(motion(p)), *located.document.clearance - 1e-5);
+  const auto json = cases::Json::parse(located.result);
+  EXPECT_EQ(json["inputs"][1]["path"], "mesh.ply");
+  EXPECT_EQ(json["inputs"][1]["sha256"], io::sha256(located.mesh));
+  EXPECT_EQ(json["inputs"][2]["role"], "points");
+  EXPECT_EQ(json["inputs"][2]["sha256"], io::sha256(job.blank.bytes));
+  EXPECT_EQ(json["inputs"][2]["points"], points.size());
+  EXPECT_EQ(json["scan"]["left_out"].size(), 0U);
+  EXPECT_EQ(verdict(job, located), verify::Verdict::unproved);
+}
+
+TEST(JobsLocateSolid, PointsInInchesAreTheSamePoints) {
+  std::vector<solid::Vector> points;
+  SolidLocateJob job = points_job(points);
+  solid::Mesh part = cases::Casting::part();
+  for (solid::Vector& p : part.vertices) p = (1 / 25.4) * p;
+  for (solid::Vector& p : points) p = (1 / 25.4) * p;
+  job.part.bytes = solid_files::stl_binary(part);
+  job.options.units = io::SolidUnit::inch;
+  const std::string text = solid_files::points(points);
+  for (const std::string& bytes :
+       {text, solid_files::ply<double>({points, {}}, solid_files::PlyForm::little),
+        solid_files::ply<float>({points, {}}, solid_files::PlyForm::big)}) {
+    job.blank.bytes = bytes;
+    const LocatedSolid located = made(job);
+    EXPECT_TRUE(located.holds());
+    EXPECT_EQ(cases::Json::parse(located.result)["inputs"][2]["units"], "inch");
+    EXPECT_EQ(verdict(job, located), verify::Verdict::unproved);
+  }
+}
+
+TEST(JobsLocateSolid, AMeshThatDoesNotCloseIsMeshedAnewFromItsCorners) {
+  std::vector<solid::Vector> points;
+  SolidLocateJob job = points_job(points);
+  Random random(7);
+  solid::Mesh open = cases::Casting(random).scanned(0.018, random);
+  std::erase_if(open.triangles, [&](const auto& t) { return t[0] == open.vertices.size() - 1; });
+  open.vertices.pop_back();
+  job.blank = {"scan.obj", solid_files::obj(open)};
+  const LocatedSolid located = made(job);
+  EXPECT_TRUE(located.holds());
+  EXPECT_TRUE(warns(located, "it is meshed anew from its corners"));
+  EXPECT_EQ(verdict(job, located), verify::Verdict::unproved);
+  job.blank.bytes = solid_files::obj(cases::Casting(random).scanned(0.018, random));
+  const LocatedSolid closed = made(job);
+  EXPECT_EQ(closed.mesh, "");
+  EXPECT_TRUE(warns(closed, "scan.obj closes as it is, so mesh.ply is not written"));
+}
+
+TEST(JobsLocateSolid, APointInTheMaterialContradictsWhatIsSaid) {
+  std::vector<solid::Vector> points;
+  SolidLocateJob job = points_job(points);
+  points.insert(points.begin() + 9, {0, 0, 7});
+  job.blank.bytes = solid_files::points(points);
+  const Error error = refusal(job);
+  EXPECT_EQ(error.code, ErrorCode::bad_input);
+  EXPECT_TRUE(says(error.message, "scan.xyz: 1 of its points lie inside the material that --min-radius 5 promises"))
+      << error.message;
+  EXPECT_TRUE(says(error.message, "at (0, 0, 7)") && says(error.message, "--drop-outliers")) << error.message;
+  job.options.scan->drop_outliers = 2.5;
+  const LocatedSolid located = made(job);
+  EXPECT_TRUE(located.holds());
+  EXPECT_EQ(cases::Json::parse(located.result)["scan"]["left_out"], cases::Json{9});
+  EXPECT_TRUE(warns(located, "scan.xyz: 1 points have no other within 2.5 mm and are left out"));
+  EXPECT_EQ(verdict(job, located), verify::Verdict::unproved);
+}
+
+TEST(JobsLocateSolid, PointsNeedAReach) {
+  std::vector<solid::Vector> points;
+  SolidLocateJob job = points_job(points);
+  job.options.scan->min_radius.reset();
+  job.options.scan->max_dip = 0.1;
+  EXPECT_TRUE(says(refusal(job).message, "--min-radius MM and --mesh FILE.ply"));
+  job = points_job(points);
+  job.outputs.mesh.clear();
+  EXPECT_TRUE(says(refusal(job).message, "--min-radius MM and --mesh FILE.ply"));
+  job = points_job(points);
+  job.options.scan->underside.reset();
+  EXPECT_TRUE(says(refusal(job).message, "somewhere a ball of 3.984 mm falls in between them"));
 }
 
 TEST(SolidsAreTold, ByWhatIsInTheFiles) {
@@ -378,7 +487,7 @@ TEST(SolidsAreTold, ByWhatIsInTheFiles) {
   };
   EXPECT_TRUE(says(refused(stl, outline), "a.stl is a solid and e.csv is none"));
   EXPECT_TRUE(says(refused(drawing, obj), "b is a solid and h.svg is none"));
-  EXPECT_TRUE(says(refused(stl, points), "d.xyz: points are not a closed surface"));
+  EXPECT_TRUE(solids(stl, points));
   EXPECT_TRUE(says(refused(points, stl), "d.xyz: points are not a closed surface"));
 }
 

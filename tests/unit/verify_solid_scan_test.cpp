@@ -39,7 +39,7 @@ SolidResultFiles scanned(const Json& certificate = nullptr, double bound = kBoun
   SolidResultFiles files = cube_in_cube(certificate, bound, "xyz", shift);
   Json& r = files.result;
   r["scan"] = {{"guard", 0.1},  {"min_radius", nullptr},  {"max_dip", 0.2}, {"underside", nullptr},
-               {"widest", 0.3}, {"unknown_triangles", 0}, {"proved", true}, {"assumptions", {"it is so"}}};
+               {"widest", 0.3}, {"unknown_triangles", 0}, {"proved", true}, {"left_out", Json::array()}, {"assumptions", {"it is so"}}};
   r["clearance"] = kLeft, r["contacts"][0]["distance"] = 0.7;
   if (!certificate.is_null()) r["gap"] = bound - kLeft;
   return files;

@@ -34,7 +34,7 @@ struct PointSurface {
 
 /// Makes a surface (docs/design/solid.md has the method). Deterministic.
 /// Fails with bad_input for less than four points and where the ball falls in between them, so that
-/// nothing is inside; with usage for numbers out of range.
+/// nothing is inside, or where they are spread too far for the cells; with usage for numbers out of range.
 /// Cost: O(n log n) for n points, and the cells of a grid, at most 40 million of 9 bytes.
 [[nodiscard]] Result<PointSurface> surface_through(const std::vector<Vector>& points,
                                                    const PointSurfaceOptions& options);

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
+#include "lekalo/base/limits.hpp"
 #include "lekalo/base/stop.hpp"
 #include "placed_solid.hpp"
 #include "solid_number.hpp"
-#include "solid_text.hpp"
 #include "triangle_distance.hpp"
-#include "verify/read/text_rows.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -20,13 +18,44 @@ using Points = std::vector<std::array<double, 3>>;
 
 std::string place(const std::array<double, 3>& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p[0], p[1], p[2]); }
 
+/// Points by the cells that they are in. Millimetres of inches are rounded, so a corner is taken for a point that is
+/// nearer than a cell: 2^-44 of the largest coordinate.
+class Cells {
+ public:
+  explicit Cells(const Points& points) {
+    double largest = 0;
+    for (const auto& p : points)
+      for (const double x : p) largest = std::max(largest, std::abs(x));
+    side_ = std::max(0x1p-44 * largest, limits::kSmallestCoordinate);
+    cells_.reserve(points.size());
+    for (const auto& p : points) cells_.push_back({at(p[0], 0), at(p[1], 0), at(p[2], 0)});
+    std::ranges::sort(cells_);
+  }
+
+  [[nodiscard]] bool has(const std::array<double, 3>& p) const {
+    constexpr double kWays[] = {-0.25, 0.25};
+    for (const double x : kWays)
+      for (const double y : kWays)
+        for (const double z : kWays)
+          if (std::ranges::binary_search(cells_, std::array{at(p[0], x), at(p[1], y), at(p[2], z)})) return true;
+    return false;
+  }
+
+ private:
+  [[nodiscard]] double at(double coordinate, double aside) const { return std::round(coordinate / side_ + aside); }
+
+  double side_ = 0;
+  Points cells_;
+};
+
 /// Says which corner of the mesh nobody measured.
-std::optional<std::string> unmeasured(const Points& sorted, const SolidMesh& blank, const WrittenSolidScan& scan) {
+std::optional<std::string> unmeasured(const Points& points, const SolidMesh& blank, const WrittenSolidScan& scan) {
   const double level = scan.underside ? approximate(scan.underside->z) : 0,
                flat = scan.underside ? approximate(scan.underside->flat) : -1;
+  const Cells cells(points);
   for (const auto& p : blank.near) {
     ask();
-    if (std::abs(p[2] - level) <= flat || std::ranges::binary_search(sorted, p)) continue;
+    if (std::abs(p[2] - level) <= flat || cells.has(p)) continue;
     return fmt::format("the corner {} of the blank's mesh is none of the points", place(p));
   }
   return std::nullopt;
@@ -47,20 +76,6 @@ bool contradicts(const std::array<double, 3>& point, const PlacedSolid& blank, d
 }
 
 }  // namespace
-
-Result<Points> read_measured_points(const Document& document, SolidUnit unit) {
-  SolidMaker made(document, unit);
-  if (trimmed(document.bytes.substr(0, 4)) == "ply") {
-    LEKALO_CHECK(read_ply(made));
-  } else {
-    LEKALO_CHECK(read_text_rows(document, [&](TextRow&& row) -> Result<void> {
-      if (row.count < 3) return bad_line(document, row.line, "no z on this line");
-      if (const auto fault = made.add_vertex(std::move(row.numbers))) return bad_line(document, row.line, *fault);
-      return {};
-    }));
-  }
-  return made.take().mesh.near;
-}
 
 std::vector<std::string> faults_of_points(const Points& points, const SolidMesh& blank, const WrittenSolidScan& scan) {
   std::vector<std::string> faults;

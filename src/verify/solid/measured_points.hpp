@@ -9,12 +9,8 @@
 
 namespace lekalo::verify {
 
-/// Reads points in space, text or PLY, as their nearest doubles, mm. bad_input names the place.
-[[nodiscard]] Result<std::vector<std::array<double, 3>>> read_measured_points(const Document& document,
-                                                                              SolidUnit unit);
-
-/// Says what is not so: every corner of the mesh, but for those of the underside, is one of the points, and no
-/// point but those left out lies deeper in what counts as material than points are uncertain by.
+/// Says what is not so: every corner of the mesh, but for those of the underside, is one of the points but for
+/// the rounding of inches, and no point but those left out lies deeper in what counts as material than points are uncertain by.
 /// \pre the blank has its widths
 [[nodiscard]] std::vector<std::string> faults_of_points(const std::vector<std::array<double, 3>>& points,
                                                         const SolidMesh& blank, const WrittenSolidScan& scan);

@@ -73,7 +73,6 @@ class PlyReader {
               fmt::format("a face names the vertex {} of {}, numbered from 0", corner, made_.vertices()));
       if (const auto fault = made_.add_triangle(corners)) return bad(*fault);
     }
-    if (faces_.empty()) made_.leave_open("it has no faces");
     return {};
   }
 

@@ -171,7 +171,14 @@ Result<void> SolidCheck::check_points(const SolidMesh& blank) {
     find("the blank was made from points, but scan is null");
     return {};
   }
-  LEKALO_TRY(const auto points, read_measured_points(*inputs_.points, d_.points->unit));
+  LEKALO_TRY(const SolidReading reading, read_measured_points(*inputs_.points, d_.points->unit));
+  if (reading.open) {
+    open_ = true;
+    note(fmt::format("that the blank was made from measured points was not rechecked: {} is not read here, because {}",
+                     inputs_.points->name, *reading.open));
+    return {};
+  }
+  const auto& points = reading.mesh.near;
   if (points.size() != d_.points->count)
     find("{} points are said to be measured, but {} has {}", d_.points->count, inputs_.points->name, points.size());
   for (const std::string& fault : faults_of_points(points, blank, *d_.scan)) find("{}", fault);

@@ -293,8 +293,11 @@ std::optional<std::string> SolidMaker::add_triangle(const std::array<std::uint32
   return std::nullopt;
 }
 
-Result<SolidReading> read_solid(const Document& document, SolidUnit unit) {
-  SolidMaker made(document, unit);
+namespace {
+
+/// Reads any of the formats; false where it is none of them.
+Result<bool> read_by_content(SolidMaker& made) {
+  const Document& document = made.document();
   const std::string_view word = first_word(document.bytes);
   if (is_binary_stl(document.bytes)) {
     LEKALO_CHECK(read_binary_stl(made));
@@ -305,11 +308,34 @@ Result<SolidReading> read_solid(const Document& document, SolidUnit unit) {
   } else if (begins_with_vertex(document.bytes)) {
     LEKALO_CHECK(ObjReader(made).read());
   } else {
-    made.leave_open("it is none of STL, OBJ and PLY");
+    return false;
   }
+  return true;
+}
+
+}  // namespace
+
+Result<SolidReading> read_solid(const Document& document, SolidUnit unit) {
+  SolidMaker made(document, unit);
+  LEKALO_TRY(const bool known, read_by_content(made));
+  if (!known) made.leave_open("it is none of STL, OBJ and PLY");
   SolidReading reading = made.take();
-  if (!reading.open && reading.mesh.triangles.empty()) return bad(document, "there are no triangles in it");
+  if (reading.open || !reading.mesh.triangles.empty()) return reading;
+  if (first_word(document.bytes) != "ply") return bad(document, "there are no triangles in it");
+  reading.open = "it has no faces";
   return reading;
+}
+
+Result<SolidReading> read_measured_points(const Document& document, SolidUnit unit) {
+  SolidMaker made(document, unit);
+  LEKALO_TRY(const bool known, read_by_content(made));
+  if (known) return made.take();
+  LEKALO_CHECK(read_text_rows(document, [&](TextRow&& row) -> Result<void> {
+    if (row.count < 3) return bad_line(document, row.line, "no z on this line");
+    if (const auto fault = made.add_vertex(std::move(row.numbers))) return bad_line(document, row.line, *fault);
+    return {};
+  }));
+  return made.take();
 }
 
 }  // namespace lekalo::verify

@@ -58,6 +58,9 @@ struct SolidReading {
 [[nodiscard]] Result<SolidReading> read_solid(const Document& document,
                                               SolidUnit unit = SolidUnit::millimetre);
 
+/// Reads points: those of a text of points, or the vertices of one of these formats.
+[[nodiscard]] Result<SolidReading> read_measured_points(const Document& document, SolidUnit unit);
+
 /// Returns the mesh with one vertex at each place. Every edge belongs to an even number of triangles, else it
 /// is refused with a place. Triangles with a corner twice are left out; those whose corners lie exactly on a
 /// line, too, unless the surface closes along them.
