@@ -57,8 +57,7 @@ class Flips {
   [[nodiscard]] bool is_edge(std::uint32_t a, std::uint32_t b) const {
     const Side side{std::min(a, b), std::max(a, b), 0};
     const auto at = std::lower_bound(sides_.begin(), sides_.end(), side);
-    return (at != sides_.end() && at->same_edge(side)) ||
-           made_.contains({side.low, side.high});
+    return (at != sides_.end() && at->same_edge(side)) || made_.contains({side.low, side.high});
   }
 
   /// The corner of a triangle across an edge, if the triangle goes along it from a to b.

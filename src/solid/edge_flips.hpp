@@ -4,8 +4,8 @@
 
 namespace lekalo::solid {
 
-/// Turns edges between two triangles to the other diagonal where the larger of the smallest circles around the
-/// two becomes smaller, and neither looks back. The surface stays closed.
+/// Turns edges between two triangles to the other diagonal where the larger of the smallest circles around
+/// the two becomes smaller, and neither looks back. The surface stays closed.
 void flip_edges(Mesh& mesh);
 
 }  // namespace lekalo::solid

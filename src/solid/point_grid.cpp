@@ -28,7 +28,9 @@ PointGrid::Place PointGrid::place(std::size_t number) const noexcept {
   return {static_cast<std::int32_t>(number % nx), static_cast<std::int32_t>(number / nx % ny),
           static_cast<std::int32_t>(number / nx / ny)};
 }
-Vector PointGrid::corner(Place c) const noexcept { return low_ + step_ * Vector{double(c.x), double(c.y), double(c.z)}; }
+Vector PointGrid::corner(Place c) const noexcept {
+  return low_ + step_ * Vector{double(c.x), double(c.y), double(c.z)};
+}
 Vector PointGrid::middle(Place c) const noexcept { return corner(c) + 0.5 * step_ * Vector{1, 1, 1}; }
 PointGrid::Place PointGrid::cell_of(Vector p) const noexcept {
   const auto at = [&](double x, double low, std::int32_t count) {
@@ -125,8 +127,8 @@ void PointGrid::flood() {
   }
 }
 
-/// From where its middle may be the ball reaches the cells around, but for those of points. It stays a cell away
-/// from them, so that it does not pass between two.
+/// From where its middle may be the ball reaches the cells around, but for those of points. It stays a cell
+/// away from them, so that it does not pass between two.
 void PointGrid::roll() {
   std::vector<std::uint32_t> from(state_.size(), kNone), front;
   for (std::uint32_t at = 0; at < state_.size(); ++at)

@@ -8,8 +8,8 @@
 
 namespace lekalo::solid {
 
-/// Cubic cells around points. A cell is outside where a ball of a given radius, rolled over the points from far
-/// away, reaches it.
+/// Cubic cells around points. A cell is outside where a ball of a given radius, rolled over the points from
+/// far away, reaches it.
 class PointGrid {
  public:
   struct Place {
@@ -37,7 +37,8 @@ class PointGrid {
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   [[nodiscard]] std::size_t number(Place c) const noexcept {
-    return (static_cast<std::size_t>(c.z) * static_cast<std::size_t>(count_.y) + static_cast<std::size_t>(c.y)) *
+    return (static_cast<std::size_t>(c.z) * static_cast<std::size_t>(count_.y) +
+            static_cast<std::size_t>(c.y)) *
                static_cast<std::size_t>(count_.x) +
            static_cast<std::size_t>(c.x);
   }
@@ -48,10 +49,11 @@ class PointGrid {
   void occupy();
   void flood();
   void roll();
-  /// Spreads the sources of cells to the cells around, each to those nearer than `reach` that have none nearer.
+  /// Spreads the sources of cells to the cells around, each to those nearer than `reach` that have none
+  /// nearer.
   template <class At, class May>
-  void spread(std::vector<std::uint32_t>& sources, std::vector<std::uint32_t> front, double reach, const At& at,
-              const May& may);
+  void spread(std::vector<std::uint32_t>& sources, std::vector<std::uint32_t> front, double reach,
+              const At& at, const May& may);
 
   std::vector<Vector> points_;
   Vector low_;
@@ -59,7 +61,7 @@ class PointGrid {
   bool floor_;
   Place count_;
   std::vector<std::uint8_t> state_;
-  /// Of each cell nearer than the ball's radius to a point: about the nearest one.
+  /// About the nearest point, of each cell nearer than the ball's radius to one.
   std::vector<std::uint32_t> near_;
 };
 

@@ -8,10 +8,10 @@
 #include <compare>
 #include <utility>
 
+#include "edge_flips.hpp"
 #include "lekalo/base/limits.hpp"
 #include "lekalo/base/stop.hpp"
 #include "point_grid.hpp"
-#include "edge_flips.hpp"
 
 namespace lekalo::solid {
 namespace {
@@ -45,18 +45,19 @@ double area_of(const std::vector<Vector>& points, const Box& box) {
     std::ranges::sort(cells);
     std::size_t different = 1;
     for (std::size_t k = 1; k < cells.size(); ++k) different += cells[k] != cells[k - 1] ? 1U : 0U;
-    if (4 * different <= points.size() || side <= 1) return static_cast<double>(different) * cell * cell / 1.5;
+    if (4 * different <= points.size() || side <= 1)
+      return static_cast<double>(different) * cell * cell / 1.5;
   }
 }
 
 double cells_of(const Box& box, const Sizes& sizes) {
   const double around = 2 * (sizes.ball + 3 * sizes.step);
   const Vector size = box.high - box.low;
-  return (size.x + around) * (size.y + around) * (size.z + around) /
-         (sizes.step * sizes.step * sizes.step);
+  return (size.x + around) * (size.y + around) * (size.z + around) / (sizes.step * sizes.step * sizes.step);
 }
 
-Result<Sizes> sizes_for(const std::vector<Vector>& points, const Box& box, const PointSurfaceOptions& options) {
+Result<Sizes> sizes_for(const std::vector<Vector>& points, const Box& box,
+                        const PointSurfaceOptions& options) {
   Sizes sizes;
   const double area = area_of(points, box);
   const double wanted = options.step.value_or(
@@ -66,10 +67,11 @@ Result<Sizes> sizes_for(const std::vector<Vector>& points, const Box& box, const
     if (cells_of(box, sizes) <= kMostCells) return sizes;
   }
   const Vector size = box.high - box.low;
-  return failure(ErrorCode::bad_input,
-                 fmt::format("the points reach over {:.6g} x {:.6g} x {:.6g} mm, too far for edges of {:.4g} mm; leave "
-                             "out those that lie far away, or say that the edges may be longer",
-                             size.x, size.y, size.z, wanted));
+  return failure(
+      ErrorCode::bad_input,
+      fmt::format("the points reach over {:.6g} x {:.6g} x {:.6g} mm, too far for edges of {:.4g} mm; leave "
+                  "out those that lie far away, or say that the edges may be longer",
+                  size.x, size.y, size.z, wanted));
 }
 
 /// The side of the grid's cells, outside or not, becomes a surface through points.
@@ -80,7 +82,8 @@ class Surface {
   Mesh made() {
     if (floor_) find_squares();
     add_sides();
-    std::erase_if(mesh_.triangles, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+    std::erase_if(mesh_.triangles,
+                  [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
     cancel_pairs();
     flip_edges(mesh_);
     return std::move(mesh_);
@@ -124,11 +127,11 @@ class Surface {
     for (std::int32_t y = 2 * k; y + 2 * k <= ny; y += 2 * k)
       for (std::int32_t x = 2 * k; x + 2 * k <= nx; x += 2 * k)
         square_[floor_place(x, y)] = sum(x + 2 * k, y + 2 * k) - sum(x - 2 * k - 1, y + 2 * k) -
-                                             sum(x + 2 * k, y - 2 * k - 1) +
-                                             sum(x - 2 * k - 1, y - 2 * k - 1) ==
-                                         0
-                                     ? 1
-                                     : 0;
+                                                 sum(x + 2 * k, y - 2 * k - 1) +
+                                                 sum(x - 2 * k - 1, y - 2 * k - 1) ==
+                                             0
+                                         ? 1
+                                         : 0;
   }
   [[nodiscard]] std::size_t floor_place(std::int32_t x, std::int32_t y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
@@ -163,11 +166,13 @@ class Surface {
     std::ranges::sort(corners);
     corners.erase(std::ranges::unique(corners).begin(), corners.end());
     for (const std::uint64_t c : corners)
-      mesh_.vertices.push_back(c < kOnFloor ? grid_.point(static_cast<std::uint32_t>(c)) : on_floor(c - kOnFloor));
+      mesh_.vertices.push_back(c < kOnFloor ? grid_.point(static_cast<std::uint32_t>(c))
+                                            : on_floor(c - kOnFloor));
     const auto number = [&](std::uint64_t c) {
       return static_cast<std::uint32_t>(std::ranges::lower_bound(corners, c) - corners.begin());
     };
-    for (const auto& side : sides) add_quad({number(side[0]), number(side[1]), number(side[2]), number(side[3])});
+    for (const auto& side : sides)
+      add_quad({number(side[0]), number(side[1]), number(side[2]), number(side[3])});
   }
   [[nodiscard]] Vector on_floor(std::uint64_t at) const {
     const auto width = static_cast<std::uint64_t>(width_);
@@ -241,13 +246,14 @@ class Surface {
   Mesh mesh_;
 };
 
-/// Where the ball falls in, the surface is two sheets that are hardly apart.
+/// The surface is two sheets that are hardly apart where the ball falls in.
 bool encloses_something(const PointSurface& made) {
   constexpr double kSheets = 0.25;
   double volume = 0, area = 0;
   for (const auto& [a, b, c] : made.mesh.triangles) {
     const Vector first = made.mesh.vertices.front(), p = made.mesh.vertices[a] - first;
-    const Vector n = cross(made.mesh.vertices[b] - made.mesh.vertices[a], made.mesh.vertices[c] - made.mesh.vertices[a]);
+    const Vector n =
+        cross(made.mesh.vertices[b] - made.mesh.vertices[a], made.mesh.vertices[c] - made.mesh.vertices[a]);
     volume += dot(p, n) / 6, area += norm(n) / 2;
   }
   return volume > kSheets * made.step * area;
@@ -262,8 +268,9 @@ Result<void> check(const std::vector<Vector>& points, const PointSurfaceOptions&
   for (std::size_t k = 0; k < points.size(); ++k)
     for (const double x : {points[k].x, points[k].y, points[k].z})
       if (!(std::abs(x) <= limits::kLargestCoordinate))
-        return failure(ErrorCode::bad_input, fmt::format("point {} has the coordinate {}, which is not within {:g} mm",
-                                                         k + 1, x, limits::kLargestCoordinate));
+        return failure(ErrorCode::bad_input,
+                       fmt::format("point {} has the coordinate {}, which is not within {:g} mm", k + 1, x,
+                                   limits::kLargestCoordinate));
   return {};
 }
 
@@ -287,10 +294,11 @@ Result<PointSurface> surface_through(const std::vector<Vector>& points, const Po
   const PointGrid grid(std::move(used), box, sizes.step, sizes.ball, options.floor.has_value());
   PointSurface made{Surface(grid, options.floor.has_value()).made(), sizes.step, sizes.ball, below};
   if (!encloses_something(made))
-    return failure(ErrorCode::bad_input,
-                   fmt::format("the points enclose nothing: somewhere a ball of {:.4g} mm falls in between "
-                               "them; measure what is missing there, or close the side on which the body stands",
-                               sizes.ball));
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format("the points enclose nothing: somewhere a ball of {:.4g} mm falls in between "
+                    "them; measure what is missing there, or close the side on which the body stands",
+                    sizes.ball));
   return made;
 }
 
@@ -316,9 +324,11 @@ std::vector<std::uint32_t> lonely_points(const std::vector<Vector>& points, doub
       for (std::int64_t dy = -1; dy <= 1; ++dy) {
         const Cell first{cell.x + dx, cell.y + dy, cell.z - 1, 0};
         for (auto other = std::ranges::lower_bound(cells, first);
-             other != cells.end() && other->x == first.x && other->y == first.y && other->z <= cell.z + 1; ++other) {
+             other != cells.end() && other->x == first.x && other->y == first.y && other->z <= cell.z + 1;
+             ++other) {
           ask();
-          if (other->point != cell.point && norm(points[other->point] - points[cell.point]) <= distance) return true;
+          if (other->point != cell.point && norm(points[other->point] - points[cell.point]) <= distance)
+            return true;
         }
       }
     return false;

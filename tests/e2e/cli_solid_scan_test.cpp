@@ -82,6 +82,35 @@ TEST_F(SolidScan, APlacementHoldsInTheTrueBlankAndIsConfirmed) {
   EXPECT_EQ(with("/unknown_triangles", 1), 4);
 }
 
+TEST_F(SolidScan, LoosePointsBecomeAMeshThatTheCheckerHoldsAgainstThem) {
+  std::vector<solid::Vector> points = casting_.scanned(0.9 * kNoise, random_).vertices;
+  points.pop_back();  // the middle of the underside, which nobody saw
+  write_bytes(folder_ / "scan.ply", solid_files::points(points));
+  const Words stated = kMeasured + Words{"--underside", "z=0", "--flat", "0.1", "-o", "r.json", "--json"};
+  const Ran refused = locate(stated);
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(refused.err.find("--mesh FILE.ply they are meshed first"), std::string::npos) << refused.err;
+  const Ran ran = locate(stated + Words{"--mesh", "mesh.ply"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const Json result = ran.json();
+  EXPECT_EQ(result["scan"]["proved"], true);
+  EXPECT_EQ(result["inputs"][1]["path"], "mesh.ply");
+  EXPECT_EQ(result["inputs"][2]["path"], "scan.ply");
+  EXPECT_GT(result["clearance"], 0.6);
+  EXPECT_EQ(verify().status, 0);
+  // The mesh alone is a scanner's mesh like any other.
+  const Ran again = run(folder_.path(), Words{"locate", "--part", "part.stl", "--blank", "mesh.ply",
+                                              "--method", "climb", "-o", "again.json"} +
+                                            kMeasured + Words{"--underside", "z=0", "--flat", "0.1"});
+  EXPECT_EQ(again.status, 0) << again.err;
+  points[points.size() / 2].z += 1e-6;
+  write_bytes(folder_ / "scan.ply", solid_files::points(points));
+  const Ran other = verify();
+  EXPECT_EQ(other.status, 4);
+  EXPECT_NE((other.out + other.err).find("is not the points file of this result"), std::string::npos)
+      << other.err;
+}
+
 TEST_F(SolidScan, WordsThatDoNotGoTogetherAreRefusedInOneSentence) {
   for (const auto& [words, sentence] :
        {std::pair{Words{"--uncertainty", "0.01"},

@@ -402,9 +402,8 @@ TEST(JobsLocateSolid, PointsInInchesAreTheSamePoints) {
   job.part.bytes = solid_files::stl_binary(part);
   job.options.units = io::SolidUnit::inch;
   const std::string text = solid_files::points(points);
-  for (const std::string& bytes :
-       {text, solid_files::ply<double>({points, {}}, solid_files::PlyForm::little),
-        solid_files::ply<float>({points, {}}, solid_files::PlyForm::big)}) {
+  for (const std::string& bytes : {text, solid_files::ply<double>({points, {}}, solid_files::PlyForm::little),
+                                   solid_files::ply<float>({points, {}}, solid_files::PlyForm::big)}) {
     job.blank.bytes = bytes;
     const LocatedSolid located = made(job);
     EXPECT_TRUE(located.holds());
@@ -438,7 +437,8 @@ TEST(JobsLocateSolid, APointInTheMaterialContradictsWhatIsSaid) {
   job.blank.bytes = solid_files::points(points);
   const Error error = refusal(job);
   EXPECT_EQ(error.code, ErrorCode::bad_input);
-  EXPECT_TRUE(says(error.message, "scan.xyz: 1 of its points lie inside the material that --min-radius 5 promises"))
+  EXPECT_TRUE(
+      says(error.message, "scan.xyz: 1 of its points lie inside the material that --min-radius 5 promises"))
       << error.message;
   EXPECT_TRUE(says(error.message, "at (0, 0, 7)") && says(error.message, "--drop-outliers")) << error.message;
   job.options.scan->drop_outliers = 2.5;

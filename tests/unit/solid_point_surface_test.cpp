@@ -99,7 +99,8 @@ TEST(PointSurface, IsAsFineAsAskedFor) {
 
 TEST(PointSurface, TheFloorClosesABodyThatStandsOnIt) {
   const std::vector<Vector> body = cylinder(10, 12);
-  EXPECT_NE(refusal(body, {.ball = 2}).find("the points enclose nothing"), std::string::npos) << refusal(body, {.ball = 2});
+  EXPECT_NE(refusal(body, {.ball = 2}).find("the points enclose nothing"), std::string::npos)
+      << refusal(body, {.ball = 2});
   std::vector<Vector> points = body;
   points.push_back({0, 0, -1});
   const PointSurface surface = made(points, {.ball = 2, .floor = 0});
@@ -140,10 +141,12 @@ TEST(PointSurface, RefusesWhatGivesNone) {
             std::string::npos);
   EXPECT_NE(refusal({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {.ball = 1}).find("at one place"),
             std::string::npos);
-  EXPECT_NE(refusal({{0, 0, nan}, {1, 0, 0}}, {.ball = 1}).find("point 1 has the coordinate nan"), std::string::npos);
+  EXPECT_NE(refusal({{0, 0, nan}, {1, 0, 0}}, {.ball = 1}).find("point 1 has the coordinate nan"),
+            std::string::npos);
   for (const double bad : {0.0, -1.0, nan, 1e10}) {
     EXPECT_NE(refusal(points, {.ball = bad}).find("must have a radius above 0"), std::string::npos);
-    EXPECT_NE(refusal(points, {.ball = 1, .floor = {}, .step = bad}).find("must be longer than 0"), std::string::npos);
+    EXPECT_NE(refusal(points, {.ball = 1, .floor = {}, .step = bad}).find("must be longer than 0"),
+              std::string::npos);
   }
 }
 
@@ -156,7 +159,8 @@ TEST(PointSurface, PointsThatLieFarAwayAreToldAndTakeNoTime) {
 TEST(LonelyPoints, HaveNoOtherWithinTheDistance) {
   EXPECT_EQ(solid::lonely_points({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}, {3, 0.5, 0.5}, {9, 9, 9}}, 1),
             (std::vector<std::uint32_t>{4}));
-  EXPECT_EQ(solid::lonely_points({{0, 0, 0}, {1.01, 0, 0}, {0, 0, 2}}, 1), (std::vector<std::uint32_t>{0, 1, 2}));
+  EXPECT_EQ(solid::lonely_points({{0, 0, 0}, {1.01, 0, 0}, {0, 0, 2}}, 1),
+            (std::vector<std::uint32_t>{0, 1, 2}));
   EXPECT_EQ(solid::lonely_points({{5, 5, 5}, {5, 5, 5}}, 1e-12), (std::vector<std::uint32_t>{}));
 }
 

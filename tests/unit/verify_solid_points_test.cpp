@@ -15,15 +15,21 @@ using cases::cube_in_cube;
 using cases::Json;
 using cases::SolidResultFiles;
 
-constexpr const char* kCorners =
-    "-6 -6 -6\n6 -6 -6\n6 6 -6\n-6 6 -6\n-6 -6 6\n6 -6 6\n6 6 6\n-6 6 6\n";
+constexpr const char* kCorners = "-6 -6 -6\n6 -6 -6\n6 6 -6\n-6 6 -6\n-6 -6 6\n6 -6 6\n6 6 6\n-6 6 6\n";
 
-/// The material begins 0.3 within the triangles: the points are off by up to 0.1, and the surface dips by 0.2.
+/// The material begins 0.3 within the triangles: the points are off by up to 0.1, and the surface dips by
+/// 0.2.
 SolidResultFiles measured() {
   SolidResultFiles files = cube_in_cube();
   Json& r = files.result;
-  r["scan"] = {{"guard", 0.1},           {"min_radius", nullptr}, {"max_dip", 0.2},           {"underside", nullptr},
-               {"widest", 0.3},          {"unknown_triangles", 0}, {"proved", true},          {"left_out", Json::array()},
+  r["scan"] = {{"guard", 0.1},
+               {"min_radius", nullptr},
+               {"max_dip", 0.2},
+               {"underside", nullptr},
+               {"widest", 0.3},
+               {"unknown_triangles", 0},
+               {"proved", true},
+               {"left_out", Json::array()},
                {"assumptions", {"it is so"}}};
   r["clearance"] = 0.699999, r["contacts"][0]["distance"] = 0.7;
   r["inputs"].push_back({{"role", "points"}, {"path", "p"}, {"sha256", ""}, {"units", "mm"}, {"points", 8}});
@@ -50,7 +56,8 @@ TEST(SolidPoints, TheCornersOfTheMeshAreMeasured) {
   const std::string missing = told([](SolidResultFiles& files) {
     files.points = "-6 -6 -6\n6 -6 -6\n6 6 -6\n-6 6 -6\n-6 -6 6\n6 -6 6\n6 6 6\n-6 6 6.0000001\n";
   });
-  EXPECT_TRUE(says(missing, "refuted; the corner (-6, 6, 6) of the blank's mesh is none of the points")) << missing;
+  EXPECT_TRUE(says(missing, "refuted; the corner (-6, 6, 6) of the blank's mesh is none of the points"))
+      << missing;
 }
 
 TEST(SolidPoints, CornersOfTheUndersideAreStated) {
@@ -62,7 +69,8 @@ TEST(SolidPoints, CornersOfTheUndersideAreStated) {
     });
   };
   EXPECT_FALSE(says(with_underside(0.25), "none of the points"));
-  EXPECT_TRUE(says(with_underside(0.24), "the corner (-6, -6, -6) of the blank's mesh is none of the points"));
+  EXPECT_TRUE(
+      says(with_underside(0.24), "the corner (-6, -6, -6) of the blank's mesh is none of the points"));
 }
 
 TEST(SolidPoints, NoneLiesInTheMaterial) {
@@ -86,17 +94,22 @@ TEST(SolidPoints, ThoseLeftOutDoNotCount) {
 }
 
 TEST(SolidPoints, TheFileHasToBeThereAndToBeRead) {
-  EXPECT_TRUE(says(told([](SolidResultFiles& f) { f.points.reset(); }), "refuted; the result was checked without"));
-  EXPECT_TRUE(says(told([](SolidResultFiles& f) { f.result["inputs"].erase(2); }), "refuted; the result names no"));
-  EXPECT_TRUE(says(told([](SolidResultFiles& f) { f.result["inputs"][2]["points"] = 9; }), "9 points are said"));
-  EXPECT_TRUE(says(told([](SolidResultFiles& f) { f.result["inputs"][2]["units"] = "inch"; }), "none of the points"));
+  EXPECT_TRUE(
+      says(told([](SolidResultFiles& f) { f.points.reset(); }), "refuted; the result was checked without"));
+  EXPECT_TRUE(
+      says(told([](SolidResultFiles& f) { f.result["inputs"].erase(2); }), "refuted; the result names no"));
+  EXPECT_TRUE(
+      says(told([](SolidResultFiles& f) { f.result["inputs"][2]["points"] = 9; }), "9 points are said"));
+  EXPECT_TRUE(
+      says(told([](SolidResultFiles& f) { f.result["inputs"][2]["units"] = "inch"; }), "none of the points"));
   EXPECT_TRUE(says(told([](SolidResultFiles& f) { f.points = "1 2\n"; }), "bad input: points.xyz:1: no z"));
   EXPECT_TRUE(says(told([](SolidResultFiles& f) { f.points = "1 2 3e99\n"; }), "bad input: points.xyz:1: "));
-  EXPECT_TRUE(says(told([](SolidResultFiles& f) { f.result["scan"] = nullptr; }), "made from points, but scan is null"));
+  EXPECT_TRUE(says(told([](SolidResultFiles& f) { f.result["scan"] = nullptr; }),
+                   "made from points, but scan is null"));
   EXPECT_TRUE(says(told([](SolidResultFiles& f) { f.result["inputs"][2]["triangles"] = 1; }), "bad input"));
   EXPECT_TRUE(says(told([](SolidResultFiles& f) { f.result["inputs"][1]["points"] = 1; }), "bad input"));
-  EXPECT_TRUE(
-      says(told([](SolidResultFiles& f) { f.result["inputs"].push_back(f.result["inputs"][2]); }), "two files of points"));
+  EXPECT_TRUE(says(told([](SolidResultFiles& f) { f.result["inputs"].push_back(f.result["inputs"][2]); }),
+                   "two files of points"));
 }
 
 }  // namespace

@@ -157,7 +157,8 @@ void read_solid_scan(const LocateWords& words, const locate::ScanOptions& m, boo
   o.mesh = words.mesh;
   read.require(o.mesh.empty() || o.mesh.ends_with(".ply"),
                fmt::format("--mesh: the name \"{}\" does not end in .ply", o.mesh));
-  read.require(o.mesh.empty() || given, "--mesh is for a scan, which --uncertainty MM says that the blank is");
+  read.require(o.mesh.empty() || given,
+               "--mesh is for a scan, which --uncertainty MM says that the blank is");
   std::optional<double> step;
   if (!words.mesh_step.empty())
     read.number("--mesh-step", words.mesh_step, kSmallestLength, kLargestLength, "a length in mm above 0",
@@ -437,7 +438,8 @@ void add_scan_options(Form& form, LocateWords& w) {
   add("--simplify", w.simplify, "MM", "The outline may be drawn this much further in than it must [0.02]");
   add("--mesh", w.mesh, "FILE.ply",
       "Points in space, or a mesh with holes, become this closed mesh, which is then the blank");
-  add("--mesh-step", w.mesh_step, "MM", "About the length of its edges [as the points allow, 300,000 triangles]");
+  add("--mesh-step", w.mesh_step, "MM",
+      "About the length of its edges [as the points allow, 300,000 triangles]");
   add("--underside", w.underside, "z=MM",
       "Solids: the side that no scanner sees lies at this level, is solid and flat to --flat");
   add("--flat", w.flat, "MM", "Each point of the underside lies within this of material");

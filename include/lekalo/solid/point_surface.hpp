@@ -25,8 +25,8 @@ struct PointSurfaceOptions {
 };
 
 struct PointSurface {
-  /// Closed: every edge belongs to an even number of triangles. Corners are points given, but for those on the
-  /// floor and off its rim, which lie exactly on its level.
+  /// Closed: every edge belongs to an even number of triangles. Corners are points given, but for those on
+  /// the floor and off its rim, which lie exactly on its level.
   Mesh mesh;
   double step = 0, ball = 0;  ///< what was used, mm: the ball is not below three steps
   std::size_t below = 0;      ///< so many points lay below the floor
@@ -39,8 +39,8 @@ struct PointSurface {
 [[nodiscard]] Result<PointSurface> surface_through(const std::vector<Vector>& points,
                                                    const PointSurfaceOptions& options);
 
-/// The points, by their numbers, that have no other within a distance, mm. Cost: O(n log n) where no place has
-/// very many points.
+/// The points, by their numbers, that have no other within a distance, mm. Cost: O(n log n) where no place
+/// has very many points.
 [[nodiscard]] std::vector<std::uint32_t> lonely_points(const std::vector<Vector>& points, double distance);
 
 }  // namespace lekalo::solid

@@ -32,7 +32,8 @@ io::SolidInputRecord record_of(const char* role, const File& file) {
 std::vector<io::SolidInputRecord> input_records(const SolidLocateJob& job, const SolidInputs& in) {
   std::vector<io::SolidInputRecord> records;
   const File& blank = blank_of(job, in);
-  for (const auto& [role, file, read] : {std::tuple{"part", &job.part, &in.part}, {"blank", &blank, &in.blank}}) {
+  for (const auto& [role, file, read] :
+       {std::tuple{"part", &job.part, &in.part}, {"blank", &blank, &in.blank}}) {
     io::SolidInputRecord record = record_of(role, *file);
     record.unit = read->unit, record.triangles = read->triangles;
     records.push_back(std::move(record));
@@ -136,7 +137,8 @@ void place_proof(const SolidLocateJob& job, LocatedSolid& made) {
 Result<verify::LocateReport> rechecked(const SolidLocateJob& job, const SolidInputs& in,
                                        const LocatedSolid& made) {
   const File& blank = blank_of(job, in);
-  verify::LocateInputs inputs{{"result", made.result}, {job.part.name, job.part.bytes}, {blank.name, blank.bytes}, {}};
+  verify::LocateInputs inputs{
+      {"result", made.result}, {job.part.name, job.part.bytes}, {blank.name, blank.bytes}, {}};
   if (in.meshed) inputs.points = {job.blank.name, job.blank.bytes};
   std::string with_proof;
   if (!made.certificate.empty()) inputs.certificate = {"certificate", made.certificate};

@@ -19,8 +19,8 @@ tl::unexpected<Error> bad(const File& file, const std::string& sentence) {
   return failure(ErrorCode::bad_input, fmt::format("{}: {}", file.name, sentence));
 }
 
-/// The part of the radius that the ball of the mesh may have: what it does not pass is then small enough for the
-/// assumption to cover.
+/// The part of the radius that the ball of the mesh may have: what it does not pass is then small enough for
+/// the assumption to cover.
 constexpr double kBall = 0.8;
 
 }  // namespace
@@ -28,10 +28,11 @@ constexpr double kBall = 0.8;
 Result<void> mesh_points(const SolidLocateJob& job, const io::SolidFile& file, SolidInputs& in) {
   const std::optional<SolidScanOptions>& scan = job.options.scan;
   if (job.outputs.mesh.empty() || !scan || !scan->min_radius)
-    return bad(job.blank,
-               "points are not a closed surface, so nothing says where the material is; with --uncertainty MM, "
-               "--min-radius MM and --mesh FILE.ply they are meshed first, and --underside z=LEVEL --flat MM closes "
-               "the side on which the blank stands");
+    return bad(
+        job.blank,
+        "points are not a closed surface, so nothing says where the material is; with --uncertainty MM, "
+        "--min-radius MM and --mesh FILE.ply they are meshed first, and --underside z=LEVEL --flat MM closes "
+        "the side on which the blank stands");
   std::vector<Vector> points = file.mesh.vertices;
   if (scan->drop_outliers) {
     in.left_out = solid::lonely_points(points, *scan->drop_outliers);
@@ -44,8 +45,8 @@ Result<void> mesh_points(const SolidLocateJob& job, const io::SolidFile& file, S
         kept.push_back(points[k]);
     }
     if (!in.left_out.empty())
-      in.notices.push_back(fmt::format("{}: {} points have no other within {} mm and are left out", job.blank.name,
-                                       in.left_out.size(), *scan->drop_outliers));
+      in.notices.push_back(fmt::format("{}: {} points have no other within {} mm and are left out",
+                                       job.blank.name, in.left_out.size(), *scan->drop_outliers));
     points = std::move(kept);
   }
   const double guard = scan->coverage_factor * scan->uncertainty;
@@ -56,10 +57,11 @@ Result<void> mesh_points(const SolidLocateJob& job, const io::SolidFile& file, S
   Result<solid::PointSurface> made = solid::surface_through(points, how);
   if (!made) return failure(made.error().code, fmt::format("{}: {}", job.blank.name, made.error().message));
   if (made->below > 0)
-    in.notices.push_back(fmt::format("{}: {} points lie below the underside and are not used", job.blank.name,
-                                     made->below));
+    in.notices.push_back(
+        fmt::format("{}: {} points lie below the underside and are not used", job.blank.name, made->below));
   in.points = std::move(points);
-  in.meshed = MeshedPoints{{job.outputs.mesh, io::ply_text(made->mesh)}, file.unit, file.mesh.vertices.size()};
+  in.meshed =
+      MeshedPoints{{job.outputs.mesh, io::ply_text(made->mesh)}, file.unit, file.mesh.vertices.size()};
   return {};
 }
 
@@ -81,11 +83,13 @@ Result<void> hold_against_points(const SolidLocateJob& job, SolidInputs& in) {
   }
   in.points = {};
   if (against == 0) return {};
-  return bad(job.blank,
-             fmt::format("{} of its points lie inside the material that --min-radius {} promises, the deepest {:.4g} "
-                         "mm deep at ({:.6g}, {:.6g}, {:.6g}): they are outliers, which --drop-outliers MM leaves out, "
-                         "or the surface has places that no such ball reaches, or voids",
-                         against, *in.scan->min_radius, deepest, there.x, there.y, there.z));
+  return bad(
+      job.blank,
+      fmt::format(
+          "{} of its points lie inside the material that --min-radius {} promises, the deepest {:.4g} "
+          "mm deep at ({:.6g}, {:.6g}, {:.6g}): they are outliers, which --drop-outliers MM leaves out, "
+          "or the surface has places that no such ball reaches, or voids",
+          against, *in.scan->min_radius, deepest, there.x, there.y, there.z));
 }
 
 }  // namespace lekalo::jobs

@@ -30,8 +30,8 @@ FileKind kind_of(const File& file) {
 
 tl::unexpected<Error> refuse_points(const std::string& name, const char* way_out) {
   return failure(ErrorCode::bad_input,
-                 fmt::format("{}: points are not a closed surface, so nothing says where the material is; {}", name,
-                             way_out));
+                 fmt::format("{}: points are not a closed surface, so nothing says where the material is; {}",
+                             name, way_out));
 }
 
 tl::unexpected<Error> refuse_pair(const std::string& solid, const std::string& outline) {
@@ -63,7 +63,8 @@ Result<void> read_part(const SolidLocateJob& job, SolidInputs& in) {
                      in.notices);
 }
 
-/// A blank of points is meshed first; so is one whose mesh does not close, from its corners, if that has a name.
+/// A blank of points is meshed first; so is one whose mesh does not close, from its corners, if that has a
+/// name.
 Result<void> read_blank(const SolidLocateJob& job, SolidInputs& in) {
   LEKALO_TRY(io::SolidFile parsed, io::parse_solid(job.blank.bytes, job.blank.name, {job.options.units}));
   in.notices.insert(in.notices.end(), parsed.notices.begin(), parsed.notices.end());
@@ -74,7 +75,8 @@ Result<void> read_blank(const SolidLocateJob& job, SolidInputs& in) {
                                       in.problem.blank_coordinate_error, in.blank, in.notices);
     if (closed) {
       if (!job.outputs.mesh.empty())
-        in.notices.push_back(fmt::format("{} closes as it is, so {} is not written", job.blank.name, job.outputs.mesh));
+        in.notices.push_back(
+            fmt::format("{} closes as it is, so {} is not written", job.blank.name, job.outputs.mesh));
       return {};
     }
     if (job.outputs.mesh.empty()) return closed;
@@ -82,12 +84,12 @@ Result<void> read_blank(const SolidLocateJob& job, SolidInputs& in) {
     parsed = std::move(kept);
   }
   LEKALO_CHECK(mesh_points(job, parsed, in));
-  LEKALO_TRY(io::SolidFile meshed, io::parse_solid(in.meshed->mesh.bytes, in.meshed->mesh.name,
-                                                   {io::SolidUnit::millimetre}));
-  // What its surface is like where points lie close is nobody's to mend.
+  LEKALO_TRY(io::SolidFile meshed,
+             io::parse_solid(in.meshed->mesh.bytes, in.meshed->mesh.name, {io::SolidUnit::millimetre}));
+  // Nobody can mend its surface where points of two sides lie close.
   std::vector<std::string> unsaid;
-  LEKALO_CHECK(close_solid(in.meshed->mesh, std::move(meshed), in.problem.blank, in.problem.blank_coordinate_error,
-                           in.blank, unsaid));
+  LEKALO_CHECK(close_solid(in.meshed->mesh, std::move(meshed), in.problem.blank,
+                           in.problem.blank_coordinate_error, in.blank, unsaid));
   in.problem.blank_coordinate_error = parsed.coordinate_error;
   return {};
 }
@@ -157,8 +159,14 @@ Result<void> read_scan(const SolidScanOptions& how, SolidInputs& in) {
   scan.guard = how.coverage_factor * how.uncertainty + kDiagonal * scan.coordinate_error;
   scan.min_radius = how.min_radius, scan.max_dip = how.max_dip, scan.underside = how.underside;
   LEKALO_TRY(locate::GuaranteedSolid made, locate::guaranteed_solid(p.blank, scan));
-  in.scan = io::SolidScanRecord{scan.guard,  scan.min_radius,     scan.max_dip,      scan.underside,
-                                made.widest, made.unknown.size(), made.unknown_area, std::move(in.left_out),
+  in.scan = io::SolidScanRecord{scan.guard,
+                                scan.min_radius,
+                                scan.max_dip,
+                                scan.underside,
+                                made.widest,
+                                made.unknown.size(),
+                                made.unknown_area,
+                                std::move(in.left_out),
                                 std::move(made.assumptions)};
   p.blank_widths = std::move(made.widths);
   p.blank_width_error = made.width_error;

@@ -31,7 +31,7 @@ struct SolidInputs {
   solid::Vector pivot;  ///< of its window
   double turn_deg = 0;  ///< the half width of its turns
   ReadSolid part, blank;
-  /// Where the blank's file has points: what counts as the blank instead of it.
+  /// Counts as the blank instead of a file of points.
   std::optional<MeshedPoints> meshed;
   /// Its points until they have been held against the mesh, and the numbers of those that were left out.
   std::vector<solid::Vector> points;

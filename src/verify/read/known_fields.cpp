@@ -119,8 +119,9 @@ constexpr Known kSolidCertificate[] = {
     {"pivot"}, {"part_balls"}, {"blank_balls"}, {"planes"}, {"trees", kSolidTrees}};
 constexpr Known kSolidUnderside[] = {{"z"}, {"flat"}};
 constexpr Known kSolidScan[] = {
-    {"guard"},  {"min_radius"},        {"max_dip"}, {"underside", kSolidUnderside},
-    {"widest"}, {"unknown_triangles"}, {"proved"},  {"left_out"}, {"assumptions"}};
+    {"guard"},      {"min_radius"},        {"max_dip"}, {"underside", kSolidUnderside},
+    {"widest"},     {"unknown_triangles"}, {"proved"},  {"left_out"},
+    {"assumptions"}};
 constexpr Known kSolidFile[] = {{"path"}, {"sha256"}, {"boxes"}};
 constexpr Known kSolidPlacement[] = {{"format", kFormat},
                                      {"status"},

@@ -16,10 +16,12 @@ namespace {
 
 using Points = std::vector<std::array<double, 3>>;
 
-std::string place(const std::array<double, 3>& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p[0], p[1], p[2]); }
+std::string place(const std::array<double, 3>& p) {
+  return fmt::format("({:.9g}, {:.9g}, {:.9g})", p[0], p[1], p[2]);
+}
 
-/// Points by the cells that they are in. Millimetres of inches are rounded, so a corner is taken for a point that is
-/// nearer than a cell: 2^-44 of the largest coordinate.
+/// Points by the cells that they are in. Millimetres of inches are rounded, so a corner is taken for a point
+/// that is nearer than a cell: 2^-44 of the largest coordinate.
 class Cells {
  public:
   explicit Cells(const Points& points) {
@@ -37,19 +39,23 @@ class Cells {
     for (const double x : kWays)
       for (const double y : kWays)
         for (const double z : kWays)
-          if (std::ranges::binary_search(cells_, std::array{at(p[0], x), at(p[1], y), at(p[2], z)})) return true;
+          if (std::ranges::binary_search(cells_, std::array{at(p[0], x), at(p[1], y), at(p[2], z)}))
+            return true;
     return false;
   }
 
  private:
-  [[nodiscard]] double at(double coordinate, double aside) const { return std::round(coordinate / side_ + aside); }
+  [[nodiscard]] double at(double coordinate, double aside) const {
+    return std::round(coordinate / side_ + aside);
+  }
 
   double side_ = 0;
   Points cells_;
 };
 
 /// Says which corner of the mesh nobody measured.
-std::optional<std::string> unmeasured(const Points& points, const SolidMesh& blank, const WrittenSolidScan& scan) {
+std::optional<std::string> unmeasured(const Points& points, const SolidMesh& blank,
+                                      const WrittenSolidScan& scan) {
   const double level = scan.underside ? approximate(scan.underside->z) : 0,
                flat = scan.underside ? approximate(scan.underside->flat) : -1;
   const Cells cells(points);
@@ -77,7 +83,8 @@ bool contradicts(const std::array<double, 3>& point, const PlacedSolid& blank, d
 
 }  // namespace
 
-std::vector<std::string> faults_of_points(const Points& points, const SolidMesh& blank, const WrittenSolidScan& scan) {
+std::vector<std::string> faults_of_points(const Points& points, const SolidMesh& blank,
+                                          const WrittenSolidScan& scan) {
   std::vector<std::string> faults;
   std::vector<char> out(points.size(), 0);
   for (const std::size_t number : scan.left_out) {
@@ -101,8 +108,8 @@ std::vector<std::string> faults_of_points(const Points& points, const SolidMesh&
   for (const auto& p : counted) {
     ask();
     if (std::ranges::binary_search(corners, p) || !contradicts(p, body, guard)) continue;
-    faults.push_back(
-        fmt::format("point {} lies deeper in what counts as material than points are uncertain by", place(p)));
+    faults.push_back(fmt::format(
+        "point {} lies deeper in what counts as material than points are uncertain by", place(p)));
     break;
   }
   return faults;

@@ -160,11 +160,13 @@ void SolidCheck::check_scan(SolidMesh& blank) {
 /// Holds the blank against the points that it was made from.
 Result<void> SolidCheck::check_points(const SolidMesh& blank) {
   if (d_.points.has_value() != inputs_.points.has_value()) {
-    find("the result {} points that its blank was made from", d_.points ? "was checked without the" : "names no");
+    find("the result {} points that its blank was made from",
+         d_.points ? "was checked without the" : "names no");
     return {};
   }
   if (!d_.points) {
-    if (d_.scan && !d_.scan->left_out.empty()) find("scan.left_out names points, but there is no file of points");
+    if (d_.scan && !d_.scan->left_out.empty())
+      find("scan.left_out names points, but there is no file of points");
     return {};
   }
   if (!d_.scan) {
@@ -174,13 +176,15 @@ Result<void> SolidCheck::check_points(const SolidMesh& blank) {
   LEKALO_TRY(const SolidReading reading, read_measured_points(*inputs_.points, d_.points->unit));
   if (reading.open) {
     open_ = true;
-    note(fmt::format("that the blank was made from measured points was not rechecked: {} is not read here, because {}",
-                     inputs_.points->name, *reading.open));
+    note(fmt::format(
+        "that the blank was made from measured points was not rechecked: {} is not read here, because {}",
+        inputs_.points->name, *reading.open));
     return {};
   }
   const auto& points = reading.mesh.near;
   if (points.size() != d_.points->count)
-    find("{} points are said to be measured, but {} has {}", d_.points->count, inputs_.points->name, points.size());
+    find("{} points are said to be measured, but {} has {}", d_.points->count, inputs_.points->name,
+         points.size());
   for (const std::string& fault : faults_of_points(points, blank, *d_.scan)) find("{}", fault);
   return {};
 }

@@ -332,7 +332,8 @@ Result<SolidReading> read_measured_points(const Document& document, SolidUnit un
   if (known) return made.take();
   LEKALO_CHECK(read_text_rows(document, [&](TextRow&& row) -> Result<void> {
     if (row.count < 3) return bad_line(document, row.line, "no z on this line");
-    if (const auto fault = made.add_vertex(std::move(row.numbers))) return bad_line(document, row.line, *fault);
+    if (const auto fault = made.add_vertex(std::move(row.numbers)))
+      return bad_line(document, row.line, *fault);
     return {};
   }));
   return made.take();
