@@ -19,14 +19,12 @@ namespace {
 constexpr double kMostCells = 4e7;
 /// As many triangles as the surface is meant to have at most, if nobody says how fine it is to be.
 constexpr double kTriangles = 300'000;
+/// The radius of the ball has so many of the cells' sides, unless the points are many more.
+constexpr double kStepsOfBall = 3;
 /// Edges may become so many times longer than they should be, so that the cells are not too many.
 constexpr double kCoarser = 4;
 /// A floor's cells away from its rim are joined to squares of twice so many cells.
 constexpr std::int32_t kFloorSquare = 8;
-
-struct Sizes {
-  double step = 0, ball = 0;
-};
 
 /// Guesses the area that the points lie on, by cells that have several each: a surface passes about one and a
 /// half for each square of their size.
@@ -50,27 +48,27 @@ double area_of(const std::vector<Vector>& points, const Box& box) {
   }
 }
 
-double cells_of(const Box& box, const Sizes& sizes) {
-  const double around = 2 * (sizes.ball + 3 * sizes.step);
+double cells_of(const Box& box, double step, double ball) {
+  const double around = 2 * (ball + 3 * step);
   const Vector size = box.high - box.low;
-  return (size.x + around) * (size.y + around) * (size.z + around) / (sizes.step * sizes.step * sizes.step);
+  return (size.x + around) * (size.y + around) * (size.z + around) / (step * step * step);
 }
 
-Result<Sizes> sizes_for(const std::vector<Vector>& points, const Box& box,
+/// The size of the cells: about the distance of the points, and small beside the ball.
+Result<double> step_for(const std::vector<Vector>& points, const Box& box,
                         const PointSurfaceOptions& options) {
-  Sizes sizes;
   const double area = area_of(points, box);
-  const double wanted = options.step.value_or(
-      std::max(1.2 * std::sqrt(area / static_cast<double>(points.size())), std::sqrt(2 * area / kTriangles)));
-  for (sizes.step = wanted; sizes.step <= kCoarser * wanted; sizes.step *= 1.1) {
-    sizes.ball = std::max(options.ball, 3 * sizes.step);
-    if (cells_of(box, sizes) <= kMostCells) return sizes;
-  }
+  const double wanted =
+      std::min(options.step.value_or(std::max(1.2 * std::sqrt(area / static_cast<double>(points.size())),
+                                              std::sqrt(2 * area / kTriangles))),
+               options.ball / kStepsOfBall);
+  for (double step = wanted; step <= kCoarser * wanted && 1.5 * step <= options.ball; step *= 1.1)
+    if (cells_of(box, step, options.ball) <= kMostCells) return step;
   const Vector size = box.high - box.low;
   return failure(
       ErrorCode::bad_input,
-      fmt::format("the points reach over {:.6g} x {:.6g} x {:.6g} mm, too far for edges of {:.4g} mm; leave "
-                  "out those that lie far away, or say that the edges may be longer",
+      fmt::format("the points reach over {:.6g} x {:.6g} x {:.6g} mm, too far for cells of {:.4g} mm; leave "
+                  "out those that lie far away, or let the ball or the edges be larger",
                   size.x, size.y, size.z, wanted));
 }
 
@@ -289,16 +287,16 @@ Result<PointSurface> surface_through(const std::vector<Vector>& points, const Po
   if (options.floor) box.low.z = *options.floor;
   if (box.low == box.high)
     return failure(ErrorCode::bad_input, "all points are at one place, so they give no surface");
-  LEKALO_TRY(const Sizes sizes, sizes_for(used, box, options));
+  LEKALO_TRY(const double step, step_for(used, box, options));
   const std::size_t below = points.size() - used.size();
-  const PointGrid grid(std::move(used), box, sizes.step, sizes.ball, options.floor.has_value());
-  PointSurface made{Surface(grid, options.floor.has_value()).made(), sizes.step, sizes.ball, below};
+  const PointGrid grid(std::move(used), box, step, options.ball, options.floor.has_value());
+  PointSurface made{Surface(grid, options.floor.has_value()).made(), step, below};
   if (!encloses_something(made))
     return failure(
         ErrorCode::bad_input,
         fmt::format("the points enclose nothing: somewhere a ball of {:.4g} mm falls in between "
                     "them; measure what is missing there, or close the side on which the body stands",
-                    sizes.ball));
+                    options.ball));
   return made;
 }
 

@@ -18,7 +18,7 @@ using solid::Vector;
 
 TEST(SolidScan, EveryPlacementIsConfirmedAndHoldsInTheTrueBlank) {
   const std::uint64_t seed = cases::seed();
-  std::size_t placed = 0;
+  std::size_t placed = 0, of_points = 0;
   for (std::size_t k = 0; k < cases::case_count(4); ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << k);
     Random random(seed, 2000 + k);
@@ -29,12 +29,14 @@ TEST(SolidScan, EveryPlacementIsConfirmedAndHoldsInTheTrueBlank) {
     for (Vector& p : part.vertices) p = 0.88 * p;
     const solid::Mesh mesh =
         cases::scanned(blank, static_cast<std::uint32_t>(200 / blank.radius), 1.9 * scan.uncertainty, random);
-    // Binary numbers of either length, and decimals.
+    // Binary numbers of either length, decimals, and points alone.
     SolidLocateJob job;
     job.part = {"part.stl", solid_files::stl_binary(part)};
-    job.blank = k % 3 == 0   ? File{"scan.stl", solid_files::stl_binary(mesh)}
-                : k % 3 == 1 ? File{"scan.ply", solid_files::ply<double>(mesh, solid_files::PlyForm::big)}
-                             : File{"scan.obj", solid_files::obj(mesh)};
+    job.blank = k % 4 == 0   ? File{"scan.stl", solid_files::stl_binary(mesh)}
+                : k % 4 == 1 ? File{"scan.ply", solid_files::ply<double>(mesh, solid_files::PlyForm::big)}
+                : k % 4 == 2 ? File{"scan.obj", solid_files::obj(mesh)}
+                             : File{"scan.xyz", solid_files::points(mesh.vertices)};
+    if (k % 4 == 3) job.outputs.mesh = "mesh.ply";
     job.options.scan = scan;
     job.options.gap = 0.02, job.options.shift = 1, job.options.tilt_deg = 1;
     RunControl run;
@@ -43,13 +45,14 @@ TEST(SolidScan, EveryPlacementIsConfirmedAndHoldsInTheTrueBlank) {
     ASSERT_TRUE(located.has_value()) << located.error().message;
     const io::SolidDocument& d = located->document;
     if (!d.inside() || !d.scan->proved()) continue;
-    ++placed;
+    ++placed, of_points += k % 4 == 3 ? 1 : 0;
     const solid::Motion motion = motion_of(d.pose);
     for (const Vector p : part.vertices) {
       // The part's own numbers are rounded in its file.
       EXPECT_GE(blank.depth(motion(p)), *d.clearance - 1e-5);
     }
   }
+  EXPECT_GE(8 * of_points, cases::case_count(4)) << "few points were placed in, so little was tested";
   EXPECT_GE(3 * placed, cases::case_count(4)) << "few parts were placed, so little was tested";
 }
 

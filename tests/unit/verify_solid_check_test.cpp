@@ -195,7 +195,8 @@ TEST(SolidCheck, AFileHasARoleAndAStartSaysNothingElse) {
   Json other = start;
   other["role"] = "stop";
   EXPECT_EQ(with_input(other),
-            "bad input: result.json: field inputs[2].role is \"stop\", not \"part\", \"blank\", \"start\"");
+            "bad input: result.json: field inputs[2].role is \"stop\", not \"part\", \"blank\", \"start\", "
+            "\"points\"");
   for (const char* key : {"units", "triangles"}) {
     other = start;
     other[key] = 12;

@@ -19,8 +19,8 @@ struct PointSurfaceOptions {
   /// The level on which the body stands, mm: it is closed there by a flat floor, and points below are left
   /// out. Without it the points have to be all around.
   std::optional<double> floor = {};
-  /// About the length of the edges, mm, > 0; without it as fine as the points allow, and 300,000
-  /// triangles.
+  /// About the length of the edges, mm, > 0, but a third of the ball's radius at most; without it as fine as
+  /// the points allow, and 300,000 triangles.
   std::optional<double> step = {};
 };
 
@@ -28,8 +28,8 @@ struct PointSurface {
   /// Closed: every edge belongs to an even number of triangles. Corners are points given, but for those on
   /// the floor and off its rim, which lie exactly on its level.
   Mesh mesh;
-  double step = 0, ball = 0;  ///< what was used, mm: the ball is not below three steps
-  std::size_t below = 0;      ///< so many points lay below the floor
+  double step = 0;        ///< the side of the cells that were used, mm
+  std::size_t below = 0;  ///< so many points lay below the floor
 };
 
 /// Makes a surface (docs/design/solid.md has the method). Deterministic.

@@ -9,7 +9,8 @@ namespace lekalo::jobs {
 [[nodiscard]] Result<void> mesh_points(const SolidLocateJob& job, const io::SolidFile& file, SolidInputs& in);
 
 /// Holds the guaranteed blank against all points that it was made from: one that lies deeper in it than
-/// points are uncertain by says that a statement is not true. bad_input then. \pre the blank has its widths
+/// points are uncertain by says that a statement is not true. bad_input then; none is, where parts are
+/// unknown. \pre the blank has its widths
 [[nodiscard]] Result<void> hold_against_points(const SolidLocateJob& job, SolidInputs& in);
 
 }  // namespace lekalo::jobs

@@ -100,6 +100,8 @@ std::vector<std::string> faults_of_points(const Points& points, const SolidMesh&
   counted.erase(std::ranges::unique(counted).begin(), counted.end());
   if (auto fault = unmeasured(counted, blank, scan)) faults.push_back(*std::move(fault));
 
+  // Nothing is promised where something is unknown.
+  if (!scan.proved) return faults;
   // The corners of the mesh are on its surface.
   Points corners = blank.near;
   std::ranges::sort(corners);
