@@ -127,8 +127,9 @@ void PointGrid::flood() {
   }
 }
 
-/// From where its middle may be the ball reaches the cells around, but for those of points. It stays a cell
-/// away from them, so that it does not pass between two.
+/// From where its middle is the ball reaches the cells around, but for those of points and those where its
+/// middle could be, too, but does not come. It stays a cell away from them, so that it does not pass between
+/// two.
 void PointGrid::roll() {
   std::vector<std::uint32_t> from(state_.size(), kNone), front;
   for (std::uint32_t at = 0; at < state_.size(); ++at)
@@ -146,7 +147,7 @@ void PointGrid::roll() {
     }
   spread(
       from, std::move(front), ball_ - step_, [&](std::uint32_t at) { return middle(place(at)); },
-      [&](std::size_t to) { return (state_[to] & (kOccupied | kOutside)) == 0; });
+      [&](std::size_t to) { return (state_[to] & (kOccupied | kOutside)) == 0 && near_[to] != kNone; });
   for (std::size_t at = 0; at < state_.size(); ++at)
     if (from[at] != kNone) state_[at] |= kOutside;
 }

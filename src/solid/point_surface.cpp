@@ -244,17 +244,24 @@ class Surface {
   Mesh mesh_;
 };
 
-/// The surface is two sheets that are hardly apart where the ball falls in.
-bool encloses_something(const PointSurface& made) {
-  constexpr double kSheets = 0.25;
-  double volume = 0, area = 0;
-  for (const auto& [a, b, c] : made.mesh.triangles) {
-    const Vector first = made.mesh.vertices.front(), p = made.mesh.vertices[a] - first;
-    const Vector n =
-        cross(made.mesh.vertices[b] - made.mesh.vertices[a], made.mesh.vertices[c] - made.mesh.vertices[a]);
-    volume += dot(p, n) / 6, area += norm(n) / 2;
+/// The surface is two sheets on the same points where the ball falls in. Triangles around a corner look away
+/// from each other there.
+bool encloses_something(const Mesh& mesh) {
+  constexpr double kTurnedAway = 0.5, kShare = 0.2;
+  std::vector<Vector> sum(mesh.vertices.size());
+  std::vector<double> all(mesh.vertices.size());
+  double volume = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vector p = mesh.vertices[t[0]], n = cross(mesh.vertices[t[1]] - p, mesh.vertices[t[2]] - p);
+    volume += dot(p - mesh.vertices[0], n);
+    for (const std::uint32_t corner : t) sum[corner] = sum[corner] + n, all[corner] += norm(n);
   }
-  return volume > kSheets * made.step * area;
+  double whole = 0, sheets = 0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    whole += all[k];
+    if (norm(sum[k]) < kTurnedAway * all[k]) sheets += all[k];
+  }
+  return volume > 0 && sheets < kShare * whole;
 }
 
 Result<void> check(const std::vector<Vector>& points, const PointSurfaceOptions& options) {
@@ -291,12 +298,7 @@ Result<PointSurface> surface_through(const std::vector<Vector>& points, const Po
   const std::size_t below = points.size() - used.size();
   const PointGrid grid(std::move(used), box, step, options.ball, options.floor.has_value());
   PointSurface made{Surface(grid, options.floor.has_value()).made(), step, below};
-  if (!encloses_something(made))
-    return failure(
-        ErrorCode::bad_input,
-        fmt::format("the points enclose nothing: somewhere a ball of {:.4g} mm falls in between "
-                    "them; measure what is missing there, or close the side on which the body stands",
-                    options.ball));
+  made.encloses = encloses_something(made.mesh);
   return made;
 }
 

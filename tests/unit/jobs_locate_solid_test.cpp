@@ -449,6 +449,20 @@ TEST(JobsLocateSolid, APointInTheMaterialContradictsWhatIsSaid) {
   EXPECT_EQ(verdict(job, located), verify::Verdict::unproved);
 }
 
+TEST(JobsLocateSolid, UnknownPartsOfTheBlankAreDrawn) {
+  std::vector<solid::Vector> points;
+  SolidLocateJob job = points_job(points);
+  Random random(7);
+  job.blank = {"scan.obj", solid_files::obj(cases::Casting(random).scanned(0.018, random))};
+  job.outputs.mesh.clear();
+  job.outputs.picture = SolidPictureForm::html;
+  EXPECT_FALSE(says(made(job).picture, "blank, not measured"));
+  job.options.scan->underside.reset();
+  const LocatedSolid located = made(job);
+  EXPECT_FALSE(located.holds());
+  EXPECT_TRUE(says(located.picture, "blank, not measured"));
+}
+
 TEST(JobsLocateSolid, PointsNeedAReach) {
   std::vector<solid::Vector> points;
   SolidLocateJob job = points_job(points);
@@ -460,7 +474,12 @@ TEST(JobsLocateSolid, PointsNeedAReach) {
   EXPECT_TRUE(says(refusal(job).message, "--min-radius MM and --mesh FILE.ply"));
   job = points_job(points);
   job.options.scan->underside.reset();
-  EXPECT_TRUE(says(refusal(job).message, "somewhere a ball of 3.984 mm falls in between them"));
+  // Nobody has measured the underside, so it is bridged and unknown.
+  const LocatedSolid located = made(job);
+  EXPECT_FALSE(located.holds());
+  EXPECT_FALSE(located.document.scan->proved());
+  EXPECT_TRUE(warns(located, "somewhere a ball of 3.984 mm falls in between the points"));
+  EXPECT_EQ(verdict(job, located), verify::Verdict::incomplete);
 }
 
 TEST(SolidsAreTold, ByWhatIsInTheFiles) {

@@ -30,12 +30,14 @@ struct PointSurface {
   Mesh mesh;
   double step = 0;        ///< the side of the cells that were used, mm
   std::size_t below = 0;  ///< so many points lay below the floor
+  /// False where the ball falls in between the points, so that hardly anything is inside.
+  bool encloses = false;
 };
 
 /// Makes a surface (docs/design/solid.md has the method). Deterministic.
-/// Fails with bad_input for less than four points and where the ball falls in between them, so that
-/// nothing is inside, or where they are spread too far for the cells; with usage for numbers out of range.
-/// Cost: O(n log n) for n points, and the cells of a grid, at most 40 million of 9 bytes.
+/// Fails with bad_input for less than four points and where they are spread too far for the cells; with usage
+/// for numbers out of range. Cost: O(n log n) for n points, and the cells of a grid, at most 40 million of 9
+/// bytes.
 [[nodiscard]] Result<PointSurface> surface_through(const std::vector<Vector>& points,
                                                    const PointSurfaceOptions& options);
 

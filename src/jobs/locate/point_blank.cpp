@@ -22,6 +22,22 @@ tl::unexpected<Error> bad(const File& file, const std::string& sentence) {
 /// The part of the radius that the ball of the mesh may have: what it does not pass is then small enough for
 /// the assumption to cover.
 constexpr double kBall = 0.8;
+/// Looks, in coarse cells, for a larger ball that does not fall in between the points.
+bool widen(const std::vector<Vector>& points, solid::PointSurfaceOptions& how) {
+  constexpr double kWider = 1.15, kCells = 6, kSafety = 1.1;
+  const solid::Box box = solid::box_of(points);
+  const Vector size = box.high - box.low;
+  solid::PointSurfaceOptions trial = how;
+  for (const double largest = std::max({size.x, size.y, size.z}); trial.ball < largest;
+       trial.ball *= kWider) {
+    trial.step = trial.ball / kCells;
+    const Result<solid::PointSurface> made = solid::surface_through(points, trial);
+    if (!made || !made->encloses) continue;
+    how.ball = kSafety * trial.ball;
+    return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -54,8 +70,20 @@ Result<void> mesh_points(const SolidLocateJob& job, const io::SolidFile& file, S
   how.ball = std::max(kBall * (*scan->min_radius - guard), 0.1 * *scan->min_radius);
   how.step = scan->step;
   if (scan->underside) how.floor = scan->underside->z;
+  const double first = how.ball;
   Result<solid::PointSurface> made = solid::surface_through(points, how);
+  while (made && !made->encloses && widen(points, how)) made = solid::surface_through(points, how);
   if (!made) return failure(made.error().code, fmt::format("{}: {}", job.blank.name, made.error().message));
+  if (!made->encloses)
+    return bad(
+        job.blank,
+        "the points enclose nothing; measure all sides, or close the one on which the blank stands with "
+        "--underside z=LEVEL --flat MM");
+  if (how.ball > first)
+    in.notices.push_back(
+        fmt::format("{}: somewhere a ball of {:.4g} mm falls in between the points; gaps that one of "
+                    "{:.4g} mm does not pass are bridged, and unknown where they are wide",
+                    job.blank.name, first, how.ball));
   if (made->below > 0)
     in.notices.push_back(
         fmt::format("{}: {} points lie below the underside and are not used", job.blank.name, made->below));

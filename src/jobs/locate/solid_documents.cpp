@@ -46,6 +46,7 @@ draw::SolidScene scene_of(const SolidLocateJob& job, const SolidInputs& in, cons
   scene.part = std::move(part.mesh), scene.allowances = std::move(part.allowances);
   scene.blank = in.problem.blank;
   scene.placement = {d.pose, d.inside(), d.clearance.value_or(0), d.contacts, d.work};
+  scene.unknown = in.unknown;
   scene.unknown_area = d.scan ? d.scan->unknown_area : 0;
   scene.upper_bound = d.upper_bound;
   scene.min_allowance = d.min_allowance, scene.shortfall = d.shortfall().value_or(0);

@@ -168,6 +168,7 @@ Result<void> read_scan(const SolidScanOptions& how, SolidInputs& in) {
                                 made.unknown_area,
                                 std::move(in.left_out),
                                 std::move(made.assumptions)};
+  in.unknown = std::move(made.unknown);
   p.blank_widths = std::move(made.widths);
   p.blank_width_error = made.width_error;
   return {};

@@ -37,6 +37,7 @@ struct SolidInputs {
   std::vector<solid::Vector> points;
   std::vector<std::uint32_t> left_out;
   std::optional<io::SolidScanRecord> scan;
+  std::vector<std::uint32_t> unknown;  ///< triangles of the scan that no assumption covers
   std::vector<std::string> notices;
 };
 
