@@ -54,10 +54,13 @@ TEST(SolidCertificate, AStrangerSaysTheSame) {
   Random random(8);
   std::vector<SolidResultFiles> all;
   const char* const freedoms[]{"xyz", "c-xyz", "six"};
-  for (const TermKind kind :
-       {TermKind::plane, TermKind::ball, TermKind::face, TermKind::part_face, TermKind::any}) {
-    const SolidResultFiles honest =
-        cases::solid_proof(random, kind, freedoms[random.below(3)], random.below(2)).files;
+  for (const TermKind kind : {TermKind::plane, TermKind::ball, TermKind::face, TermKind::part_face,
+                              TermKind::any, TermKind::edges}) {
+    const char* const freedom = freedoms[random.below(3)];
+    const std::size_t depth = random.below(2);
+    const SolidResultFiles honest = kind == TermKind::edges
+                                        ? cases::edges_proof(random, freedom, depth).files
+                                        : cases::solid_proof(random, kind, freedom, depth).files;
     EXPECT_EQ(honest.told(), "confirmed") << static_cast<int>(kind);
     all.push_back(honest);
     for (std::uint64_t k = 0; k < cases::case_count(4); ++k) {

@@ -18,8 +18,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
 
 import check_solid_certificate as proof
 import exact
+import exact_solids as space
 import truth
-from check_solid_certificate import cross, dot, plus, sub, times
+from exact_solids import cross, dot, plus, sub, times
 
 INFORMATION = [r"/(seed|work|version|method|run|warnings)(/.*)?$", r"/inputs/\d+/path$", r"/certificate_file/path$",
                r"/contacts/\d+/multiplier$"]
@@ -58,7 +59,7 @@ class Mesh:
 
     def __init__(self, triangles):
         self.all = triangles
-        self.kept = [t for t in triangles if any(proof.normal(t))]
+        self.kept = [t for t in triangles if any(space.normal(t))]
         self.known = {}
         edges = collections.Counter(
             frozenset((tuple(t[k - 1]), tuple(t[k]))) for t in self.kept for k in range(3))
@@ -68,7 +69,7 @@ class Mesh:
     def ball_holds(self, ball, wanted):
         key = (tuple(ball), wanted)
         if key not in self.known:
-            self.known[key] = proof.ball_holds(ball, self.kept, wanted)
+            self.known[key] = space.ball_holds(ball, self.kept, wanted)
         return self.known[key]
 
     def one_of_each_component(self):
@@ -106,7 +107,7 @@ def of_segments(a, b, c, d):
 
 def pierces(a, b, t, slack):
     """A segment may pass through a triangle, or come as near to it as a share `slack` of its size."""
-    n = proof.normal(t)
+    n = space.normal(t)
     room = slack * (1 + dot(n, n))
     above, below = dot(n, sub(a, t[0])), dot(n, sub(b, t[0]))
     if above * below > 0 and min(abs(above), abs(below)) > room:
@@ -117,7 +118,7 @@ def pierces(a, b, t, slack):
 
 
 def of_triangles(s, t):
-    corners = [proof.squared_distance(p, t) for p in s] + [proof.squared_distance(p, s) for p in t]
+    corners = [space.squared_distance(p, t) for p in s] + [space.squared_distance(p, s) for p in t]
     return min(corners + [of_segments(s[k - 1], s[k], t[j - 1], t[j]) for k in range(3) for j in range(3)])
 
 
@@ -162,12 +163,12 @@ def quaternion(pose):
 
 
 def place(pose, p):
-    return plus(proof.turned(quaternion(pose), p), [pose[axis] for axis in "xyz"])
+    return plus(space.turned(quaternion(pose), p), [pose[axis] for axis in "xyz"])
 
 
 def between(before, after):
     """A quaternion of the turn that comes after one rotation to give another."""
-    return proof.product(after, before[:1] + times(before[1:], -1))
+    return space.product(after, before[:1] + times(before[1:], -1))
 
 
 def most_turns(document):
@@ -239,12 +240,12 @@ class Solids:
         there = [[place(document, p) for p in t] for t in part.kept]
         if not document["inside"]:
             # A corner outside is enough, and what else there may be is not excused.
-            return any(not proof.inside(p, blank.kept) for t in there[:48] for p in t)
+            return any(not space.inside(p, blank.kept) for t in there[:48] for p in t)
         key = part, blank, tuple(document["quaternion"]), tuple(document[axis] for axis in "xyz")
         if key not in self.clearances:
             least = least_distance(there, blank.kept)
-            lies_in = least and not any(proof.inside(p, there) for p in blank.one_of_each_component()) and all(
-                proof.inside(place(document, p), blank.kept) for p in part.one_of_each_component())
+            lies_in = least and not any(space.inside(p, there) for p in blank.one_of_each_component()) and all(
+                space.inside(place(document, p), blank.kept) for p in part.one_of_each_component())
             self.clearances[key] = least if lies_in else None
         least = self.clearances[key]
         return least is not None and document["clearance"] ** 2 <= least
@@ -281,12 +282,14 @@ class Solids:
         return covers and (not document["certificate_file"] or document["certificate_file"]["boxes"] == leaves)
 
     def leaf_holds(self, leaf, cell, tree, certificate, bound, part, blank):
-        first = {"part_face": part.all}
-        second = {"face": blank.all, "plane": certificate["planes"]}
+        def edges(mesh):
+            return [(t[k], t[k - 2]) for t in mesh.all for k in range(3)]
+        first = {"part_face": part.all, "edges": edges(part)}
+        second = {"face": blank.all, "plane": certificate["planes"], "edges": edges(blank)}
         used = []
         for kind, i, j, m in leaf:
             one, other = first.get(kind, certificate["part_balls"]), second.get(kind, certificate["blank_balls"])
-            if kind not in ("ball", "plane", "face", "part_face") or m < 0 or any(
+            if kind not in ("ball", "plane", "face", "part_face", "edges") or m < 0 or any(
                     k != int(k) or not 0 <= k < len(rows) for k, rows in ((i, one), (j, other))):
                 return False
             used.append((kind, str(one[int(i)]), str(other[int(j)]), m))
@@ -324,10 +327,10 @@ def contact_holds(document, contact, part, blank):
     for role, mesh in (("part", part), ("blank", blank)):
         number, point = contact[f"{role}_triangle"], contact[f"{role}_point"]
         if number != int(number) or not 0 <= number < len(mesh.all) or len(point) != 3 or \
-                proof.squared_distance(point, mesh.all[int(number)]) > slack ** 2:
+                space.squared_distance(point, mesh.all[int(number)]) > slack ** 2:
             return False
     way = sub(place(document, contact["part_point"]), contact["blank_point"])
-    return abs(proof.root(dot(way, way)) - contact["distance"]) <= slack
+    return abs(space.root(dot(way, way)) - contact["distance"]) <= slack
 
 
 # Oracles. ------------------------------------------------------------------------------------------------------

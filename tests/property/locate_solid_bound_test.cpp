@@ -40,14 +40,12 @@ FramedPose within(const SolidCell& cell, Random& random) {
 /// What terms say about a box with these multipliers.
 double bound_of(const std::vector<SolidForm>& terms, const CellView& view, Random& random) {
   PoseForm sum;
-  double whole = 0, least = -kInfinity;
+  double least = -kInfinity;
   for (const SolidForm& term : terms) {
-    const double multiplier = random.uniform(0, 1);
-    sum.add(multiplier, term.form);
-    whole += multiplier;
+    sum.add(random.uniform(0, 1), term.form);
     least = std::max(least, term.least);
   }
-  return std::max(least, sum.most(view) / whole);
+  return std::max(least, sum.most(view));
 }
 
 TEST(SolidBounds, NoContactAllowsLessThanAPoseOfTheBoxHas) {
@@ -175,6 +173,7 @@ TEST(SolidBounds, ALoneContactAllowsWhatThePosesOfTheBoxHave) {
   EXPECT_GT(kinds[SolidTerm::Kind::ball], 30u);
   EXPECT_GT(kinds[SolidTerm::Kind::face], 30u);
   EXPECT_GT(kinds[SolidTerm::Kind::part_face], 30u);
+  EXPECT_GT(kinds[SolidTerm::Kind::edges], 30u);
 }
 
 }  // namespace

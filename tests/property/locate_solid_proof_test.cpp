@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "lekalo/locate/solid.hpp"
@@ -115,6 +116,28 @@ struct Check {
     return made;
   }
 
+  /// The edges of a term at a pose: how far they pass, times n . u, and n . u.
+  struct Passing {
+    Wide p, d, q, g, u;
+    Real passes = 0, seen = 0;
+  };
+  [[nodiscard]] Passing passing(const SolidTerm& term, const Pose& middle, const Pose& pose) const {
+    const auto end = [](const solid::Mesh& mesh, std::uint32_t edge, std::uint32_t k) {
+      return corners(mesh, edge / 3)[(edge + k) % 3];
+    };
+    const Wide a = end(problem.part, term.part, 0), b = end(problem.part, term.part, 1);
+    Wide q = end(problem.blank, term.blank, 0), r = end(problem.blank, term.blank, 1);
+    const auto along = [&](const Pose& at) { return minus(placed(b, at), placed(a, at)); };
+    if (dot(cross(along(middle), minus(r, q)), minus(placed(a, middle), q)) < 0) std::swap(q, r);
+    Passing made{placed(a, pose), along(pose), q, minus(r, q), cross(along(middle), minus(r, q))};
+    const Real angle = length(made.u);
+    made.u = times(1 / angle, made.u);
+    const Wide n = times(1 / angle, cross(made.d, made.g));
+    made.passes = dot(n, minus(made.p, q));
+    made.seen = dot(n, made.u);
+    return made;
+  }
+
   /// The sum of the terms at a pose. With `chord` the distance |w| of balls is replaced by its bound that
   /// touches it at the middle of the box.
   [[nodiscard]] Real sum(const std::vector<SolidTerm>& terms, const Pose& middle, const Pose& pose,
@@ -122,6 +145,12 @@ struct Check {
     Real sum = 0;
     for (const SolidTerm& term : terms) {
       Real value = 0;
+      if (term.kind == SolidTerm::Kind::edges) {
+        const Passing at = passing(term, middle, pose);
+        EXPECT_GE(beta, 0);
+        sum += term.multiplier * (at.passes - beta * at.seen);
+        continue;
+      }
       if (term.kind == SolidTerm::Kind::ball) {
         const auto &part = proof.part_balls[term.part], &blank = proof.blank_balls[term.blank];
         const auto apart = [&](const Pose& at) {
@@ -147,10 +176,20 @@ struct Check {
     return sum;
   }
 
-  /// Every triangle has its point over it.
+  /// Every triangle has its point over it, and edges pass each other.
   void expect_over(const std::vector<SolidTerm>& terms, const Pose& middle, const Pose& pose) const {
     for (const SolidTerm& term : terms) {
       if (term.kind == SolidTerm::Kind::ball || term.kind == SolidTerm::Kind::plane) continue;
+      if (term.kind == SolidTerm::Kind::edges) {
+        const auto [p, d, q, g, u, passes, seen] = passing(term, middle, pose);
+        const Wide w = minus(p, q), beside = cross(g, u), across = cross(d, u);
+        EXPECT_GT(passes, 0);
+        EXPECT_LT(dot(beside, w), 0);
+        EXPECT_GT(dot(beside, plus(w, d)), 0);
+        EXPECT_LT(dot(across, w), 0);
+        EXPECT_GT(dot(across, minus(w, g)), 0);
+        continue;
+      }
       const Over at = over(term, middle, pose);
       EXPECT_GE(dot(at.normal, minus(at.point, at.corner[0])), 0);
       const Wide n = cross(minus(at.corner[1], at.corner[0]), minus(at.corner[2], at.corner[0]));

@@ -89,32 +89,52 @@ Ball ball(Random& random, double radius) {
 
 solid::Vector vector(const Both3& p) { return {p[0].near.low, p[1].near.low, p[2].near.low}; }
 
+std::array<solid::Vector, 3> face(const SolidMesh& mesh, std::uint32_t triangle) {
+  std::array<solid::Vector, 3> at;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& p = mesh.near[mesh.triangles[triangle][k]];
+    at[k] = {p[0], p[1], p[2]};
+  }
+  return at;
+}
+std::array<solid::Vector, 2> edge(const SolidMesh& mesh, std::uint32_t number) {
+  const auto at = face(mesh, number / 3);
+  return {at[number % 3], at[(number + 1) % 3]};
+}
+
 /// What a term says of the clearance at a pose, as it is defined.
 double value(const LeafTerm& term, const Setting& s, const solid::Motion& motion) {
-  const auto face = [&](const SolidMesh& mesh) {
-    std::array<solid::Vector, 3> at;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto& p = mesh.near[mesh.triangles[term.triangle][k]];
-      at[k] = {p[0], p[1], p[2]};
-    }
-    return at;
-  };
   const auto height = [](const std::array<solid::Vector, 3>& t, solid::Vector p) {
     const solid::Vector n = cross(t[1] - t[0], t[2] - t[0]);
     return std::abs(dot(n, p - t[0])) / norm(n);
   };
-  if (term.part_ball == nullptr)
-    return height(face(s.part), motion.back(vector(term.blank_ball->centre))) -
+  if (term.kind == LeafTerm::Kind::edges) {
+    const auto [a, b] = edge(s.part, term.part);
+    const auto [q, r] = edge(s.blank, term.blank);
+    const solid::Vector n = cross(motion.turned(b - a), r - q);
+    return std::abs(dot(n, motion(a) - q)) / norm(n);
+  }
+  if (term.kind == LeafTerm::Kind::part_face)
+    return height(face(s.part, term.part), motion.back(vector(term.blank_ball->centre))) -
            term.blank_ball->radius.near.low;
   const solid::Vector a = motion(vector(term.part_ball->centre));
   const double r = term.part_ball->radius.near.low;
-  if (term.plane != nullptr) {
+  if (term.kind == LeafTerm::Kind::plane) {
     const solid::Vector n = vector(term.plane->normal);
     return (dot(n, a) - term.plane->level.near.low) / norm(n) - r;
   }
-  if (term.blank_ball != nullptr)
+  if (term.kind == LeafTerm::Kind::ball)
     return norm(a - vector(term.blank_ball->centre)) - r - term.blank_ball->radius.near.low;
-  return height(face(s.blank), a) - r;
+  return height(face(s.blank, term.blank), a) - r;
+}
+
+/// What the bound is taken times in a term.
+double weight(const LeafTerm& term, const Setting& s, const solid::Motion& motion) {
+  if (term.kind != LeafTerm::Kind::edges) return 1;
+  const auto [a, b] = edge(s.part, term.part);
+  const auto [q, r] = edge(s.blank, term.blank);
+  const solid::Vector at_middle = cross(s.motion(s.middle).turned(b - a), r - q);
+  return dot(cross(motion.turned(b - a), r - q), at_middle) / dot(at_middle, at_middle);
 }
 
 /// Terms of any kind; `kept` keeps what they look at.
@@ -125,29 +145,39 @@ struct Kept {
 std::vector<LeafTerm> some_terms(Random& random, Setting& s, Kept& kept, bool faces) {
   kept.balls.reserve(20), kept.planes.reserve(20);
   std::vector<LeafTerm> terms;
-  for (std::size_t count = 1 + random.below(4); count > 0; --count) {
+  for (std::size_t count = 1 + random.below(4); terms.size() < count;) {
     LeafTerm term;
     term.multiplier = number(random.uniform(0.1, 3));
-    term.triangle = static_cast<std::uint32_t>(random.below(4));
     const auto add_ball = [&] {
       kept.balls.push_back(ball(random, random.below(3) == 0 ? 0 : random.uniform(0, 2)));
       return &kept.balls.back();
     };
-    const std::size_t kind = random.below(faces ? 4 : 2);
-    if (kind < 3) term.part_ball = add_ball();
-    if (kind == 0 || kind == 3) term.blank_ball = add_ball();
-    if (kind == 1) {
+    term.kind = static_cast<LeafTerm::Kind>(random.below(faces ? 5 : 2));
+    if (term.kind == LeafTerm::Kind::edges) {
+      // Edges that cross at the middle of the box, as seen along what they have in common.
+      term.part = static_cast<std::uint32_t>(random.below(12));
+      term.blank = static_cast<std::uint32_t>(random.below(12));
+      const solid::Motion middle = s.motion(s.middle);
+      const auto [a, b] = edge(s.part, term.part);
+      const auto [q, r] = edge(s.blank, term.blank);
+      const solid::Vector d = middle.turned(b - a), n = cross(d, r - q), w = middle(a) - q;
+      const double along = -dot(w, cross(r - q, n)) / dot(n, n), across = -dot(w, cross(d, n)) / dot(n, n);
+      if (std::abs(along - 0.5) > 0.4 || std::abs(across - 0.5) > 0.4) continue;
+      terms.push_back(term);
+      continue;
+    }
+    term.part = term.blank = static_cast<std::uint32_t>(random.below(4));
+    if (term.kind != LeafTerm::Kind::part_face) term.part_ball = add_ball();
+    if (term.kind == LeafTerm::Kind::ball || term.kind == LeafTerm::Kind::part_face)
+      term.blank_ball = add_ball();
+    if (term.kind == LeafTerm::Kind::plane) {
       const Ball plane = ball(random, random.uniform(-5, 5));
       kept.planes.push_back({plane.centre, plane.radius});
       term.plane = &kept.planes.back();
     }
     // The ball comes to lie over the middle of the face at the middle of the box.
     const auto over = [&](const SolidMesh& mesh) {
-      std::array<solid::Vector, 3> at;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto& p = mesh.near[mesh.triangles[term.triangle][k]];
-        at[k] = {p[0], p[1], p[2]};
-      }
+      const auto at = face(mesh, term.part);
       const solid::Vector n = cross(at[1] - at[0], at[2] - at[0]);
       return 1.0 / 3 * (at[0] + at[1] + at[2]) +
              random.uniform(2, 5) * (random.below(2) == 0 ? 1 : -1) / norm(n) * n;
@@ -156,8 +186,8 @@ std::vector<LeafTerm> some_terms(Random& random, Setting& s, Kept& kept, bool fa
       centre = {number(p.x), number(p.y), number(p.z)};
     };
     const solid::Motion middle = s.motion(s.middle);
-    if (kind == 2) put(kept.balls.back().centre, middle.back(over(s.blank)));
-    if (kind == 3) put(kept.balls.back().centre, middle(over(s.part)));
+    if (term.kind == LeafTerm::Kind::face) put(kept.balls.back().centre, middle.back(over(s.blank)));
+    if (term.kind == LeafTerm::Kind::part_face) put(kept.balls.back().centre, middle(over(s.part)));
     terms.push_back(term);
   }
   return terms;
@@ -166,8 +196,9 @@ std::vector<LeafTerm> some_terms(Random& random, Setting& s, Kept& kept, bool fa
 double mean(const std::vector<LeafTerm>& terms, const Setting& s, const solid::Motion& motion) {
   double sum = 0, all = 0;
   for (const LeafTerm& term : terms) {
-    sum += term.multiplier.near.low * value(term, s, motion);
-    all += term.multiplier.near.low;
+    const double share = term.multiplier.near.low * weight(term, s, motion);
+    sum += share * value(term, s, motion);
+    all += share;
   }
   return sum / all;
 }
@@ -213,7 +244,8 @@ TEST(SolidCertificate, NoPoseOfItsWindowHasMoreClearance) {
   Random random(5);
   for (const char* freedom : {"xyz", "c-xyz", "six"})
     for (std::uint64_t k = 0; k < cases::case_count(4); ++k) {
-      const cases::SolidProof proof = cases::solid_proof(random, TermKind::any, freedom, k % 4);
+      const cases::SolidProof proof = k % 4 == 3 ? cases::edges_proof(random, freedom, 1)
+                                                 : cases::solid_proof(random, TermKind::any, freedom, k % 4);
       EXPECT_EQ(proof.files.told(), "confirmed") << freedom << k;
       const Json& window = proof.files.result["window"];
       const auto mesh = [](const std::string& bytes) {

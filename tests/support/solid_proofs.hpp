@@ -18,8 +18,8 @@
 
 namespace lekalo::cases {
 
-/// What terms of a certificate are made of.
-enum class TermKind : std::uint8_t { plane, ball, face, part_face, any };
+/// What terms of a certificate are made of; any of those before.
+enum class TermKind : std::uint8_t { plane, ball, face, part_face, any, edges };
 
 struct SolidProof {
   SolidResultFiles files;
@@ -87,57 +87,18 @@ inline solid::Motion turn_of(const std::array<double, 4>& q) {
   return made;
 }
 
-/// A result whose bound is `spare` above the distance of the faces. The window has shifts of 0.5 mm and turns
-/// of a tenth of a degree.
-inline SolidProof solid_proof(Random& random, TermKind kinds, const std::string& freedom, std::size_t depth,
-                              double spare = 0.5) {
+/// A result for a part that was moved back by `there`, the rotation of `start` and a shift, with this leaf
+/// all over a window of shifts of 0.5 mm and turns of a tenth of a degree, which is divided `depth` times.
+struct Proved {
+  solid::Mesh part, blank;
+  std::array<double, 4> start;
+  solid::Motion there;
+  Json part_balls = Json::array(), blank_balls = Json::array(), planes = Json::array(), leaf = Json::array();
+  double stock = 0;  ///< the clearance at `there`
+};
+inline SolidProof windowed(const Proved& what, const std::string& freedom, std::size_t depth, double spare) {
   using namespace solid_proof_detail;
-  std::vector<HalfSpace> planes;
-  for (const double side : {-1.0, 1.0})
-    for (const solid::Vector n : {solid::Vector{side, 0.01, 0.02}, {-0.02, side, 0.01}, {0.01, -0.02, side}})
-      planes.push_back({1 / norm(n) * n, random.uniform(60, 75)});
-  while (planes.size() < 8) planes.push_back({direction(random), random.uniform(62, 70)});
-  const double stock = random.uniform(0.5, 3);
-  const std::array<double, 4> start{1, random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-  solid::Motion there = turn_of(start);
-  there.shift = {random.uniform(-50, 50), random.uniform(-50, 50), random.uniform(-50, 50)};
-  const solid::Mesh at_place = polytope(planes), part = in_single_precision(moved_back(at_place, there));
-  std::vector<HalfSpace> outer = planes;
-  for (HalfSpace& h : outer) h.most += stock;
-  const solid::Mesh blank = in_single_precision(polytope(outer));
-
-  Json part_balls = Json::array(), blank_balls = Json::array(), half_spaces = Json::array(),
-       leaf = Json::array();
-  for (const HalfSpace& h : planes) {
-    const Face inner = face_of(at_place, h.n), wall = face_of(blank, h.n);
-    if (inner.area < 1) continue;
-    const TermKind kind = kinds == TermKind::any ? static_cast<TermKind>(random.below(4)) : kinds;
-    // A little inside of the part, and beside the blank.
-    const double off = 1e-3, far = kind == TermKind::ball ? 500 : 3;
-    const solid::Vector foot = kind == TermKind::face ? wall.middle - stock * h.n : inner.middle;
-    const auto share = inner.area / 1000;
-    if (kind != TermKind::part_face)
-      part_balls.push_back(row(there.back(foot - off * h.n), random.below(2) == 0 ? 0 : 0.5 * off));
-    if (kind == TermKind::ball || kind == TermKind::part_face)
-      blank_balls.push_back(row(inner.middle + (stock + far + off) * h.n, far));
-    const auto of_part = static_cast<int>(part_balls.size()) - 1,
-               of_blank = static_cast<int>(blank_balls.size()) - 1;
-    switch (kind) {
-      case TermKind::ball:
-        leaf.push_back({"ball", of_part, of_blank, share});
-        break;
-      case TermKind::face:
-        leaf.push_back({"face", of_part, wall.triangle, share});
-        break;
-      case TermKind::part_face:
-        leaf.push_back({"part_face", inner.triangle, of_blank, share});
-        break;
-      default:
-        half_spaces.push_back(row(-2 * h.n, -2 * (h.most + stock + 1e-4)));
-        leaf.push_back({"plane", of_part, static_cast<int>(half_spaces.size()) - 1, share});
-    }
-  }
-
+  const auto& [part, blank, start, there, part_balls, blank_balls, half_spaces, leaf, stock] = what;
   const double shift = 0.5, degrees = freedom == "xyz" ? 0 : 0.1,
                most = std::tan(degrees * std::numbers::pi / 360) * (1 + 1e-14);
   const solid::Vector pivot = there.back({1, -2, 3});
@@ -179,6 +140,90 @@ inline SolidProof solid_proof(Random& random, TermKind kinds, const std::string&
   result["gap"] = made.bound - (stock - 1e-3);
   result["contacts"] = Json::array();
   return made;
+}
+
+/// A result whose bound is `spare` above the distance of the faces. The window has shifts of 0.5 mm and turns
+/// of a tenth of a degree.
+inline SolidProof solid_proof(Random& random, TermKind kinds, const std::string& freedom, std::size_t depth,
+                              double spare = 0.5) {
+  using namespace solid_proof_detail;
+  std::vector<HalfSpace> planes;
+  for (const double side : {-1.0, 1.0})
+    for (const solid::Vector n : {solid::Vector{side, 0.01, 0.02}, {-0.02, side, 0.01}, {0.01, -0.02, side}})
+      planes.push_back({1 / norm(n) * n, random.uniform(60, 75)});
+  while (planes.size() < 8) planes.push_back({direction(random), random.uniform(62, 70)});
+  const double stock = random.uniform(0.5, 3);
+  const std::array<double, 4> start{1, random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+  solid::Motion there = turn_of(start);
+  there.shift = {random.uniform(-50, 50), random.uniform(-50, 50), random.uniform(-50, 50)};
+  Proved made;
+  made.start = start, made.there = there, made.stock = stock;
+  const solid::Mesh at_place = polytope(planes);
+  made.part = in_single_precision(moved_back(at_place, there));
+  std::vector<HalfSpace> outer = planes;
+  for (HalfSpace& h : outer) h.most += stock;
+  const solid::Mesh& blank = made.blank = in_single_precision(polytope(outer));
+
+  Json &part_balls = made.part_balls, &blank_balls = made.blank_balls, &half_spaces = made.planes,
+       &leaf = made.leaf;
+  for (const HalfSpace& h : planes) {
+    const Face inner = face_of(at_place, h.n), wall = face_of(blank, h.n);
+    if (inner.area < 1) continue;
+    const TermKind kind = kinds == TermKind::any ? static_cast<TermKind>(random.below(4)) : kinds;
+    // A little inside of the part, and beside the blank.
+    const double off = 1e-3, far = kind == TermKind::ball ? 500 : 3;
+    const solid::Vector foot = kind == TermKind::face ? wall.middle - stock * h.n : inner.middle;
+    const auto share = inner.area / 1000;
+    if (kind != TermKind::part_face)
+      part_balls.push_back(row(there.back(foot - off * h.n), random.below(2) == 0 ? 0 : 0.5 * off));
+    if (kind == TermKind::ball || kind == TermKind::part_face)
+      blank_balls.push_back(row(inner.middle + (stock + far + off) * h.n, far));
+    const auto of_part = static_cast<int>(part_balls.size()) - 1,
+               of_blank = static_cast<int>(blank_balls.size()) - 1;
+    switch (kind) {
+      case TermKind::ball:
+        leaf.push_back({"ball", of_part, of_blank, share});
+        break;
+      case TermKind::face:
+        leaf.push_back({"face", of_part, wall.triangle, share});
+        break;
+      case TermKind::part_face:
+        leaf.push_back({"part_face", inner.triangle, of_blank, share});
+        break;
+      default:
+        half_spaces.push_back(row(-2 * h.n, -2 * (h.most + stock + 1e-4)));
+        leaf.push_back({"plane", of_part, static_cast<int>(half_spaces.size()) - 1, share});
+    }
+  }
+  return windowed(made, freedom, depth, spare);
+}
+
+/// A result for a block in a larger one with two cores, one `stock` below the block and one above it: an edge
+/// of each passes one of the block.
+inline SolidProof edges_proof(Random& random, const std::string& freedom, std::size_t depth,
+                              double spare = 0.05) {
+  using namespace solid_proof_detail;
+  Proved made;
+  made.stock = random.uniform(0.7, 2);
+  made.start = {1, random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+  made.there = turn_of(made.start);
+  made.there.shift = {random.uniform(-50, 50), random.uniform(-50, 50), random.uniform(-50, 50)};
+  // All of it lies askew in the blank's frame.
+  solid::Motion askew = turn(direction(random), random.uniform(0, 3));
+  askew.shift = {1, -2, 3};
+  const auto placed = [&](solid::Vector low, solid::Vector high) {
+    solid::Mesh mesh = block(low, high);
+    for (solid::Vector& p : mesh.vertices) p = askew(p);
+    return mesh;
+  };
+  const double over = 5 + made.stock;
+  made.part = in_single_precision(moved_back(placed({-5, -5, -5}, {5, 5, 5}), made.there));
+  made.blank = placed({-20, -20, -20}, {20, 20, 20});
+  append(made.blank, placed({-9, -8, -over - 1}, {random.uniform(-3, 3), 8, -over}));
+  append(made.blank, placed({-9, -8, over}, {random.uniform(-3, 3), 8, over + 1}));
+  made.blank = in_single_precision(made.blank);
+  made.leaf = Json::array({{"edges", 2, 45, 1}, {"edges", 6, 77, 1}});
+  return windowed(made, freedom, depth, spare);
 }
 
 }  // namespace lekalo::cases

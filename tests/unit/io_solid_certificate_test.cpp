@@ -19,11 +19,12 @@ locate::SolidProof sample() {
   tree.low = {-5, -5, -5, 0, 0, -0.125};
   tree.high = {5, 5, 5, 0, 0, 0.125};
   tree.nodes = {
-      {SolidTree::Axis::turn_z, 0, 0, 0}, {SolidTree::Axis::leaf, 0, 0, 1}, {SolidTree::Axis::leaf, 0, 1, 3}};
+      {SolidTree::Axis::turn_z, 0, 0, 0}, {SolidTree::Axis::leaf, 0, 0, 1}, {SolidTree::Axis::leaf, 0, 1, 4}};
   tree.terms = {{SolidTerm::Kind::plane, 0, 0, 1},
                 {SolidTerm::Kind::ball, 0, 0, 3},
                 {SolidTerm::Kind::face, 0, 1, 2},
-                {SolidTerm::Kind::part_face, 1, 0, 5}};
+                {SolidTerm::Kind::part_face, 1, 0, 5},
+                {SolidTerm::Kind::edges, 5, 3, 7}};
   proof.trees = {tree};
   return proof;
 }
@@ -42,7 +43,7 @@ TEST(SolidCertificate, IsWrittenAsTheFormatSays) {
             R"("turn_x": [0, 0], "turn_y": [0, 0], "turn_z": [-0.125, 0.125], "nodes": [
     ["turn_z", 0],
     [["plane", 0, 0, 1]],
-    [["ball", 0, 0, 3], ["face", 0, 6, 2], ["part_face", 1, 0, 5]]
+    [["ball", 0, 0, 3], ["face", 0, 6, 2], ["part_face", 1, 0, 5], ["edges", 5, 18, 7]]
   ]}]}
 }
 )");

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -52,6 +54,21 @@ Json by_faces(double shift) {
 Json by_part_faces(double shift) {
   return one_leaf(Json::array({{"part_face", 8, 0, 1}, {"part_face", 10, 1, 1}}), Json::array(),
                   Json::array({{-7, -1, -1, 1}, {7, -1, -1, 1}}), Json::array(), shift);
+}
+
+/// Two edges of the part that pass edges of two cores 2 above and below it. \returns the files, for shifts by
+/// `shift`
+SolidResultFiles by_edges(double bound, double shift = 0.5) {
+  SolidResultFiles files =
+      cube_in_cube(one_leaf(Json::array({{"edges", 2, 3 * 15, 1}, {"edges", 6, 3 * 25 + 2, 1}}),
+                            Json::array(), Json::array(), Json::array(), shift),
+                   bound, "xyz", shift);
+  solid::Mesh blank = cases::block({-20, -20, -20}, {20, 20, 20});
+  cases::append(blank, cases::block({-9, -8, -8}, {3, 8, -7}));
+  cases::append(blank, cases::block({-9, -8, 7}, {3, 8, 8}));
+  files.blank = solid_files::stl_binary(blank);
+  files.result["inputs"][1]["triangles"] = 36, files.result["contacts"] = Json::array();
+  return files;
 }
 
 TEST(SolidCertificate, HalfSpacesProveACubeInACubeToTheLastDigit) {
@@ -105,6 +122,50 @@ TEST(SolidCertificate, CornersOverFacesProveItWhereTheirFeetStay) {
     EXPECT_TRUE(says(cube_in_cube(faces).told(), "do not prove")) << first << " " << second;
     EXPECT_TRUE(says(cube_in_cube(part_faces).told(), "do not prove")) << first << " " << second;
   }
+}
+
+TEST(SolidCertificate, EdgesProveItWhereTheyPassEachOther) {
+  constexpr double kSpare = 1e-14;  // the direction is a little shorter than 1
+  EXPECT_EQ(by_edges(2 + kSpare).told(), "confirmed");
+  EXPECT_TRUE(says(by_edges(2 - kSpare).told(), "do not prove"));
+  // The part's edge is at y = -5 from x = -5 to 5, those of the cores at x = 3 from y = -8 to 8, 2 off.
+  const auto between = [](const char* axis, double low, double high) {
+    SolidResultFiles files = by_edges(2 + kSpare);
+    files.result["certificate"]["trees"][0][axis] = {low, high};
+    return files.told();
+  };
+  for (const auto& [axis, low, high] : {std::tuple{"x", -2.0, 8.0}, {"y", -3.0, 13.0}, {"z", -2.0, 2.0}}) {
+    EXPECT_EQ(between(axis, low + 0.001, high - 0.001), "confirmed") << axis;
+    EXPECT_TRUE(says(between(axis, low, high - 0.001), "do not prove")) << axis;
+    EXPECT_TRUE(says(between(axis, low + 0.001, high), "do not prove")) << axis;
+  }
+  // The others are parallel, do not cross, or are not there.
+  for (int edge = 0; edge < 36; ++edge) {
+    SolidResultFiles files = by_edges(2 + kSpare);
+    files.result["certificate"]["trees"][0]["nodes"][0][0][1] = edge;
+    // Those of the lower face that cross x = 3, each in two triangles.
+    const bool passes = std::ranges::count(std::array{1, 2, 3, 4, 12, 20}, edge) == 1;
+    EXPECT_EQ(files.told() == "confirmed", passes) << edge << files.told();
+  }
+  for (const Json& none : {Json{"edges", 36, 45, 1}, Json{"edges", 2, 108, 1}, Json{"edges", -1, 45, 1},
+                           Json{"edges", 2, 0.5, 1}}) {
+    SolidResultFiles files = by_edges(2 + kSpare);
+    files.result["certificate"]["trees"][0]["nodes"][0][0] = none;
+    EXPECT_TRUE(says(files.told(), "has a term that is none")) << none;
+  }
+}
+
+TEST(SolidCertificate, EdgesTurn) {
+  // Turned by a about z, edges pass 2 from each other, at an angle whose sine is the cosine of a.
+  const auto turned = [](double bound) {
+    SolidResultFiles files = by_edges(bound, 0.1);
+    files.result["freedom"] = "c-xyz", files.result["window"]["turn_deg"] = 2;
+    const double t = std::tan(2 * std::numbers::pi / 180 / 2) * (1 + 1e-15);
+    files.result["certificate"]["trees"][0]["turn_z"] = {-t, t};
+    return files.told();
+  };
+  EXPECT_EQ(turned(2.0001), "confirmed");
+  EXPECT_TRUE(says(turned(1.9999), "do not prove"));
 }
 
 TEST(SolidCertificate, ABallMayGoThroughAFaceUpToItsRadius) {

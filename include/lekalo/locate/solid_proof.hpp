@@ -27,13 +27,15 @@ struct SolidPlane {
 
 struct SolidTerm {
   enum class Kind : std::uint8_t {
-    ball,      ///< a part ball and a blank ball
-    plane,     ///< a part ball and a plane
-    face,      ///< a part ball over a triangle of the blank
-    part_face  ///< a triangle of the part and a blank ball over it
+    ball,       ///< a part ball and a blank ball
+    plane,      ///< a part ball and a plane
+    face,       ///< a part ball over a triangle of the blank
+    part_face,  ///< a triangle of the part and a blank ball over it
+    edges       ///< an edge of the part and one of the blank
   };
   Kind kind = Kind::ball;
   /// The numbers of what the term is made of, in the tables of the proof or among the triangles of a mesh.
+  /// Edge 3 f + k leads from corner k of triangle f to its next one.
   std::uint32_t part = 0, blank = 0;
   std::uint32_t multiplier = 0;  ///< of any scale
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace lekalo::io {
 namespace {
@@ -20,6 +21,8 @@ const char* name_of(SolidTerm::Kind kind) {
       return "plane";
     case SolidTerm::Kind::face:
       return "face";
+    case SolidTerm::Kind::edges:
+      return "edges";
     case SolidTerm::Kind::part_face:
       break;
   }
@@ -28,10 +31,17 @@ const char* name_of(SolidTerm::Kind kind) {
 
 void write(JsonWriter& json, Vector v, double number) { json.list({v.x, v.y, v.z, number}); }
 
+/// The number in the file of what a term is made of: of a triangle, or of an edge.
+std::uint32_t number_in_file(SolidTerm::Kind kind, SolidTerm::Kind of_triangles, std::uint32_t number,
+                             std::span<const std::uint32_t> triangles) {
+  if (kind == of_triangles) return triangles[number];
+  return kind == SolidTerm::Kind::edges ? 3 * triangles[number / 3] + number % 3 : number;
+}
+
 void write(JsonWriter& json, const SolidTerm& term, const SolidNumbers& numbers) {
-  const bool of_part = term.kind == SolidTerm::Kind::part_face, of_blank = term.kind == SolidTerm::Kind::face;
-  json.list({name_of(term.kind), of_part ? numbers.part[term.part] : term.part,
-             of_blank ? numbers.blank[term.blank] : term.blank, term.multiplier});
+  json.list({name_of(term.kind),
+             number_in_file(term.kind, SolidTerm::Kind::part_face, term.part, numbers.part),
+             number_in_file(term.kind, SolidTerm::Kind::face, term.blank, numbers.blank), term.multiplier});
 }
 
 void write(JsonWriter& json, const SolidTree& tree, const SolidTree::Node& node,

@@ -23,6 +23,9 @@ constexpr double kPoint = 0x1p-25, kErrors = 4;
 constexpr double kAtPlace = 0x1p-36, kSameNormal = 0.999;
 /// No face is used that is so many times longer than wide.
 constexpr double kMostSlender = 4096;
+/// No edges are used the sine of whose angle is below this; nor in a box where it may become, as seen along
+/// the normal of both at the middle, less than so much of what it is there.
+constexpr double kLeastAngle = 1.0 / 64, kLeastShare = 0.25;
 /// Coordinates and lengths are rounded to 2^-53 of themselves, a few times.
 constexpr double kRounding = 0x1p-50;
 
@@ -102,6 +105,32 @@ Vector middle_normal(const TriangleTree& tree, Vector place, double within) {
   return length > 0.01 ? 1 / length * sum : Vector{};
 }
 
+/// The term of two edges, or none where they are not seen to cross all over the box along the direction in
+/// which they pass each other at its middle.
+std::optional<SolidForm> form_of(const SolidEdges& e, const CellView& cell) {
+  const Vector d = cell.turned.turned(e.d), passes = cross(d, e.g);
+  const double angle = norm(passes), of_d = norm(e.d), of_g = norm(e.g);
+  if (!(angle > kLeastAngle * of_d * of_g)) return std::nullopt;
+  const double side = dot(passes, cell.turned.turned(e.p) + cell.middle.at - e.q) < 0 ? -1 : 1;
+  const Vector u = side / angle * passes, g = side / angle * e.g, beside = cross(1 / of_g * e.g, side * u);
+  const Vector p1 = e.p + e.d, q1 = e.q + e.g, d1 = side / of_d * e.d;
+  // A corner that is off turns its edge, and moves the other one's foot far away by so much.
+  const double loss = e.off * (2 + 8 * cell.far * (of_d + of_g) / angle), foot = dot(beside, e.q);
+  PoseForm form = passing(e.p, e.d, e.q, g, loss, cell);
+  const Vector turn = cross(g, u);
+  form.whole_turned = {turn.x * e.d, turn.y * e.d, turn.z * e.d};
+  PoseForm seen = form;
+  seen.constant = -kLeastShare, seen.across = {}, seen.turned = form.whole_turned;
+  for (const PoseForm& condition :
+       {form, seen, height(-beside, e.p, loss - foot, cell), height(beside, p1, foot + loss, cell),
+        passing(e.p, -d1, e.q, u, loss, cell), passing(e.p, d1, q1, u, loss, cell)})
+    if (!condition.never_negative(cell)) return std::nullopt;
+  form.constant += 2 * loss;
+  form.size += of_d * of_g / angle * cell.far / kLeastShare;
+  for (std::size_t i = 0; i < 3; ++i) form.turned[i] = form.turned[i] - e.width * form.whole_turned[i];
+  return SolidForm{form, 0};
+}
+
 }  // namespace
 
 SolidBounds::SolidBounds(const SolidMeter& meter)
@@ -174,6 +203,36 @@ std::optional<SolidFace> SolidBounds::face(const Side& side, std::uint32_t trian
   return made;
 }
 
+/// The two edges on which the points of a contact lie.
+std::optional<SolidEdges> SolidBounds::edges(const SolidContact& contact) const {
+  if (contact.part_triangle == kNoTriangle) return std::nullopt;
+  struct Edge {
+    std::uint32_t number = 0;
+    Vector from, along;
+  };
+  const auto edge_at = [&](const solid::Mesh& mesh, std::uint32_t triangle,
+                           Vector place) -> std::optional<Edge> {
+    const auto& t = mesh.triangles[triangle];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const Vector from = mesh.vertices[t[k]], along = mesh.vertices[t[(k + 1) % 3]] - from;
+      if (norm(cross(along, place - from)) <= kAtPlace * scale_ * norm(along))
+        return Edge{3 * triangle + k, from, along};
+    }
+    return std::nullopt;
+  };
+  const auto of_part = edge_at(part_.mesh, contact.part_triangle, contact.part),
+             of_blank = edge_at(blank_.mesh, contact.blank_triangle, contact.blank);
+  if (!of_part || !of_blank) return std::nullopt;
+  return SolidEdges{of_part->number,
+                    of_blank->number,
+                    start_.turned(of_part->from - meter_.frame().pivot),
+                    start_.turned(of_part->along),
+                    of_blank->from,
+                    of_blank->along,
+                    part_.error + blank_.error + kRounding * (part_.tree.largest() + blank_.tree.largest()),
+                    std::max(0.0, meter_.width(contact.blank_triangle) - meter_.width_error())};
+}
+
 std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const Motion& motion) const {
   const Vector n = contact.normal;
   KnownSolid made;
@@ -189,6 +248,7 @@ std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const 
   if (made.part.empty() || made.blank.empty()) return std::nullopt;
   made.part_face = face(part_, contact.part_triangle);
   made.blank_face = face(blank_, contact.blank_triangle);
+  made.edges = edges(contact);
   if (made.blank_face)
     made.blank_face->width = std::max(0.0, meter_.width(contact.blank_triangle) - meter_.width_error());
   made.plane.normal = n;
@@ -238,6 +298,8 @@ std::optional<SolidForm> SolidBounds::form(const KnownSolid& known, SolidChoice 
           return std::nullopt;
       return SolidForm{height(n, p, least + part.ball.radius + f.width - f.loss, cell), 0};
     }
+    case SolidTerm::Kind::edges:
+      return form_of(*known.edges, cell);
     case SolidTerm::Kind::part_face:
       break;
   }
@@ -261,7 +323,7 @@ std::optional<SolidRow> SolidBounds::row(const KnownSolid& known, const CellView
     double level = kInfinity;
     SolidChoice choice;
   };
-  Best plain, face, part_face;
+  Best plain, face, part_face, edges;
   const auto take = [](Best& best, double level, SolidChoice choice) {
     if (level < best.level) best = {level, choice};
   };
@@ -300,8 +362,9 @@ std::optional<SolidRow> SolidBounds::row(const KnownSolid& known, const CellView
            {SolidTerm::Kind::part_face, 0, j});
     }
   }
+  if (known.edges) edges = {0, {SolidTerm::Kind::edges, 0, 0}};
   std::optional<SolidRow> chosen;
-  for (const Best& best : {plain, face, part_face}) {
+  for (const Best& best : {plain, face, part_face, edges}) {
     if (!(best.level < kInfinity)) continue;
     const auto term = form(known, best.choice, cell);
     if (!term) continue;

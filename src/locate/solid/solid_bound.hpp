@@ -20,6 +20,14 @@ struct SolidFace {
   double width = 0;  ///< the least it has, mm
 };
 
+/// An edge of the part, from the pivot and turned as at the start, and one of the blank that passes it.
+struct SolidEdges {
+  std::uint32_t part_edge = 0, blank_edge = 0;  ///< as in SolidTerm
+  solid::Vector p, d, q, g;                     ///< from p to p + d, and from q to q + g
+  double off = 0;                               ///< what corners are off, mm
+  double width = 0;                             ///< of the blank's triangle, mm, the least it has
+};
+
 /// A contact that was met at some pose, and what terms can be made of it. The smallest ball of each kind lies
 /// beside the point of contact itself. Which term is best depends on the box of poses.
 struct KnownSolid {
@@ -31,9 +39,10 @@ struct KnownSolid {
   std::vector<SolidBall> blank;
   SolidPlane plane;
   std::optional<SolidFace> part_face, blank_face;
+  std::optional<SolidEdges> edges;
 };
 
-/// One term of a contact: numbers among its balls, where it has some.
+/// One term of a contact: numbers among its balls, where it is made of some.
 struct SolidChoice {
   SolidTerm::Kind kind = SolidTerm::Kind::plane;
   std::uint16_t part = 0, blank = 0;
@@ -80,6 +89,7 @@ class SolidBounds {
   [[nodiscard]] std::vector<SolidBall> balls(const Side& side, solid::Vector from,
                                              solid::Vector direction) const;
   [[nodiscard]] std::optional<SolidFace> face(const Side& side, std::uint32_t triangle) const;
+  [[nodiscard]] std::optional<SolidEdges> edges(const SolidContact& contact) const;
 
   const SolidMeter& meter_;
   std::vector<double> none_;

@@ -20,10 +20,8 @@ struct Quadratic {
   double yz = 0, zx = 0, xy = 0;
 };
 
-Quadratic at_shift(const PoseForm& form, Vector t) {
-  const double along = form.constant + dot(form.linear, t) + form.square * dot(t, t);
-  const std::array<Vector, 3> w{form.turned[0] + t.x * form.lever, form.turned[1] + t.y * form.lever,
-                                form.turned[2] + t.z * form.lever};
+/// D along + sum of w_ij (D R)_ij.
+Quadratic quadratic(double along, const std::array<Vector, 3>& w) {
   const double trace = w[0].x + w[1].y + w[2].z, all = along - trace;
   return {along + trace,
           {2 * (w[2].y - w[1].z), 2 * (w[0].z - w[2].x), 2 * (w[1].x - w[0].y)},
@@ -33,25 +31,53 @@ Quadratic at_shift(const PoseForm& form, Vector t) {
           2 * (w[0].y + w[1].x)};
 }
 
-/// Calls each(coefficient, that of D, corner of the shifts, index along each turn).
+Quadratic at_shift(const PoseForm& form, Vector t) {
+  const auto& across = form.across;
+  return quadratic(form.constant + dot(form.linear, t) + form.square * dot(t, t),
+                   {form.turned[0] + t.x * form.lever + t.z * across[1] - t.y * across[2],
+                    form.turned[1] + t.y * form.lever + t.x * across[2] - t.z * across[0],
+                    form.turned[2] + t.z * form.lever + t.y * across[0] - t.x * across[1]});
+}
+
+/// Calls each(coefficient, index along each turn).
 template <class Each>
-void coefficients(const PoseForm& form, const CellView& cell, const Each& each) {
-  for (const Vector t : cell.corners) {
-    const Quadratic q = at_shift(form, t);
-    for (std::size_t i = 0; i < cell.count[0]; ++i) {
-      const double x = cell.x[0][i], of_x = q.constant + q.linear.x * x + q.squares.x * cell.square[0][i];
-      const double d_x = 1 + cell.square[0][i];
-      for (std::size_t j = 0; j < cell.count[1]; ++j) {
-        const double y = cell.x[1][j],
-                     of_y = of_x + q.linear.y * y + q.squares.y * cell.square[1][j] + q.xy * x * y;
-        const double d_y = d_x + cell.square[1][j], by_z = q.linear.z + q.zx * x + q.yz * y;
-        for (std::size_t k = 0; k < cell.count[2]; ++k)
-          each(of_y + by_z * cell.x[2][k] + q.squares.z * cell.square[2][k], d_y + cell.square[2][k], t,
-               std::array<std::size_t, 3>{i, j, k});
-      }
+void coefficients(const Quadratic& q, const CellView& cell, const Each& each) {
+  for (std::size_t i = 0; i < cell.count[0]; ++i) {
+    const double x = cell.x[0][i], of_x = q.constant + q.linear.x * x + q.squares.x * cell.square[0][i];
+    for (std::size_t j = 0; j < cell.count[1]; ++j) {
+      const double y = cell.x[1][j],
+                   of_y = of_x + q.linear.y * y + q.squares.y * cell.square[1][j] + q.xy * x * y;
+      const double by_z = q.linear.z + q.zx * x + q.yz * y;
+      for (std::size_t k = 0; k < cell.count[2]; ++k)
+        each(of_y + by_z * cell.x[2][k] + q.squares.z * cell.square[2][k],
+             std::array<std::size_t, 3>{i, j, k});
     }
   }
 }
+
+/// Calls each(coefficient, that of what the bound is taken times, corner of the shifts, index along each
+/// turn).
+template <class Each>
+void coefficients(const PoseForm& form, const CellView& cell, const Each& each) {
+  std::array<std::array<std::array<double, 3>, 3>, 3> scale{};
+  coefficients(quadratic(form.whole, form.whole_turned), cell,
+               [&](double value, const auto& k) { scale[k[0]][k[1]][k[2]] = value; });
+  for (const Vector t : cell.corners)
+    coefficients(at_shift(form, t), cell,
+                 [&](double value, const auto& k) { each(value, scale[k[0]][k[1]][k[2]], t, k); });
+}
+
+double value_at(const Quadratic& q, Vector x) {
+  return q.constant + dot(q.linear, x) + q.squares.x * x.x * x.x + q.squares.y * x.y * x.y +
+         q.squares.z * x.z * x.z + q.yz * x.y * x.z + q.zx * x.z * x.x + q.xy * x.x * x.y;
+}
+Vector gradient_at(const Quadratic& q, Vector x) {
+  return q.linear + Vector{2 * q.squares.x * x.x + q.xy * x.y + q.zx * x.z,
+                           2 * q.squares.y * x.y + q.xy * x.x + q.yz * x.z,
+                           2 * q.squares.z * x.z + q.zx * x.x + q.yz * x.y};
+}
+
+std::array<Vector, 3> product(Vector a, Vector b) { return {a.x * b, a.y * b, a.z * b}; }
 
 }  // namespace
 
@@ -89,40 +115,45 @@ CellView::CellView(const SolidMeter& meter, const SolidCell& cell)
 void PoseForm::add(double factor, const PoseForm& other) noexcept {
   constant += factor * other.constant;
   square += factor * other.square;
+  whole += factor * other.whole;
   linear = linear + factor * other.linear;
   lever = lever + factor * other.lever;
-  for (std::size_t i = 0; i < 3; ++i) turned[i] = turned[i] + factor * other.turned[i];
+  for (std::size_t i = 0; i < 3; ++i) {
+    turned[i] = turned[i] + factor * other.turned[i];
+    across[i] = across[i] + factor * other.across[i];
+    whole_turned[i] = whole_turned[i] + factor * other.whole_turned[i];
+  }
   size += factor * other.size;
 }
 
 double PoseForm::most(const CellView& cell) const {
-  if (!(cell.least_scale > 0)) return kInfinity;
   double most = -kInfinity;
   coefficients(*this, cell, [&](double value, double scale, Vector, const auto&) {
-    most = std::max(most, (value + kFormRounding * size) / scale);
+    most = std::max(most, scale > 0 ? (value + kFormRounding * size) / scale : kInfinity);
   });
   return most;
 }
 
 bool PoseForm::never_negative(const CellView& cell) const {
   double least = kInfinity;
-  coefficients(*this, cell,
-               [&](double value, double, Vector, const auto&) { least = std::min(least, value); });
+  for (const Vector t : cell.corners)
+    coefficients(at_shift(*this, t), cell,
+                 [&](double value, const auto&) { least = std::min(least, value); });
   return least >= kFormRounding * size;
 }
 
 LinearBound<6> PoseForm::tangent(const CellView& cell) const {
   const Vector x = cell.middle.x;
-  const Quadratic q = at_shift(*this, {});
-  const double scale = 1 + dot(x, x);
-  const Vector bent{q.squares.x * x.x, q.squares.y * x.y, q.squares.z * x.z},
-      mixed{q.yz * x.y * x.z, q.zx * x.z * x.x, q.xy * x.x * x.y};
-  const double value = (q.constant + dot(q.linear, x) + dot(bent, x) + mixed.x + mixed.y + mixed.z) / scale;
-  const Vector crossed{q.xy * x.y + q.zx * x.z, q.xy * x.x + q.yz * x.z, q.zx * x.x + q.yz * x.y};
-  const Vector by_x = 1 / scale * (q.linear + 2 * bent + crossed - 2 * value * x);
-  // (D R) lever at the middle; the rotation is the one after the start's.
-  const Vector turned_lever = (1 - dot(x, x)) * lever + 2 * cross(x, lever) + 2 * dot(x, lever) * x;
-  const Vector by_t = linear + 1 / scale * turned_lever;
+  const Quadratic q = at_shift(*this, {}), of_bound = quadratic(whole, whole_turned);
+  const double scale = value_at(of_bound, x), value = value_at(q, x) / scale;
+  const Vector by_x = 1 / scale * (gradient_at(q, x) - value * gradient_at(of_bound, x));
+  // The rotation is the one after the start's.
+  const auto& rows = cell.turned.rotation;
+  const auto around = [&](std::size_t i, std::size_t j) {
+    return dot(rows[i], across[j]) - dot(rows[j], across[i]);
+  };
+  const Vector by_t = (1 + dot(x, x)) / scale *
+                      (linear + cell.turned.turned(lever) + Vector{around(1, 2), around(2, 0), around(0, 1)});
   double lift = -kInfinity;
   coefficients(*this, cell, [&](double coefficient, double d, Vector t, const std::array<std::size_t, 3>& k) {
     const Vector step{cell.x[0][k[0]] - x.x, cell.x[1][k[1]] - x.y, cell.x[2][k[2]] - x.z};
@@ -133,24 +164,50 @@ LinearBound<6> PoseForm::tangent(const CellView& cell) const {
 }
 
 PoseForm height(Vector n, Vector p, double least, const CellView& cell) {
-  const double along = dot(n, cell.middle.at);
-  return {along - least, 0, n, {}, {n.x * p, n.y * p, n.z * p}, norm(p) + std::abs(least) + cell.far};
+  PoseForm made;
+  made.constant = dot(n, cell.middle.at) - least;
+  made.linear = n;
+  made.turned = product(n, p);
+  made.whole = 1;
+  made.size = norm(p) + std::abs(least) + cell.far;
+  return made;
 }
 
 PoseForm height_seen(Vector n, Vector c, double least, const CellView& cell) {
   const Vector off = c - cell.middle.at;
-  return {-least, 0, {}, -n, {off.x * n, off.y * n, off.z * n}, norm(off) + std::abs(least) + cell.far};
+  PoseForm made;
+  made.constant = -least;
+  made.lever = -n;
+  made.turned = product(off, n);
+  made.whole = 1;
+  made.size = norm(off) + std::abs(least) + cell.far;
+  return made;
 }
 
 PoseForm distance(Vector p, Vector c, double l, double radii, const CellView& cell) {
   const Vector off = c - cell.middle.at, q = -1 / l * off;
   const double reaches = norm(p) + norm(off) + norm(cell.slide);
-  return {0.5 / l * (dot(p, p) + dot(off, off) + l * l) - radii,
-          0.5 / l,
-          q,
-          1 / l * p,
-          {q.x * p, q.y * p, q.z * p},
-          0.5 / l * (reaches * reaches + l * l) + radii + cell.far};
+  PoseForm made;
+  made.constant = 0.5 / l * (dot(p, p) + dot(off, off) + l * l) - radii;
+  made.square = 0.5 / l;
+  made.linear = q;
+  made.lever = 1 / l * p;
+  made.turned = product(q, p);
+  made.whole = 1;
+  made.size = 0.5 / l * (reaches * reaches + l * l) + radii + cell.far;
+  return made;
+}
+
+PoseForm passing(Vector p, Vector d, Vector q, Vector g, double least, const CellView& cell) {
+  // (R d) x g . R p = g . R (p x d), and the rest of it is (R d) . (g x (t - q)).
+  const Vector off = q - cell.middle.at;
+  const std::array<Vector, 3> of_p = product(g, cross(p, d)), of_q = product(-cross(g, off), d);
+  PoseForm made;
+  made.constant = -least;
+  for (std::size_t i = 0; i < 3; ++i) made.turned[i] = of_p[i] + of_q[i];
+  made.across = product(g, d);
+  made.size = norm(d) * norm(g) * (norm(p) + norm(off) + cell.far) + std::abs(least);
+  return made;
 }
 
 }  // namespace lekalo::locate

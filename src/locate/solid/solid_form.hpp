@@ -34,24 +34,29 @@ struct CellView {
 
 /// A function of poses times D = 1 + |x|^2. With t the place of the pivot as seen from the middle of a box it
 /// is
-///   D (constant + linear . t + square |t|^2) + sum of turned_ij (D R)_ij + t . (D R) lever,
+///   D (constant + linear . t + square |t|^2) + sum of W_ij (D R)_ij,
+///   W = turned + t lever^T + across x t, each column of `across` for itself,
 /// where D R = (1 - |x|^2) + 2 x cross + 2 x x^T is the rotation after the start's. It is quadratic in x, and
 /// for a fixed x convex in t, so it is nowhere in the box above the largest of its Bernstein coefficients at
-/// the corners of the box of shifts.
+/// the corners of the box of shifts. A term of a contact is so much less a bound of the clearance times
+///   D whole + sum of whole_turned_ij (D R)_ij > 0.
 struct PoseForm {
   double constant = 0, square = 0;
   solid::Vector linear, lever;
-  std::array<solid::Vector, 3> turned{};
+  std::array<solid::Vector, 3> turned{}, across{};
+  double whole = 0;
+  std::array<solid::Vector, 3> whole_turned{};
   /// No sum on the way to a coefficient is larger than this times a few.
   double size = 0;
 
   void add(double factor, const PoseForm& other) noexcept;
 
-  /// A bound of the function over the box, divided by D; infinite if there is none.
+  /// The least bound for which the term is nowhere in the box above 0; infinite if there is none.
   [[nodiscard]] double most(const CellView& cell) const;
   /// Says if the function is nowhere in the box below 0.
   [[nodiscard]] bool never_negative(const CellView& cell) const;
-  /// The tangent at the middle of the box, lifted to where it is above the coefficients.
+  /// The tangent of what the term bounds the clearance by at the middle of the box, lifted to where it is
+  /// above the coefficients.
   [[nodiscard]] LinearBound<6> tangent(const CellView& cell) const;
 };
 
@@ -63,5 +68,8 @@ struct PoseForm {
 /// elsewhere.
 [[nodiscard]] PoseForm distance(solid::Vector p, solid::Vector c, double l, double radii,
                                 const CellView& cell);
+/// ((R d) x g) . (R p + t - q) - least: how a line from p along d passes one from q along g.
+[[nodiscard]] PoseForm passing(solid::Vector p, solid::Vector d, solid::Vector q, solid::Vector g,
+                               double least, const CellView& cell);
 
 }  // namespace lekalo::locate

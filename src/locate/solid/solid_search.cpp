@@ -91,15 +91,14 @@ void SolidSearch::bound(Node& node, Found& found) const {
   };
   const auto proved = [&](const std::vector<Term>& terms) {
     PoseForm sum;
-    double whole = 0, least = -kInfinity;
+    double least = -kInfinity;
     for (const Term& term : terms) {
       const auto one = bounds_.form(known(term.known), term.choice, view);
       if (!one) return kInfinity;
       sum.add(term.multiplier / kWhole, one->form);
-      whole += term.multiplier / kWhole;
       least = std::max(least, one->least);
     }
-    return whole > 0 ? std::max(least, sum.most(view) / whole) : kInfinity;
+    return std::max(least, sum.most(view));
   };
   std::vector<SolidRow> rows;
   std::vector<std::uint32_t> of_row;
@@ -302,6 +301,11 @@ SolidProof SolidSearch::proof() const {
   const auto term_of = [&](const Term& term) {
     const KnownSolid& known = known_[term.known];
     SolidTerm written{term.choice.kind, 0, 0, term.multiplier};
+    if (term.choice.kind == SolidTerm::Kind::edges) {
+      written.part = known.edges->part_edge;
+      written.blank = known.edges->blank_edge;
+      return written;
+    }
     if (term.choice.kind == SolidTerm::Kind::part_face) {
       written.part = known.part_face->triangle;
     } else {

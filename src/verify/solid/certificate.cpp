@@ -78,8 +78,8 @@ class TreeCheck {
 
  private:
   static constexpr std::array<std::string_view, 6> kAxes{"x", "y", "z", "turn_x", "turn_y", "turn_z"};
-  enum class Kind : std::uint8_t { ball, plane, face, part_face, none };
-  static constexpr std::array<std::string_view, 4> kKinds{"ball", "plane", "face", "part_face"};
+  /// In the order of LeafTerm::Kind.
+  static constexpr std::array<std::string_view, 5> kKinds{"ball", "plane", "face", "part_face", "edges"};
 
   /// The ends of a box, by their places among all ends: a split has one, which many boxes share.
   struct Cell {
@@ -155,13 +155,10 @@ class TreeCheck {
         is_beyond_all_sizes(*multiplier))
       return false;
     const std::string word = json_text(value[0]);
-    const auto kind = static_cast<Kind>(std::ranges::find(kKinds, word) - kKinds.begin());
-    if (kind == Kind::none) return false;
-    const auto of_part =
-        kind == Kind::part_face ? triangle_of(value[1], frame_.part) : index(value[1], tables_.part_balls());
-    const auto of_blank =
-        kind == Kind::face ? triangle_of(value[2], frame_.blank)
-                           : index(value[2], kind == Kind::plane ? tables_.planes() : tables_.blank_balls());
+    const auto place = static_cast<std::size_t>(std::ranges::find(kKinds, word) - kKinds.begin());
+    if (place == kKinds.size()) return false;
+    const auto kind = static_cast<LeafTerm::Kind>(place);
+    const auto of_part = number_of_part(kind, value[1]), of_blank = number_of_blank(kind, value[2]);
     if (!of_part || !of_blank) return false;
     if (sgn(multiplier->digits) == 0) return true;
     any_ = true;
@@ -169,22 +166,30 @@ class TreeCheck {
     return true;
   }
 
-  void add_term(Kind kind, std::size_t of_part, std::size_t of_blank, const Decimal& multiplier) {
+  [[nodiscard]] std::optional<std::size_t> number_of_part(LeafTerm::Kind kind, Json value) const {
+    if (kind == LeafTerm::Kind::part_face) return triangle_of(value, frame_.part);
+    if (kind == LeafTerm::Kind::edges) return edge_of(value, frame_.part);
+    return index(value, tables_.part_balls());
+  }
+  [[nodiscard]] std::optional<std::size_t> number_of_blank(LeafTerm::Kind kind, Json value) const {
+    if (kind == LeafTerm::Kind::face) return triangle_of(value, frame_.blank);
+    if (kind == LeafTerm::Kind::edges) return edge_of(value, frame_.blank);
+    return index(value, kind == LeafTerm::Kind::plane ? tables_.planes() : tables_.blank_balls());
+  }
+
+  void add_term(LeafTerm::Kind kind, std::size_t of_part, std::size_t of_blank, const Decimal& multiplier) {
     LeafTerm term;
+    term.kind = kind;
     term.multiplier = both(multiplier);
-    if (kind == Kind::part_face)
-      term.triangle = static_cast<std::uint32_t>(of_part);
-    else
-      term.part_ball = tables_.part_ball(of_part);
-    if (kind == Kind::face)
-      term.triangle = static_cast<std::uint32_t>(of_blank);
-    else if (kind == Kind::plane)
-      term.plane = tables_.plane(of_blank);
-    else
-      term.blank_ball = tables_.blank_ball(of_blank);
-    const bool has_part = kind == Kind::part_face || term.part_ball != nullptr,
-               has_blank = kind == Kind::face || term.plane != nullptr || term.blank_ball != nullptr;
-    if (has_part && has_blank) terms_.push_back(std::move(term));
+    term.part = static_cast<std::uint32_t>(of_part);
+    term.blank = static_cast<std::uint32_t>(of_blank);
+    bool holds = true;
+    if (kind == LeafTerm::Kind::ball || kind == LeafTerm::Kind::plane || kind == LeafTerm::Kind::face)
+      holds = (term.part_ball = tables_.part_ball(of_part)) != nullptr;
+    if (kind == LeafTerm::Kind::ball || kind == LeafTerm::Kind::part_face)
+      holds = (term.blank_ball = tables_.blank_ball(of_blank)) != nullptr && holds;
+    if (kind == LeafTerm::Kind::plane) holds = (term.plane = tables_.plane(of_blank)) != nullptr && holds;
+    if (holds) terms_.push_back(std::move(term));
   }
 
   /// Reads a whole number below a count.
@@ -198,6 +203,11 @@ class TreeCheck {
   static std::optional<std::size_t> triangle_of(Json value, const SolidMesh& mesh) {
     const auto number = index(value, limits::kMostSolidItems);
     return number ? mesh.triangle_of_file(*number) : std::nullopt;
+  }
+  static std::optional<std::size_t> edge_of(Json value, const SolidMesh& mesh) {
+    const auto number = index(value, 3 * limits::kMostSolidItems);
+    const auto triangle = number ? mesh.triangle_of_file(*number / 3) : std::nullopt;
+    return triangle ? std::optional(3 * std::size_t{*triangle} + *number % 3) : std::nullopt;
   }
 
   std::string path_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "lekalo/base/stop.hpp"
 
@@ -14,6 +16,10 @@ Answer at_most_zero(Span value) {
   return value.high <= 0 ? Answer::yes : (value.low > 0 ? Answer::no : Answer::open);
 }
 Answer at_most_zero(const Fraction& value) { return sgn(value) <= 0 ? Answer::yes : Answer::no; }
+Answer below_zero(Span value) {
+  return value.high < 0 ? Answer::yes : (value.low >= 0 ? Answer::no : Answer::open);
+}
+Answer below_zero(const Fraction& value) { return sgn(value) < 0 ? Answer::yes : Answer::no; }
 
 // ---- the arithmetic of spans and of fractions -------------------------------------------------------------
 
@@ -53,12 +59,13 @@ Near3 near(const Vec3& p) {
 
 // ---- polynomials ------------------------------------------------------------------------------------------
 
-/// For each t the form level + slope . t + bend |u|^2 + (R(x) p) . u, where u = from + turn t.
+/// For each t the form level + slope . t + bend |u|^2 + (R(x) p) . u, where u = from + turn t + around x t.
 template <class Number>
 struct Form {
   Of3<Number> p, from;
   Number turn{}, level{}, bend{};
   Of3<Number> slope{};
+  std::optional<Of3<Number>> around = {};
   Number weight{};
 };
 
@@ -71,7 +78,8 @@ struct Quadratic {
   /// Adds the form, times its weight and 1 + |x|^2, at one t:
   /// (1 + |x|^2) R(x) p = (1 - |x|^2) p + 2 x cross p + 2 (x . p) x.
   void add(const Form<Number>& form, const Of3<Number>& t) {
-    const Of3<Number> u = form.from + t * form.turn;
+    Of3<Number> u = form.from + t * form.turn;
+    if (form.around) u = u + cross(*form.around, t);
     const Number level = form.level + dot(form.slope, t) + form.bend * dot(u, u), along = dot(form.p, u);
     const Of3<Number> turning = cross(form.p, u);
     const Number twice = form.weight + form.weight;
@@ -100,20 +108,30 @@ class Cell {
 
   /// Says whether the sum of forms is nowhere above 0, by its Bernstein coefficients.
   [[nodiscard]] Answer nowhere_positive(const std::vector<Form<Number>>& forms) const {
+    return each(forms, [](const Number& coefficient) { return at_most_zero(coefficient); });
+  }
+  /// Says whether it is below 0 everywhere.
+  [[nodiscard]] Answer everywhere_negative(const std::vector<Form<Number>>& forms) const {
+    return each(forms, [](const Number& coefficient) { return below_zero(coefficient); });
+  }
+
+ private:
+  template <class Asked>
+  [[nodiscard]] Answer each(const std::vector<Form<Number>>& forms, const Asked& asked) const {
     Answer answer = Answer::yes;
     for (unsigned corner = 0; corner < 8; ++corner) {
       ask(std::is_same_v<Number, Span> ? 4 : 1000);
       Quadratic<Number> sum;
       for (const Form<Number>& form : forms)
         sum.add(form, {ends_[0][corner & 1], ends_[1][corner >> 1 & 1], ends_[2][corner >> 2]});
-      answer = std::min(answer, nowhere_positive(sum));
+      answer = std::min(answer, each(sum, asked));
       if (answer == Answer::no) break;
     }
     return answer;
   }
 
- private:
-  [[nodiscard]] Answer nowhere_positive(const Quadratic<Number>& q) const {
+  template <class Asked>
+  [[nodiscard]] Answer each(const Quadratic<Number>& q, const Asked& asked) const {
     std::array<std::array<Number, 3>, 3> alone;
     for (std::size_t a = 0; a < 3; ++a)
       for (std::size_t i = 0; i < 3; ++i) alone[a][i] = q.linear[a] * x_[a][i] + q.square[a] * squares_[a][i];
@@ -124,7 +142,7 @@ class Cell {
         const Number slope = q.mixed[1] * x_[0][i] + q.mixed[0] * x_[1][j];
         for (std::size_t k = 0; k < 3; ++k) {
           const Number coefficient = flat + alone[2][k] + slope * x_[2][k];
-          answer = std::min(answer, at_most_zero(coefficient));
+          answer = std::min(answer, asked(coefficient));
         }
       }
     return answer;
@@ -148,6 +166,13 @@ struct Facet {
   }
 };
 
+/// The ends of an edge.
+template <class Number>
+std::array<Of3<Number>, 2> edge_of(const SolidMesh& mesh, std::uint32_t edge) {
+  const auto& t = mesh.triangles[edge / 3];
+  return {vertex<Number>(mesh, t[edge % 3]), vertex<Number>(mesh, t[(edge + 1) % 3])};
+}
+
 /// Tells in doubles where things are at the middle of the leaf. It proves nothing.
 class Middle {
  public:
@@ -169,6 +194,10 @@ class Middle {
   Near3 t_{}, x_{};
 };
 
+/// Directions are shorter than 1 by more than rounding makes them longer; and of edges at no such angle
+/// doubles tell none.
+constexpr double kShorter = 0x1p-50, kLeastAngle = 1e-100;
+
 template <class Number>
 class LeafProof {
  public:
@@ -184,9 +213,10 @@ class LeafProof {
     Answer all = Answer::yes;
     std::vector<Form<Number>> forms;
     for (const LeafTerm& term : terms_) {
+      const std::size_t before = forms.size();
       all = std::min(all, add(term, forms));
       if (all == Answer::no) return all;
-      forms.back().weight = as<Number>(term.multiplier);
+      for (std::size_t k = before; k < forms.size(); ++k) forms[k].weight = as<Number>(term.multiplier);
     }
     return std::min(all, cell_.nowhere_positive(forms));
   }
@@ -199,9 +229,19 @@ class LeafProof {
 
   /// Adds the form of a term, and says whether it counts over the whole box.
   Answer add(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
-    if (term.part_ball == nullptr) return add_part_face(term, forms);
-    if (term.plane != nullptr) return add_plane(term, forms);
-    return term.blank_ball != nullptr ? add_ball(term, forms) : add_blank_face(term, forms);
+    switch (term.kind) {
+      case LeafTerm::Kind::ball:
+        return add_ball(term, forms);
+      case LeafTerm::Kind::plane:
+        return add_plane(term, forms);
+      case LeafTerm::Kind::face:
+        return add_blank_face(term, forms);
+      case LeafTerm::Kind::part_face:
+        return add_part_face(term, forms);
+      case LeafTerm::Kind::edges:
+        break;
+    }
+    return add_edges(term, forms);
   }
 
   Answer add_ball(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
@@ -232,8 +272,8 @@ class LeafProof {
 
   Answer add_blank_face(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
     const Ball& a = *term.part_ball;
-    const Facet<Number> face(frame_.blank, term.triangle);
-    const Facet<Span> seen(frame_.blank, term.triangle);
+    const Facet<Number> face(frame_.blank, term.blank);
+    const Facet<Span> seen(frame_.blank, term.blank);
     if (!has_area(face)) return add_nothing(forms);
     const bool above = dot(near(seen.normal), middle_.place(a.centre) - near(seen.at[0])) >= 0;
     const Number inverse = inverse_length(face.normal, 1);
@@ -246,7 +286,7 @@ class LeafProof {
       return form;
     };
     const Number foot = dot(n, face.at[0]), radius = as<Number>(a.radius),
-                 width = number<Number>(frame_.blank.width(term.triangle).low);
+                 width = number<Number>(frame_.blank.width(term.blank).low);
     forms.push_back(form_of(n, number<Number>(0) - foot - radius - width - bound_));
     Answer all = std::min(not_below_zero(bound_), nowhere_positive(form_of(negative(n), foot - radius)));
     for (std::size_t k = 0; k < 3; ++k)
@@ -257,8 +297,8 @@ class LeafProof {
 
   Answer add_part_face(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
     const Ball& c = *term.blank_ball;
-    const Facet<Number> face(frame_.part, term.triangle);
-    const Facet<Span> seen(frame_.part, term.triangle);
+    const Facet<Number> face(frame_.part, term.part);
+    const Facet<Span> seen(frame_.part, term.part);
     if (!has_area(face)) return add_nothing(forms);
     const bool above =
         dot(middle_.turned(seen.normal), near(as<Span>(c.centre)) - middle_.place(seen.at[0])) >= 0;
@@ -278,6 +318,48 @@ class LeafProof {
       all = std::min(all, nowhere_positive(
                               form_of(negative(face.inwards[k]), dot(face.inwards[k], face.at[k] - pivot_))));
     return all;
+  }
+
+  Answer add_edges(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
+    const auto [a, b] = edge_of<Number>(frame_.part, term.part);
+    auto [q, r] = edge_of<Number>(frame_.blank, term.blank);
+    Near3 n{};
+    {
+      const auto [near_a, near_b] = edge_of<Span>(frame_.part, term.part);
+      const auto [near_q, near_r] = edge_of<Span>(frame_.blank, term.blank);
+      n = cross(middle_.turned(near_b - near_a), near(near_r - near_q));
+      if (dot(n, middle_.place(near_a) - near(near_q)) < 0) std::swap(q, r), n = n * -1.0;
+    }
+    const double angle = std::sqrt(squared_length(n));
+    if (!(angle > kLeastAngle)) return add_nothing(forms);
+    const Point p = turned(a - pivot_), d = turned(b - a), g = r - q, u = point(n * ((1 - kShorter) / angle)),
+                beside = cross(g, u);
+    /// (R d x along) . (T a - from), with the weight.
+    const auto passing = [&](const Point& from, const Point& along, double weight) {
+      std::vector<Form<Number>> made{{cross(p, d), along}, {d, cross(from, along)}};
+      made[1].around = along;
+      for (Form<Number>& form : made) form.weight = number<Number>(weight);
+      return made;
+    };
+    /// The half-space beside the blank's edge, for an end of the part's.
+    const auto over = [&](const Point& end, double weight) {
+      Form<Number> form{end, beside};
+      form.slope = beside, form.level = number<Number>(0) - dot(beside, q),
+      form.weight = number<Number>(weight);
+      return std::vector<Form<Number>>{form};
+    };
+    const Number width = number<Number>(frame_.blank.width(term.blank / 3).low);
+    for (Form<Number>& form : passing(q + u * Number(width + bound_), g * number<Number>(1 / angle), 1))
+      forms.push_back(std::move(form));
+    Answer all = not_below_zero(bound_);
+    for (const auto& condition :
+         {passing(q, g, -1), passing(q, u, 1), passing(r, u, -1), over(p, 1), over(turned(b - pivot_), -1)})
+      all = std::min(all, cell_.everywhere_negative(condition));
+    return all;
+  }
+
+  static Point point(const Near3& p) {
+    return {number<Number>(p[0]), number<Number>(p[1]), number<Number>(p[2])};
   }
 
   static bool has_area(const Facet<Span>& /*face*/) { return true; }

@@ -10,12 +10,13 @@ namespace lekalo::verify {
 
 /// A term of a leaf, by what it bounds the clearance with.
 struct LeafTerm {
-  /// A ball of the part or, where it is null, the triangle of the part.
+  enum class Kind : std::uint8_t { ball, plane, face, part_face, edges };
+  Kind kind = Kind::ball;
   const Ball* part_ball = nullptr;
-  /// A ball or a half-space of the blank or, where both are null, the triangle of the blank.
   const Ball* blank_ball = nullptr;
   const HalfSpace* plane = nullptr;
-  std::uint32_t triangle = 0;
+  /// Of a triangle or an edge of either mesh. Edge 3 f + k leads from corner k of triangle f to its next one.
+  std::uint32_t part = 0, blank = 0;
   Both multiplier;
 };
 
@@ -30,13 +31,17 @@ struct LeafFrame {
 
 /// Says whether the terms show that no pose of the box has more clearance than the bound. Suppose one has.
 /// Then every term is above 0 there:
-///   ball:       |T a - c| - r - s - bound. If |T a - c| < r, c would lie in the part, s from the material,
-///   so
-///               the bound must not be below -s.
+///   ball:       |T a - c| - r - s - bound. If |T a - c| < r, c would lie in the part, s from the
+///               material, so the bound must not be below -s.
 ///   half-space: (n . T a - b) / |n| - r - bound.
 ///   triangle of the blank, of the part: the height of the ball's centre over it less r and its width, or s,
 ///               and the bound, where the foot of the centre stays in the triangle and the height does not
 ///               fall below -r, or -s; the bound must not be below 0.
+///   edges:      N - (w + bound) n . u, where N = n . (p - q) for a point p of the part's edge and q of the
+///               blank's, and n their product over its length at the middle of the leaf, on the side where
+///               N > 0. Here u is the direction of n at the middle, and not longer than 1. The edges have to
+///               cross as seen along u. Then two of their points are N / (n . u) times u apart; the bound
+///               must not be below 0.
 /// So their sum with the multipliers is above 0, and it is shown not to be. With |w| <= (|w|^2 + l^2) / 2 l
 /// for a ball, and times 1 + |x|^2, the sum is a polynomial of degree 2 in x, convex in t: it is nowhere
 /// above the largest of its 27 Bernstein coefficients at the eight corners of the box of t. Spans decide that
