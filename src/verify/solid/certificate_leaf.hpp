@@ -15,7 +15,7 @@ struct LeafTerm {
   const Ball* part_ball = nullptr;
   const Ball* blank_ball = nullptr;
   const HalfSpace* plane = nullptr;
-  /// Of a triangle or an edge of either mesh. Edge 3 f + k leads from corner k of triangle f to its next one.
+  /// The number of a triangle or an edge of either mesh. Edge 3 f + k leads from corner k of triangle f to its next one.
   std::uint32_t part = 0, blank = 0;
   Both multiplier;
 };
