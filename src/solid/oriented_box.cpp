@@ -3,19 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "lekalo/base/stop.hpp"
+#include "lekalo/solid/principal_axes.hpp"
 
 namespace lekalo::solid {
 namespace {
-
-using Matrix = std::array<std::array<double, 3>, 3>;
-
-/// So many turns of each two axes are more than enough in double precision; what lies beside the diagonal is
-/// nothing below this part of the whole.
-constexpr int kSweeps = 8;
-constexpr double kNothing = 0x1p-60;
 
 /// An area, its middle and how it is spread about it: the integral of the products of the ways there. It is
 /// put together from those of parts without a difference of large numbers.
@@ -47,34 +40,6 @@ Spread joined(const Spread& a, const Spread& b) {
   return made;
 }
 
-/// The eigenvectors of a symmetric matrix, by turns in the planes of two axes (Jacobi's method).
-std::array<Vector, 3> main_axes(Matrix m) {
-  Matrix turns{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // its rows become the axes
-  const double nothing = kNothing * (m[0][0] + m[1][1] + m[2][2]);
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (const auto& [p, q] : {std::pair<std::size_t, std::size_t>(0, 1), {0, 2}, {1, 2}}) {
-      if (std::abs(m[p][q]) <= nothing) continue;
-      const double half = 0.5 * (m[q][q] - m[p][p]) / m[p][q];
-      const double t = (half < 0 ? -1 : 1) / (std::abs(half) + std::sqrt(half * half + 1));
-      const double c = 1 / std::sqrt(t * t + 1), s = t * c;
-      const auto turn = [&](double& a, double& b) {
-        const double before = a;
-        a = c * before - s * b;
-        b = s * before + c * b;
-      };
-      for (std::size_t k = 0; k < 3; ++k) turn(m[p][k], m[q][k]);
-      for (std::size_t k = 0; k < 3; ++k) turn(m[k][p], m[k][q]);
-      for (std::size_t k = 0; k < 3; ++k) turn(turns[p][k], turns[q][k]);
-      m[p][q] = m[q][p] = 0;
-    }
-  }
-  // They are across each other but for the rounding of all turns, and are made so once more.
-  const auto unit = [](Vector v) { return 1 / norm(v) * v; };
-  const Vector x = unit({turns[0][0], turns[0][1], turns[0][2]}),
-               z = unit(cross(x, {turns[1][0], turns[1][1], turns[1][2]}));
-  return {x, cross(z, x), z};
-}
-
 }  // namespace
 
 std::vector<OrientedBox> oriented_boxes(const TriangleTree& tree) {
@@ -94,7 +59,7 @@ std::vector<OrientedBox> oriented_boxes(const TriangleTree& tree) {
     }
     const Vector middle = spread[at].middle;
     OrientedBox& box = boxes[at];
-    box.axes = main_axes(spread[at].products);
+    box.axes = eigenvectors(spread[at].products);
     std::array<double, 3> low, high;
     low.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());

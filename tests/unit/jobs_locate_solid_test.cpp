@@ -99,6 +99,21 @@ TEST(JobsLocateSolid, BytesGoInAndACheckedDocumentComesOut) {
   EXPECT_EQ(verdict(job, located), verify::Verdict::unproved);
 }
 
+TEST(JobsLocateSolid, MethodsKeptForComparisonStayInTheWindowAndProveNothing) {
+  SolidLocateJob job = convex_job();
+  for (const SolidFreedom freedom : {SolidFreedom::xyz, SolidFreedom::c_xyz, SolidFreedom::six})
+    for (const SolidMethod method : {SolidMethod::icp, SolidMethod::axes}) {
+      job.options.freedom = freedom, job.options.method = method;
+      job.options.shift = 0.5, job.options.tilt_deg = 1;
+      const LocatedSolid located = made(job);
+      const auto json = cases::Json::parse(located.result);
+      EXPECT_EQ(json["method"], name_of(method));
+      EXPECT_EQ(json["status"], "unproved");
+      EXPECT_TRUE(json["upper_bound"].is_null());
+      EXPECT_EQ(verdict(job, located), verify::Verdict::unproved);
+    }
+}
+
 TEST(JobsLocateSolid, TheFieldsOfTheResultStandInTheirOrder) {
   const auto json = cases::Json::parse(made(block_job()).result);
   EXPECT_EQ(json.keys(), (std::vector<std::string>{"format",      "status",

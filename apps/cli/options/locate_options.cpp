@@ -25,8 +25,9 @@ using EitherUnit = Either<LengthUnit, io::SolidUnit>;
 constexpr std::array kLocateMethods{
     Word<EitherMethod>{"certified", {Method::certified, jobs::SolidMethod::certified}},
     Word<EitherMethod>{"ipopt", {Method::ipopt, std::nullopt}},
-    Word<EitherMethod>{"icp", {Method::icp, std::nullopt}},
-    Word<EitherMethod>{"climb", {std::nullopt, jobs::SolidMethod::climb}}};
+    Word<EitherMethod>{"icp", {Method::icp, jobs::SolidMethod::icp}},
+    Word<EitherMethod>{"climb", {std::nullopt, jobs::SolidMethod::climb}},
+    Word<EitherMethod>{"axes", {std::nullopt, jobs::SolidMethod::axes}}};
 constexpr std::array kLocateUnits{Word<EitherUnit>{"mm", {LengthUnit::millimetre, io::SolidUnit::millimetre}},
                                   Word<EitherUnit>{"inch", {LengthUnit::inch, io::SolidUnit::inch}},
                                   Word<EitherUnit>{"m", {std::nullopt, io::SolidUnit::metre}}};
@@ -469,8 +470,8 @@ void add_search_options(Form& form, LocateWords& w) {
   add("--trade-off", w.trade_off, "N", "Also N points of the curve of smallest against largest allowance");
   add("--alternatives", w.alternatives, "MM", "Also list other placements that lose at most this");
   add("--method", w.method, list_of(kLocateMethods, "|"),
-      "certified proves its result; ipopt and icp are there for comparison; climb is a quick placement of "
-      "a solid without a bound [certified]");
+      "certified proves its result; ipopt, icp and axes are there for comparison; climb is a quick placement "
+      "of a solid without a bound [certified]");
   add("--starts", w.starts, "N", "Starts of --method ipopt [10]");
   add("--start-rule", w.start_rule, list_of(kStartRules, "|"), "Where --method ipopt starts [random]");
   add("--seed", w.seed, "S", "Seed of all random choices [0]");

@@ -15,8 +15,8 @@
 namespace lekalo::jobs {
 
 /// `certified` searches the whole window; `climb` goes from the start to a placement that no small motion
-/// makes better, and proves nothing.
-enum class SolidMethod { certified, climb };
+/// makes better, and proves nothing. `icp` and `axes` are there for comparison (locate/solid_reference.hpp).
+enum class SolidMethod { certified, climb, icp, axes };
 /// Returns the method's name as it stands in results.
 [[nodiscard]] const char* name_of(SolidMethod method) noexcept;
 

@@ -12,6 +12,7 @@
 #include "lekalo/base/stop.hpp"
 #include "lekalo/io/locate/solid_certificate.hpp"
 #include "lekalo/io/text/sha256.hpp"
+#include "lekalo/locate/solid_reference.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "solid_documents.hpp"
 
@@ -93,13 +94,27 @@ struct Found {
 Result<Found> found_by_method(const SolidInputs& in, const SolidLocateOptions& o, const RunControl& run) {
   const locate::SolidOptions how{o.gap, o.min_allowance, o.threads, run};
   Found found;
-  if (o.method == SolidMethod::climb) {
-    LEKALO_TRY(found.best, locate::place_solid(in.problem, how));
-    return found;
-  }
-  LEKALO_TRY(locate::SolidResult result, locate::locate_solid(in.problem, how));
-  return Found{io::name_of(result.status), std::move(result.best), result.upper_bound,
+  switch (o.method) {
+    case SolidMethod::climb: {
+      LEKALO_TRY(found.best, locate::place_solid(in.problem, how));
+      break;
+    }
+    case SolidMethod::icp: {
+      LEKALO_TRY(found.best, locate::place_solid_icp(in.problem, how));
+      break;
+    }
+    case SolidMethod::axes: {
+      LEKALO_TRY(found.best, locate::place_solid_axes(in.problem, how));
+      break;
+    }
+    case SolidMethod::certified: {
+      LEKALO_TRY(locate::SolidResult result, locate::locate_solid(in.problem, how));
+      found = {io::name_of(result.status), std::move(result.best), result.upper_bound,
                std::move(result.proof)};
+      break;
+    }
+  }
+  return found;
 }
 
 /// The search may have met a crossing where the part nearly touches, and that has no triangles.
@@ -204,7 +219,17 @@ io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&
 }  // namespace
 
 const char* name_of(SolidMethod method) noexcept {
-  return method == SolidMethod::climb ? "climb" : "certified";
+  switch (method) {
+    case SolidMethod::climb:
+      return "climb";
+    case SolidMethod::icp:
+      return "icp";
+    case SolidMethod::axes:
+      return "axes";
+    case SolidMethod::certified:
+      break;
+  }
+  return "certified";
 }
 
 Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& run,

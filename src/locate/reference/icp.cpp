@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "lekalo/geom/pose.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/locate/reference.hpp"
+#include "normal_equations.hpp"
 #include "start.hpp"
 
 namespace lekalo::locate {
@@ -22,8 +22,6 @@ using geom::Point;
 constexpr double kStepsAround = 360;
 // A step below this part of the blank's size ends the iteration.
 constexpr double kVanished = 1e-10;
-// The points do not see a motion whose pivot is below this part of the largest one.
-constexpr double kUnseen = 1e-13;
 
 double perimeter(const geom::ConvexPolygon& polygon) {
   double length = 0;
@@ -100,47 +98,6 @@ class PartLines {
   std::vector<geom::Box> boxes_;
 };
 
-/// The normal equations of small motions (dx, dy, size * dtheta) of the part about its centre.
-struct NormalEquations {
-  std::array<std::array<double, 3>, 3> matrix{};
-  std::array<double, 3> right{};
-  double squares = 0;
-
-  void add(const std::array<double, 3>& row, double residual) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) matrix[i][j] += row[i] * row[j];
-      right[i] += row[i] * residual;
-    }
-    squares += residual * residual;
-  }
-
-  /// Solves by Gaussian elimination. The matrix is positive semidefinite, so the largest diagonal entry is a
-  /// good pivot. A motion that the points do not see (a disc turning in a disc) stays zero.
-  [[nodiscard]] std::array<double, 3> solve() const {
-    auto a = matrix;
-    auto b = right;
-    std::array<bool, 3> done{};
-    const double largest = std::max({a[0][0], a[1][1], a[2][2]});
-    for (int step = 0; step < 3; ++step) {
-      std::size_t pivot = 3;
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (!done[i] && (pivot == 3 || a[i][i] > a[pivot][pivot])) pivot = i;
-      }
-      if (!(a[pivot][pivot] > kUnseen * largest)) break;
-      done[pivot] = true;
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (i == pivot) continue;
-        const double factor = a[i][pivot] / a[pivot][pivot];
-        for (std::size_t j = 0; j < 3; ++j) a[i][j] -= factor * a[pivot][j];
-        b[i] -= factor * b[pivot];
-      }
-    }
-    std::array<double, 3> motion{};
-    for (std::size_t i = 0; i < 3; ++i) motion[i] = done[i] ? b[i] / a[i][i] : 0;
-    return motion;
-  }
-};
-
 struct IcpState {
   /// The place of the part's centroid in the blank's frame.
   Point centre;
@@ -172,9 +129,10 @@ class Registration {
   }
 
  private:
-  [[nodiscard]] NormalEquations equations(Point centre, double theta) const {
+  /// The motions are (dx, dy, size * dtheta) of the part about its centre.
+  [[nodiscard]] NormalEquations<3> equations(Point centre, double theta) const {
     const BlankFromPart turn = BlankFromPart::from_angle(theta, {});
-    NormalEquations sum;
+    NormalEquations<3> sum;
     for (const Point q : source_) {
       const Point arm = q - centre;
       const Point in_part = part_centre_ + turn.inverse().rotate(arm);

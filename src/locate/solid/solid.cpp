@@ -9,6 +9,7 @@
 #include "lekalo/base/limits.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "solid_climb.hpp"
+#include "solid_placement.hpp"
 #include "solid_search.hpp"
 
 namespace lekalo::locate {
@@ -21,6 +22,10 @@ using solid::Vector;
 constexpr double kClimbGain = 1e-5;
 
 bool finite(Vector v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+double first_trust(const SolidProblem& problem) { return 0.5 * std::max(problem.shift, 1e-3); }
+
+}  // namespace
 
 Result<void> check(const SolidProblem& problem, const SolidOptions& options) {
   if (problem.part.triangles.empty() || problem.blank.triangles.empty())
@@ -79,7 +84,6 @@ SolidFrame frame_of(const SolidProblem& problem) {
   return frame;
 }
 
-/// The pose in its own doubles, and what it has there.
 SolidPlacement placement(const SolidMeter& meter, const FramedPose& found) {
   SolidPlacement made;
   made.pose.quaternion = meter.frame().quaternion(found);
@@ -96,10 +100,6 @@ SolidPlacement placement(const SolidMeter& meter, const FramedPose& found) {
   made.clearance = made.inside ? least : 0;
   return made;
 }
-
-double first_trust(const SolidProblem& problem) { return 0.5 * std::max(problem.shift, 1e-3); }
-
-}  // namespace
 
 Motion motion_of(const SolidPose& pose) noexcept {
   const auto [w, x, y, z] = pose.quaternion;

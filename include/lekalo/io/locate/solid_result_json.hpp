@@ -48,7 +48,7 @@ struct SolidScanRecord {
 
 struct SolidDocument {
   std::string status;  ///< optimal, stopped, infeasible, unproved
-  std::string method;  ///< certified, climb
+  std::string method;  ///< certified, climb, icp, axes
   std::vector<SolidInputRecord> inputs;
   std::vector<std::string> warnings;
   std::uint64_t work = 0;
