@@ -1,0 +1,122 @@
+// Castings by number (tests/support/castings.hpp): how long a placement and its bound take, on true blanks or
+// on scanner's meshes of them.
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <ctime>
+#include <string_view>
+#include <vector>
+
+#include "lekalo/locate/guaranteed_solid.hpp"
+#include "lekalo/locate/solid.hpp"
+#include "lekalo/locate/solid_reference.hpp"
+#include "lekalo/solid/mesh_clearance.hpp"
+#include "support/castings.hpp"
+
+namespace {
+
+using namespace lekalo;
+
+constexpr double kGap = 0.02, kNoise = 0.02;
+
+double seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// The numbers of one case, or of all.
+struct Tally {
+  std::uint64_t cases = 0, quick = 0, closed = 0, placed = 0, icp_inside = 0, cut_in = 0;
+  std::vector<double> times, climbs;
+};
+
+/// Tells whether the placement is what it says in the true blank.
+bool cuts_in(const solid::MeshClearance& truth, const locate::SolidPlacement& placed) {
+  if (!placed.inside) return false;
+  const solid::Motion motion = motion_of(placed.pose);
+  const auto near = truth.nearest(motion);
+  return !(near->high >= placed.clearance && truth.inside(motion));
+}
+
+void try_one(std::uint64_t number, std::uint64_t seed, double limit, std::uint64_t points, Tally& all) {
+  const cases::SolidCase drawn = cases::casting(number, seed);
+  const solid::MeshClearance truth(drawn.part, drawn.blank);
+  const double there = truth.nearest(drawn.there)->low;
+  locate::SolidProblem problem{drawn.part, drawn.blank, {}};
+  double seen = 1;
+  if (points > 0) {
+    Random random(seed, 10'000 + number);
+    cases::CastingScan scan = cases::scan_of(drawn.blank, points, kNoise, random);
+    locate::SolidScan said;
+    said.guard = scan.guard, said.max_dip = 0;
+    locate::GuaranteedSolid made = guaranteed_solid(scan.mesh, said).value();
+    problem.blank = std::move(scan.mesh), problem.blank_widths = std::move(made.widths);
+    problem.blank_width_error = made.width_error;
+    seen = scan.seen;
+  }
+  locate::SolidOptions options;
+  options.threads = 1, options.gap = kGap;
+  double start = seconds();
+  const locate::SolidPlacement climbed = place_solid(problem, options).value();
+  const double climb = seconds() - start;
+  start = seconds();
+  const locate::SolidPlacement rival = place_solid_icp(problem, options).value();
+  const double icp = seconds() - start;
+
+  // The search asks now and then, and ends a little after the limit.
+  std::atomic<bool> stop = false;
+  start = seconds();
+  options.run.stop = &stop;
+  options.run.progress = [&](const Progress&) { stop = seconds() - start > limit; };
+  const locate::SolidResult found = locate_solid(problem, options).value();
+  const double time = seconds() - start;
+  const double gap = found.upper_bound - found.best.clearance;
+  const bool closed = found.status == locate::Status::optimal;
+  fmt::print("{} {}: {} in {} vertices, {:.0f} % seen; drawn at {:.4f}\n", number, drawn.kind,
+             drawn.part.vertices.size(), problem.blank.vertices.size(), 100 * seen, there);
+  fmt::print(
+      "    climb {:.4f} in {:.2f} s; icp {} in {:.2f} s; search {:.4f} of at most {:.4f}, gap {:.1f} um, "
+      "{} boxes, {} units, {:.2f} s{}\n",
+      climbed.clearance, climb, rival.inside ? fmt::format("{:.4f}", rival.clearance) : "cuts in", icp,
+      found.best.clearance, found.upper_bound, 1e3 * gap, found.boxes, found.best.work, time,
+      closed ? "" : ", not closed");
+  std::fflush(stdout);
+  ++all.cases;
+  all.closed += closed, all.quick += closed && time <= 10;
+  all.placed += climbed.inside, all.icp_inside += rival.inside;
+  all.cut_in += cuts_in(truth, climbed) || cuts_in(truth, found.best);
+  all.times.push_back(time), all.climbs.push_back(climb);
+}
+
+double median(std::vector<double> of) {
+  std::sort(of.begin(), of.end());
+  return of[of.size() / 2];
+}
+
+}  // namespace
+
+/// bench_castings [FIRST] [COUNT] [SECONDS] [POINTS] [SEED]
+/// With POINTS the blanks are scanned; the seconds are processor time of one thread.
+int main(int argc, char** argv) {
+  const auto number = [&](int k, std::uint64_t otherwise) {
+    return argc > k ? std::strtoull(argv[k], nullptr, 10) : otherwise;
+  };
+  const std::uint64_t first = number(1, 0), count = number(2, cases::kCastings), points = number(4, 0),
+                      seed = number(5, cases::kCastingSeed);
+  const double limit = argc > 3 ? std::strtod(argv[3], nullptr) : 60;
+  Tally all;
+  for (std::uint64_t k = 0; k < count; ++k) try_one(first + k, seed, limit, points, all);
+  if (all.cases == 0) return 0;
+  const auto share = [&](std::uint64_t n) {
+    return 100.0 * static_cast<double>(n) / static_cast<double>(all.cases);
+  };
+  fmt::print(
+      "{} castings, seed {}: gap of {} um closed in 10 s for {:.0f} %, in {} s for {:.0f} %; median {:.2f} "
+      "s, "
+      "climb {:.2f} s\n",
+      all.cases, seed, 1e3 * kGap, share(all.quick), limit, share(all.closed), median(all.times),
+      median(all.climbs));
+  fmt::print("placed by the climb {:.0f} %, by icp {:.0f} %; told more than the true blank has: {}\n",
+             share(all.placed), share(all.icp_inside), all.cut_in);
+  return all.cut_in == 0 ? 0 : 1;
+}
