@@ -180,11 +180,11 @@ std::string deviation_line(const io::LocateDocument& d) {
                      d.deviations->points, d.deviations->least, d.deviations->greatest);
 }
 
-std::string program_lines(const io::LocateDocument& d) {
-  if (!d.nc) return "";
+std::string program_lines(const std::optional<io::NcRecord>& nc) {
+  if (!nc) return "";
   std::string text = fmt::format("  NC program         {} motions; with its rounding the allowance is {}\n",
-                                 d.nc->motions, mm_down(d.nc->clearance));
-  for (const std::string& note : d.nc->notes) text += "  NC program         " + note + "\n";
+                                 nc->motions, mm_down(nc->clearance));
+  for (const std::string& note : nc->notes) text += "  NC program         " + note + "\n";
   return text;
 }
 
@@ -296,12 +296,12 @@ std::string decimals_up(double value, int decimals) {
 std::string locate_summary(const io::LocateDocument& d, const std::vector<std::string>& written) {
   return headline(d) + "\n" + pose_lines(d) + bound_line(d) + demand_line(d) + criteria_lines(d) +
          scan_lines(d) + contact_lines(d) + alternative_lines(d) + trim_line(d) + comparison_lines(d) +
-         deviation_line(d) + program_lines(d) + note_lines(d.warnings, written);
+         deviation_line(d) + program_lines(d.nc) + note_lines(d.warnings, written);
 }
 
 std::string solid_summary(const io::SolidDocument& d, const std::vector<std::string>& written) {
   return headline(d) + "\n" + pose_lines(d) + bound_line(d) + demand_line(d) + scan_lines(d) +
-         contact_lines(d) + note_lines(d.warnings, written);
+         contact_lines(d) + program_lines(d.nc) + note_lines(d.warnings, written);
 }
 
 void tell(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stderr); }

@@ -310,6 +310,26 @@ std::optional<std::size_t> overlong_line(std::string_view text) {
   return std::nullopt;
 }
 
+/// Shifts the heights. All by one number that their decimals can say, so that steps and arcs need no change
+/// and no error adds up. Returns what rounding the shift loses, mm.
+double shift_heights(const RewriteJob& job, std::vector<Edit>& edits, int& most_decimals) {
+  const std::vector<Height>& heights = job.interpretation.heights;
+  const bool inches =
+      std::ranges::any_of(heights, [](const Height& each) { return each.unit == LengthUnit::inch; });
+  const RoundedHeight height = rounded_height(
+      *job.options.z, quantum(inches ? LengthUnit::inch : LengthUnit::millimetre, kLeastDecimals));
+  if (height.shift == 0) return height.lost_mm;
+  for (const auto& [block, word, unit] : heights) {
+    const Grains value = to_grains(word->value, unit) + height.shift;
+    int decimals = std::max(kLeastDecimals, word->value.decimals);
+    while (value % quantum(unit, decimals) != 0 && decimals < kMaxDecimals) ++decimals;
+    most_decimals = std::max(most_decimals, decimals);
+    edits.push_back({word->number_begin, word->number_end - word->number_begin,
+                     format_decimal(value / quantum(unit, decimals), decimals)});
+  }
+  return height.lost_mm;
+}
+
 std::string frame_note(const RewriteJob& job) {
   const RewriteOptions& options = job.options;
   const std::string offset = work_offset_name(options.work_offset);
@@ -319,10 +339,9 @@ std::string frame_note(const RewriteJob& job) {
   if (offsets.empty()) offsets = offset;
   return options.scan_frame == ScanFrame::machine
              ? fmt::format(
-                   "the scan was taken in machine coordinates: {} must be zero in X and Y and without "
-                   "rotation "
+                   "the scan was taken in machine coordinates: {} must be zero in {} and without rotation "
                    "when the program runs, and no G52 or G92 shift may be active",
-                   offsets)
+                   offsets, shifted_axes(options))
              : fmt::format(
                    "the scan was taken in {}: the program must run in the same {}, unchanged since the scan",
                    offset, offset);
@@ -345,13 +364,14 @@ Result<Rewritten> rewrite_coordinates(const RewriteJob& job) {
           fmt::format("the arc does not keep its shape with {} decimals; give it a centre (I J) or split it",
                       kMostDecimals));
     }
+    const double height_lost = job.options.z ? shift_heights(job, pass.edits, pass.most_decimals) : 0;
     Rewritten result;
     result.program = apply_edits(job.text, std::move(pass.edits));
     if (const auto line = overlong_line(result.program))
       return refusal(
           job.name, *line,
           fmt::format("the rewritten line would have more than {} bytes; split the block", kMaxBlockLength));
-    result.rounding_mm = rounded_up(pass.deviation_mm);
+    result.rounding_mm = with_height(rounded_up(pass.deviation_mm), height_lost);
     result.motions = motions.size();
     result.notes.push_back(frame_note(job));
     if (pass.most_decimals > 0)

@@ -58,6 +58,7 @@ Extent extent_of(const std::vector<Motion>& motions) {
 /// The rigid motion, rounded to the numbers that the inserted words can say.
 struct RoundedMotion {
   std::string degrees, x, y;
+  std::string z;  ///< ` Z` and the height, of solids alone
   double rounding_mm = 0;
 };
 
@@ -94,9 +95,15 @@ RoundedMotion round_motion(const RewriteJob& job, int angle_decimals, LengthUnit
   const Grains step = quantum(unit, kLeastDecimals);
   const Wide x = steps_nearest(shift.x, step), y = steps_nearest(shift.y, step);
   const Vector lost = to_vector({x * step, y * step}) - shift;
-  return {format_decimal(steps, angle_decimals), format_decimal(x, kLeastDecimals),
-          format_decimal(y, kLeastDecimals),
-          rounded_up(millimetres(lost) + std::abs(change.hi) * extent.reach_mm())};
+  RoundedMotion rounded{format_decimal(steps, angle_decimals), format_decimal(x, kLeastDecimals),
+                        format_decimal(y, kLeastDecimals), "",
+                        rounded_up(millimetres(lost) + std::abs(change.hi) * extent.reach_mm())};
+  if (job.options.z) {
+    const RoundedHeight height = rounded_height(*job.options.z, step);
+    rounded.z = " Z" + format_decimal(height.shift / step, kLeastDecimals);
+    rounded.rounding_mm = with_height(rounded.rounding_mm, height.lost_mm);
+  }
+  return rounded;
 }
 
 /// Modal words that the inserted line needs, where the program states them only later or not at all. They say
@@ -137,6 +144,12 @@ Result<bool> suspend_rotation(const RewriteJob& job, const std::string& turn, st
   return true;
 }
 
+/// True where the program has no place that the frame would move.
+bool moves_nowhere(const RewriteJob& job) {
+  const Interpretation& program = job.interpretation;
+  return program.motions.empty() && !(job.options.z && program.first_axis_block);
+}
+
 Rewritten unchanged(const RewriteJob& job) {
   Rewritten result;
   result.program = job.text;
@@ -166,23 +179,22 @@ Result<Rewritten> insert_offset(const RewriteJob& job) {
                    "LinuxCNC, for which mode offset is, has no program numbers (O)");
   if (program.rotation_cancel)
     return refusal(job.name, *program.rotation_cancel, "LinuxCNC, for which mode offset is, has no G69");
-  if (program.motions.empty()) return unchanged(job);
+  if (moves_nowhere(job)) return unchanged(job);
 
   const RoundedMotion motion = round_motion(job, kOffsetAngleDecimals, program.unit_at_first);
   const std::string offset = work_offset_name(job.options.work_offset);
   Rewritten result;
   result.program = apply_edits(
-      job.text,
-      {{job.program.blocks[*program.first_axis_block].begin, 0,
-        fmt::format("{}G10 L2 P{} X{} Y{} R{}{}", modal_prefix(program, job.options.work_offset, false),
-                    job.options.work_offset, motion.x, motion.y, motion.degrees, job.program.line_end)}});
+      job.text, {{job.program.blocks[*program.first_axis_block].begin, 0,
+                  fmt::format("{}G10 L2 P{} X{} Y{}{} R{}{}",
+                              modal_prefix(program, job.options.work_offset, false), job.options.work_offset,
+                              motion.x, motion.y, motion.z, motion.degrees, job.program.line_end)}});
   result.rounding_mm = motion.rounding_mm;
   result.motions = program.motions.size();
   result.notes.push_back(
-      fmt::format("the scan was taken in machine coordinates: the program sets X, Y and rotation of {} "
-                  "itself, whatever they were; its Z "
-                  "stays, and no G92 shift may be active",
-                  offset));
+      fmt::format("the scan was taken in machine coordinates: the program sets X, Y{} and rotation of {} "
+                  "itself, whatever they were; {}no G92 shift may be active",
+                  job.options.z ? ", Z" : "", offset, job.options.z ? "" : "its Z stays, and "));
   result.notes.push_back(
       fmt::format("LinuxCNC keeps {} after the program: set it anew, with R0, before other work", offset));
   result.notes.push_back(reach_note(motion.rounding_mm));
@@ -196,7 +208,7 @@ Result<Rewritten> insert_g68(const RewriteJob& job) {
   if (program.rotation_cancel)
     return refusal(job.name, *program.rotation_cancel,
                    "G69 would cancel the rotation of mode g68; remove it");
-  if (program.motions.empty()) return unchanged(job);
+  if (moves_nowhere(job)) return unchanged(job);
   const std::size_t first_line = job.program.blocks[*program.first_axis_block].line;
   if (program.incremental_at_first)
     return refusal(job.name, first_line,
@@ -220,16 +232,17 @@ Result<Rewritten> insert_g68(const RewriteJob& job) {
   const std::string turn = fmt::format("G68 X0 Y0 R{}{}", motion.degrees, eol);
   std::vector<Edit> edits;
   const bool says_offset = !program.offset_stated && !program.late_offsets.empty();
-  edits.push_back(
-      {job.program.blocks[*program.first_axis_block].begin, 0,
-       fmt::format("{}{}G52 X{} Y{}{}{}", says_offset ? offset + eol : "",
-                   modal_prefix(program, job.options.work_offset, true), motion.x, motion.y, eol, turn)});
+  edits.push_back({job.program.blocks[*program.first_axis_block].begin, 0,
+                   fmt::format("{}{}G52 X{} Y{}{}{}{}", says_offset ? offset + eol : "",
+                               modal_prefix(program, job.options.work_offset, true), motion.x, motion.y,
+                               motion.z, eol, turn)});
   // The same offset again is no change, and may not be said under G68.
   for (const Word* word : program.late_offsets)
     edits.push_back({word->letter_at, word->number_end - word->letter_at, ""});
   LEKALO_TRY(const bool turned, suspend_rotation(job, turn, edits));
-  const std::string cancel = fmt::format("{}{}{}G52 X0 Y0", program.cycle_at_end ? "G80 " : "",
-                                         turned ? "G69" : "", turned || program.cycle_at_end ? eol : "");
+  const std::string cancel =
+      fmt::format("{}{}{}G52 X0 Y0{}", program.cycle_at_end ? "G80 " : "", turned ? "G69" : "",
+                  turned || program.cycle_at_end ? eol : "", job.options.z ? " Z0" : "");
   if (program.end_block)
     edits.push_back({job.program.blocks[*program.end_block].begin, 0, cancel + eol});
   else
@@ -244,12 +257,14 @@ Result<Rewritten> insert_g68(const RewriteJob& job) {
                                            "unchanged since the scan, and no "
                                            "other G52 shift or G68 rotation may be active",
                                            offset, offset)
-                             : fmt::format("the scan was taken in machine coordinates: {} must be zero in X "
-                                           "and Y when the program runs, and no "
+                             : fmt::format("the scan was taken in machine coordinates: {} must be zero in {} "
+                                           "when the program runs, and no "
                                            "other G52 shift or G68 rotation may be active",
-                                           offset));
+                                           offset, shifted_axes(job.options)));
   result.notes.push_back(
-      "a program stopped before its end leaves G68 and G52 active: cancel them with G69 and G52 X0 Y0");
+      fmt::format("a program stopped before its end leaves G68 and G52 active: cancel them with G69 and G52 "
+                  "X0 Y0{}",
+                  job.options.z ? " Z0" : ""));
   result.notes.push_back(
       fmt::format("the angle has {} decimals of a degree, what the control is taken to read",
                   job.options.g68_angle_decimals));

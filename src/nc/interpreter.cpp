@@ -32,6 +32,8 @@ Fault Interpreter::run_block(std::size_t index) {
   if (Fault fault = set_modes(words)) return fault;
   if (Fault fault = check_dwell(words)) return fault;
   if (Fault fault = check_takers(words, control_, modal_.motion)) return fault;
+  if (options_.z)
+    if (Fault fault = follow_height(words)) return fault;
   if (!words.dwells())
     if (Fault fault = words.goes_to_machine() ? go_to_machine(words) : move(words)) return fault;
   if (words.program_end) end_program(words);
@@ -112,7 +114,7 @@ Fault Interpreter::set_modes(const BlockWords& words) {
   if (words.word(Group::compensation) != nullptr) modal_.compensation = words.code(Group::compensation);
   if (words.tool_change) modal_.x_known = modal_.y_known = false;
   const int length = words.code(Group::tool_length);
-  if (words.tool_change || length != kNoCode) modal_.z_known = false;
+  if (words.tool_change || length != kNoCode) modal_.z_known = modal_.z_follows = false;
   // Without a length the tool stays up where it is.
   if (words.tool_change || length == 430 || length == 440) modal_.z_home = false;
   if (modal_.compensation != 400) {
@@ -151,7 +153,8 @@ Fault Interpreter::set_work_offset(const BlockWords& words) {
     for (const Word& each : program_.blocks[index_].words)
       if (each.letter == 'G' && listed(each, control_) == word) result_.late_offsets.push_back(&each);
   // Another offset is another frame: where the tool stands in it is not said.
-  if (offset_ != 0 && offset_ != number) modal_.x_known = modal_.y_known = modal_.z_known = false;
+  if (offset_ != 0 && offset_ != number)
+    modal_.x_known = modal_.y_known = modal_.z_known = modal_.z_follows = false;
   offset_ = number;
   return {};
 }

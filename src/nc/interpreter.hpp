@@ -42,9 +42,17 @@ struct Motion {
   const Word *x = nullptr, *y = nullptr, *i = nullptr, *j = nullptr;  ///< into the program
 };
 
-/// A program's effect, as far as a motion in the plane is concerned.
+/// A word that says a height of the program's own frame: Z, or R of a cycle, under G90.
+struct Height {
+  std::size_t block = 0;       ///< index into Program::blocks
+  const Word* word = nullptr;  ///< into the program
+  LengthUnit unit = LengthUnit::millimetre;
+};
+
+/// A program's effect, as far as a motion in the plane is concerned, or one that a shift along Z goes with.
 struct Interpretation {
   std::vector<Motion> motions;
+  std::vector<Height> heights;                  ///< of solids alone
   std::optional<std::size_t> first_axis_block;  ///< first block with X Y Z, or with G41 G42
   LengthUnit unit_at_first =
       LengthUnit::millimetre;  ///< the one in force before it, or the first one said, if it says it itself

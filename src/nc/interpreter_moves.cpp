@@ -164,6 +164,69 @@ void Interpreter::reach_z(const BlockWords& words) {
   modal_.z_home = false;
 }
 
+/// Shifts heights of a solid's program: every word that says one is found, and steps have to begin at one.
+Fault Interpreter::follow_height(const BlockWords& words) {
+  if (words.dwells()) return {};
+  if (words.goes_to_machine()) return follow_height_to_machine(words);
+  if (!words.has_axis() && !words.has_centre()) return {};
+  if (on_cycle()) return follow_cycle(words);
+  const Word* const z = words['Z'];
+  if (z != nullptr && modal_.incremental)
+    if (Fault fault = step_from_height()) return fault;
+  if (z != nullptr && !modal_.incremental) add_height(z);
+  const bool known = modal_.z_known || z != nullptr;
+  modal_.z_follows = modal_.z_follows || known;
+  if (!known && (on_arc() || on_motion(words::kFeed)))
+    return "it cuts at a Z that the program has not said, so it cannot be shifted along Z; give Z before";
+  return {};
+}
+
+/// G28 and G30 go by the height that their Z says, and G53 has a height of the machine.
+Fault Interpreter::follow_height_to_machine(const BlockWords& words) {
+  const words::Word& code = *words.word(words::Group::once);
+  const Word* const z = words['Z'];
+  if (z != nullptr && code.tenths != words::kMachineFrame) {
+    const bool in_frame = options_.mode == RewriteMode::coordinates || result_.first_axis_block;
+    if (!modal_.incremental && !in_frame)
+      return fmt::format("G{} by a height of the program before its first motion; write G91 Z0",
+                         code.tenths / 10);
+    if (!modal_.incremental) add_height(z);
+    if (modal_.incremental && !is_zero(z))
+      if (Fault fault = step_from_height()) return fault;
+  }
+  if (z != nullptr || !words.has_axis()) modal_.z_follows = false;
+  return {};
+}
+
+/// The control keeps Z and R of a cycle as numbers, so that they change their meaning with G90 and G91.
+Fault Interpreter::follow_cycle(const BlockWords& words) {
+  const Word *const z = words['Z'], *const r = words['R'];
+  if (!modal_.z_follows)
+    return "a canned cycle from a Z that the program has not said, so it cannot be shifted along Z; give Z "
+           "before";
+  const bool both = z != nullptr && r != nullptr;
+  if (!both && modal_.cycle_steps != modal_.incremental)
+    return "a canned cycle goes on under another of G90 and G91, where controls differ what its Z and R are; "
+           "give both again";
+  if (z != nullptr || r != nullptr) modal_.cycle_steps = modal_.incremental;
+  if (modal_.incremental) return {};
+  for (const Word* const word : {z, r})
+    if (word != nullptr) add_height(word);
+  return {};
+}
+
+Fault Interpreter::step_from_height() const {
+  if (modal_.z_known) return {};
+  return "a step along Z from a Z that the program has not said, so it cannot be shifted; give Z in G90 "
+         "before";
+}
+
+void Interpreter::add_height(const Word* word) {
+  note_unit();
+  note_point(word);
+  result_.heights.push_back({index_, word, modal_.unit});
+}
+
 Fault Interpreter::move_line(const BlockWords& words) {
   if (on_motion(words::kFeed) && !(modal_.x_known && modal_.y_known))
     note_once(unknown_start_noted_,
@@ -271,19 +334,27 @@ Fault Interpreter::read_repeats(const BlockWords& words, Motion& motion, bool& d
 }
 
 void Interpreter::add(const Motion& motion) {
-  if (!unit_ever_stated_)
-    note_once(unit_noted_,
-              fmt::format("the program names no unit before line {}: {} assumed ({} must be active)", line(),
-                          modal_.unit == LengthUnit::inch ? "inches are" : "millimetres are",
-                          modal_.unit == LengthUnit::inch ? "G20" : "G21"));
+  note_unit();
   for (const Word* word : {motion.x, motion.y, motion.i, motion.j})
-    if (word != nullptr && !word->has_point && word->value.digits != 0)
-      note_once(point_noted_,
-                fmt::format("line {}: {}{} has no decimal point and is read as a whole number of {}; some "
-                            "controls read it as increments",
-                            line(), word->letter, word->value.digits,
-                            modal_.unit == LengthUnit::inch ? "inches" : "millimetres"));
+    if (word != nullptr) note_point(word);
   result_.motions.push_back(motion);
+}
+
+void Interpreter::note_unit() {
+  if (unit_ever_stated_) return;
+  note_once(unit_noted_,
+            fmt::format("the program names no unit before line {}: {} assumed ({} must be active)", line(),
+                        modal_.unit == LengthUnit::inch ? "inches are" : "millimetres are",
+                        modal_.unit == LengthUnit::inch ? "G20" : "G21"));
+}
+
+void Interpreter::note_point(const Word* word) {
+  if (word->has_point || word->value.digits == 0) return;
+  note_once(point_noted_,
+            fmt::format("line {}: {}{} has no decimal point and is read as a whole number of {}; some "
+                        "controls read it as increments",
+                        line(), word->letter, word->value.digits,
+                        modal_.unit == LengthUnit::inch ? "inches" : "millimetres"));
 }
 
 }  // namespace lekalo::nc

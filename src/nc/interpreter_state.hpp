@@ -19,7 +19,9 @@ struct Modal {
   bool x_known = false, y_known = false, z_known = false;
   GridPoint position;
   Grains z = 0;
-  bool z_home = false;  ///< Z stands at a point of the machine, above everything
+  bool z_home = false;       ///< Z stands at a point of the machine, above everything
+  bool z_follows = false;    ///< Z is known, or was before cycles that begin and end by it
+  bool cycle_steps = false;  ///< the cycle's Z and R were said under G91
 };
 
 /// Follows a program block by block. interpreter.cpp has its modes, interpreter_moves.cpp its motions.
@@ -60,6 +62,13 @@ class Interpreter {
   [[nodiscard]] Motion begin_motion(const BlockWords& words, MotionKind kind) const;
   Fault reach(const BlockWords& words, Motion& motion);
   void reach_z(const BlockWords& words);
+  Fault follow_height(const BlockWords& words);
+  Fault follow_height_to_machine(const BlockWords& words);
+  Fault follow_cycle(const BlockWords& words);
+  [[nodiscard]] Fault step_from_height() const;
+  void add_height(const Word* word);
+  void note_unit();
+  void note_point(const Word* word);
   Fault move_line(const BlockWords& words);
   Fault move_arc(const BlockWords& words);
   Fault read_turns(const BlockWords& words, Motion& motion) const;

@@ -29,6 +29,21 @@ struct RewriteJob {
 [[nodiscard]] Result<Rewritten> insert_offset(const RewriteJob& job);
 [[nodiscard]] Result<Rewritten> insert_g68(const RewriteJob& job);
 
+/// The axes along which the pose shifts, for sentences.
+[[nodiscard]] inline const char* shifted_axes(const RewriteOptions& options) noexcept {
+  return options.z ? "X, Y and Z" : "X and Y";
+}
+
+/// The shift along Z as whole steps, and what it loses by that.
+struct RoundedHeight {
+  Grains shift = 0;
+  double lost_mm = 0;
+};
+[[nodiscard]] RoundedHeight rounded_height(double z_mm, Grains step) noexcept;
+
+/// Bounds the distance that an error in the plane and one along Z make together.
+[[nodiscard]] double with_height(double plane_mm, double height_mm) noexcept;
+
 /// `length` bytes at `at` give way to `text`.
 struct Edit {
   std::size_t at = 0, length = 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include "foreign.hpp"
@@ -32,6 +33,8 @@ Result<void> check_request(const std::string& name, double x, double y, double t
   };
   if (!(std::abs(x) <= kLargestShift && std::abs(y) <= kLargestShift))
     return wrong(fmt::format("the shift ({}, {}) is not within {} mm", x, y, kLargestShift));
+  if (options.z && !(std::abs(*options.z) <= kLargestShift))
+    return wrong(fmt::format("the shift {} along Z is not within {} mm", *options.z, kLargestShift));
   if (!(std::abs(theta) <= geom::kMaxAngle))
     return wrong(fmt::format("the angle {} is not within {} rad", theta, geom::kMaxAngle));
   if (options.work_offset < 1 || options.work_offset > 9)
@@ -143,6 +146,14 @@ bool must_straighten(const Interpretation& interpretation, const RigidMotion& mo
   });
 }
 
+/// The blocks that move in X and Y, and those that say a height.
+std::size_t moved_blocks(const Interpretation& interpretation) {
+  std::set<std::size_t> blocks;
+  for (const Motion& motion : interpretation.motions) blocks.insert(motion.block);
+  for (const Height& height : interpretation.heights) blocks.insert(height.block);
+  return blocks.size();
+}
+
 }  // namespace
 
 Result<Rewritten> rewrite_program(std::string_view text, const std::string& name, double x, double y,
@@ -174,6 +185,7 @@ Result<Rewritten> rewrite_program(std::string_view text, const std::string& name
   const RewriteJob job{reading.text,      name,  reading.program, reading.interpretation,
                        machine_from_part, theta, options,         control};
   LEKALO_TRY(Rewritten result, run_mode(job));  // 5
+  if (options.z) result.motions = moved_blocks(reading.interpretation);
   // 6. What the mode has to say comes first.
   const std::vector<std::string>& notes = reading.interpretation.notes;
   result.notes.insert(result.notes.end(), notes.begin(), notes.end());

@@ -36,7 +36,9 @@ const rs274::Oracle& oracle() {
 /// What is wrong with the rewritten program; empty when nothing is.
 std::string disagreement(const std::string& program, const rs274::PlaneMotion& pose, RewriteMode mode,
                          const rs274::Run& original, std::size_t& motions) {
-  const auto result = rewrite_program(program, "program", pose.x, pose.y, pose.theta, {.mode = mode});
+  RewriteOptions options{.mode = mode};
+  if (pose.z != 0) options.z = pose.z;
+  const auto result = rewrite_program(program, "program", pose.x, pose.y, pose.theta, options);
   if (!result) return "refused: " + result.error().message;
   rs274::Comparison comparison(pose, kTolerance, mode == RewriteMode::offset);
   std::string what = comparison.difference(original, oracle().run(result->program));
@@ -265,6 +267,56 @@ G4 P.1
 G0 Z9 A0
 M2
 )");
+}
+
+/// Programs of solids, shifted along Z too: cycles, steps, helices, arcs of all planes, tool lengths.
+TEST(NcRs274, ProgramsShiftedAlongZAgree) {
+  for (const char* const program : {R"(G21 G90 G17 G40 G80 G94 F150
+T1 M6
+G0 X5 Y5
+G43 H1 Z10
+G91 G1 X1.1 Z-.5
+G2 X2 R1 Z-.25
+G90 G1 Z-2.125
+G3 X12.1 Y5 I2 Z-4
+G0 Z10
+G98 G81 X11.25 Y1. Z-3. R1.
+X2.
+Y7 Z-4
+G99 G82 X3 Y3 Z-2 R1 P.1
+G83 X4 Y4 Z-6 R1 Q1.5
+G80 G0 Z10
+G91 G81 X2.3 Y1.1 Z-1 R-2 L4
+X-1 L2
+G80
+G90 G0 Z20
+M2
+)",
+                                    R"(G20 G90 G17 F10
+G0 X1 Y1
+G0 Z1
+G1 Z-.125
+G18 G2 X2 Z-.125 I.5
+G17 G1 X1 Y2
+G19 G3 Y3 Z-.125 J.5
+G17 G0 Z1
+G21 G1 Z20 F100
+X30 Y31
+M2
+)"})
+    for (rs274::PlaneMotion pose : {rs274::PlaneMotion{12.7, -25.4, 33.25 * kDegree, 6.35},
+                                    rs274::PlaneMotion{3.175, 6.35, 0, -101.6}}) {
+      const rs274::Run original = oracle().run(program);
+      ASSERT_TRUE(original.accepted) << original.errors;
+      for (const RewriteMode mode : {RewriteMode::coordinates, RewriteMode::offset}) {
+        std::size_t motions = 0;
+        EXPECT_EQ(disagreement(program, pose, mode, original, motions), "")
+            << "angle " << pose.theta / kDegree;
+        EXPECT_GT(motions, 0U);
+        pose.z += 0.0254;
+        EXPECT_EQ(disagreement(program, pose, mode, original, motions), "");
+      }
+    }
 }
 
 bool goes_home(const std::string& program) {

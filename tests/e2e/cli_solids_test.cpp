@@ -54,6 +54,30 @@ TEST_F(Solids, APlacementIsFoundToldAndConfirmed) {
   EXPECT_EQ(verify("r.json").status, 4);
 }
 
+TEST_F(Solids, AProgramOfThreeAxesIsWrittenForThePlacement) {
+  write_bytes(folder_ / "p.nc", "G21 G90 G17 G54\nG0 X-20. Y-15. Z30.\nG1 Z9. F200.\nX20.\nG0 Z30.\nM30\n");
+  const Words program{"--nc", "p.nc", "--nc-out", "o.nc", "-o", "r.json", "--method", "climb"};
+  const Ran refused = locate(program);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("--nc, whose program has three axes, goes with --freedom c-xyz or xyz"),
+            std::string::npos)
+      << refused.err;
+  const Ran ran = locate(program + Words{"--freedom", "c-xyz"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.err.find("NC program         4 motions"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("zero in X, Y and Z"), std::string::npos) << ran.err;
+  EXPECT_EQ(verify("r.json").status, 1);  // no bound, and the rest is confirmed
+  std::string bytes = read_bytes(folder_ / "o.nc");
+  bytes.replace(bytes.find(" Z", bytes.find("X-")), 2, " Z1");
+  write_bytes(folder_ / "o.nc", bytes);
+  EXPECT_EQ(verify("r.json").status, 4);
+  write_bytes(folder_ / "p.nc", "G21 G90\nG0 X1. Y2.\nG1 X5. F9.\n");
+  const Ran high = locate(program + Words{"--freedom", "xyz"});
+  EXPECT_EQ(high.status, 3);
+  EXPECT_NE(high.err.find("p.nc:3: it cuts at a Z that the program has not said"), std::string::npos)
+      << high.err;
+}
+
 TEST_F(Solids, APageThatTurnsIsAPictureAndFourViewsAreAReport) {
   ASSERT_EQ(locate({"--method", "climb", "--picture", "p.html", "--report", "r.pdf"}).status, 0);
   EXPECT_NE(read_bytes(folder_ / "p.html").find("<canvas"), std::string::npos);

@@ -178,9 +178,9 @@ class Oracle {
   std::filesystem::path root_;
 };
 
-/// A rigid motion of the plane, millimetres.
+/// A rigid motion of the plane, and for solids a shift along Z, millimetres.
 struct PlaneMotion {
-  double x = 0, y = 0, theta = 0;
+  double x = 0, y = 0, theta = 0, z = 0;
 
   [[nodiscard]] std::array<double, 2> operator()(double px, double py) const {
     return {std::cos(theta) * px - std::sin(theta) * py + x, std::sin(theta) * px + std::cos(theta) * py + y};
@@ -228,6 +228,7 @@ class Comparison {
       if (announced_ && call.name == "SET_G5X_OFFSET") {
         frame.x = call.numbers.at(1) * call.unit;
         frame.y = call.numbers.at(2) * call.unit;
+        if (pose_.z != 0) frame.z = call.numbers.at(3) * call.unit;
         continue;
       }
       if (announced_ && call.name == "SET_XY_ROTATION") {
@@ -242,6 +243,7 @@ class Comparison {
 
   /// An arc outside the XY plane is only ever shifted.
   static void place(const PlaneMotion& frame, Call& call) {
+    for (const std::size_t k : heights(call)) call.numbers.at(k) += frame.z / call.unit;
     if (call.upright()) {
       const double x = frame.x / call.unit, y = frame.y / call.unit;
       for (const std::size_t k : {0U, 2U})
@@ -251,6 +253,17 @@ class Comparison {
     }
     move(frame, call, 0);
     if (call.arc()) move(frame, call, 2);
+  }
+  /// The numbers that are heights: of an upright arc that of the end and that of the middle.
+  static std::vector<std::size_t> heights(const Call& call) {
+    if (call.straight()) return {2};
+    if (!call.upright()) return {5};
+    return call.plane == 'Y' ? std::vector<std::size_t>{0, 2} : std::vector<std::size_t>{1, 3};
+  }
+  /// A rapid before the first word in Z, or from a point of the machine, is at a height that nothing shifts.
+  [[nodiscard]] bool stays_up(const Call& a, const Call& b, std::size_t k) const {
+    return pose_.z != 0 && k == 2 && a.name == "STRAIGHT_TRAVERSE" &&
+           std::abs(a.numbers[k] - b.numbers[k]) <= tolerance_;
   }
   static void move(const PlaneMotion& motion, Call& call, std::size_t at) {
     const auto moved = motion(call.numbers.at(at) * call.unit, call.numbers.at(at + 1) * call.unit);
@@ -267,7 +280,10 @@ class Comparison {
     if (a.unit != b.unit) return "different units";
     // Until the first words in X and Y the machine stands where it was switched on, whatever the frame.
     const bool resting = a.straight() && a.numbers.at(0) == 0 && a.numbers.at(1) == 0;
-    if (!placed_ && resting && rests(b)) return a.numbers.at(2) == b.numbers.at(2) ? "" : "different Z";
+    const double rise = a.straight() ? b.numbers.at(2) - a.numbers.at(2) : 0;
+    if (!placed_ && resting && rests(b))
+      return rise == 0 || (pose_.z != 0 && std::abs(rise - pose_.z / a.unit) <= tolerance_) ? ""
+                                                                                            : "different Z";
     if (homes_ && resting && a.name == "STRAIGHT_TRAVERSE" && a.numbers == b.numbers) return "";
     placed_ = true;
     ++motions;
@@ -275,7 +291,9 @@ class Comparison {
     place(pose_, image);
     for (std::size_t k = 0; k < image.numbers.size(); ++k) {
       const double off = std::abs(image.numbers[k] - b.numbers.at(k));
-      const bool in_plane = k < 2 || (a.arc() && k < 4) || (a.upright() && k == 5);
+      const bool shifted = k == 2 && a.straight() ? pose_.z != 0 : k == 5 && pose_.z != 0;
+      const bool in_plane = k < 2 || (a.arc() && k < 4) || (a.upright() && k == 5) || shifted;
+      if (shifted && stays_up(a, b, k)) continue;
       if (in_plane) largest_units = std::max(largest_units, off);
       if (!(off <= (in_plane ? tolerance_ : 0))) return "different positions";
     }
@@ -305,7 +323,8 @@ class Comparison {
     const double near = tolerance_ + 1.1e-3 / a.unit;
     const auto off = [&](const std::array<double, 3>& p, const std::array<double, 3>& q) {
       const auto image = pose_(p[0] * a.unit, p[1] * a.unit);
-      return std::hypot(std::hypot(image[0] / a.unit - q[0], image[1] / a.unit - q[1]), p[2] - q[2]);
+      return std::hypot(std::hypot(image[0] / a.unit - q[0], image[1] / a.unit - q[1]),
+                        p[2] + pose_.z / a.unit - q[2]);
     };
     std::size_t last = next;
     while (last < b.size() && b[last].straight() && !(off(end, b[last].end()) <= tolerance_ * 2)) ++last;

@@ -111,6 +111,7 @@ inline SolidResultFiles cube_in_cube(Json certificate = nullptr, double bound = 
                  {"unknown_area_mm2", 0},
                  {"certificate", std::move(certificate)},
                  {"certificate_file", nullptr},
+                 {"nc", nullptr},
                  {"run", Json::object()}};
   return made;
 }

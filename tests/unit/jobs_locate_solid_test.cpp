@@ -66,10 +66,24 @@ verify::Verdict verdict(const SolidLocateJob& job, const LocatedSolid& located) 
                if (role == "start") return job.start;
                if (role == "points") return job.blank;
                if (role == "blank" && !located.mesh.empty()) return File{job.outputs.mesh, located.mesh};
+               if (role == "nc") return job.program;
+               if (role == "NC program") return File{"o.nc", located.program};
                return role == "blank" ? std::optional(job.blank) : std::nullopt;
              });
   EXPECT_TRUE(done.has_value()) << (done ? "" : done.error().message);
   return done ? done->report.verdict : verify::Verdict::refuted;
+}
+
+/// A job about z whose program drills and mills the block.
+SolidLocateJob program_job() {
+  SolidLocateJob job = block_job();
+  job.options.freedom = SolidFreedom::c_xyz;
+  job.program =
+      File{"p.nc",
+           "G21 G90 G17 G54\nT1 M6\nG0 X-20. Y-15.\nG43 H1 Z30.\nG1 Z9. F200.\nG2 X0. Y-15. I10. Z8.\n"
+           "G98 G81 X1. Y2. Z-3. R12.\nG80\nG0 Z30.\nM30\n"};
+  job.outputs.program = "o.nc";
+  return job;
 }
 
 /// The angle of a rotation in degrees.
@@ -129,7 +143,40 @@ TEST(JobsLocateSolid, TheFieldsOfTheResultStandInTheirOrder) {
                                                    "shortfall",   "contacts",
                                                    "scan",        "unknown_area_mm2",
                                                    "certificate", "certificate_file",
-                                                   "run"}));
+                                                   "nc",          "run"}));
+}
+
+TEST(JobsLocateSolid, AProgramOfThreeAxesIsMovedAndChecked) {
+  SolidLocateJob job = program_job();
+  for (const nc::RewriteMode mode : {nc::RewriteMode::coordinates, nc::RewriteMode::offset}) {
+    job.options.rewrite.mode = mode;
+    const LocatedSolid located = made(job);
+    ASSERT_TRUE(located.document.nc) << located.result;
+    EXPECT_TRUE(located.holds());
+    EXPECT_EQ(verdict(job, located), verify::Verdict::unproved);
+    EXPECT_LE(located.document.nc->clearance, *located.document.clearance - located.document.nc->rounding_mm);
+    EXPECT_TRUE(says(located.program, "THE PART LIES AT X ")) << located.program;
+    LocatedSolid other = located;
+    other.program.replace(other.program.find("Z", other.program.find("G43")), 1, "Z1");
+    EXPECT_EQ(verdict(job, other), verify::Verdict::refuted);
+  }
+}
+
+TEST(JobsLocateSolid, AProgramIsWithheldWhereThreeAxesCannotFollow) {
+  SolidLocateJob job = program_job();
+  job.options.min_allowance = 3;
+  EXPECT_TRUE(warns(made(job), "no NC program was written, because the allowance is not met"));
+  job.options.min_allowance = 0, job.options.freedom = SolidFreedom::six;
+  // A blank that is a bit turned about x has the part tilted.
+  solid::Mesh turned = cases::block({-22, -17, -13}, {24, 17, 11});
+  for (solid::Vector& v : turned.vertices) v = {v.x, 0.9998 * v.y - 0.02 * v.z, 0.02 * v.y + 0.9998 * v.z};
+  job.blank.bytes = solid_files::obj(turned);
+  const LocatedSolid tilted = made(job);
+  EXPECT_TRUE(tilted.program_withheld);
+  EXPECT_FALSE(tilted.holds());
+  EXPECT_TRUE(tilted.program.empty());
+  EXPECT_TRUE(
+      warns(tilted, "the part lies tilted, which three axes cannot follow; place it with --freedom c-xyz"));
 }
 
 TEST(JobsLocateSolid, ThePartIsFoundWhereItWasTurnedAway) {

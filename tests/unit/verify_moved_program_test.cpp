@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -111,6 +112,86 @@ TEST(VerifyMovedProgram, RefusesEveryChangeOfANumberOrALetter) {
     }
   EXPECT_GT(changes, 300U);
   EXPECT_EQ(confirmed, 0U);
+}
+
+/// Programs of solids are shifted along Z as well.
+struct MovedSolid {
+  Moved made;
+  double z = 30.5, theta = 0;
+  RewriteMode mode = RewriteMode::coordinates;
+
+  [[nodiscard]] std::string said_of(const std::string& original, const std::string& written) const {
+    ProgramClaim claim{{"p.nc", original},     {"out.nc", written}, decimal(kX), decimal(kY),  {},
+                       decimal(made.rounding), name_of(mode),       1,           made.control, {}};
+    claim.solid =
+        ProgramClaim::Solid{decimal(z), {decimal(2 * std::cos(theta / 2)), decimal(2 * std::sin(theta / 2))}};
+    return said(check_moved_program(claim));
+  }
+};
+
+MovedSolid moved_solid(const std::string& original, RewriteMode mode, double theta) {
+  MovedSolid solid{{}, 30.5, theta, mode};
+  nc::RewriteOptions options{.mode = mode};
+  if (mode == RewriteMode::g68) options.scan_frame = nc::ScanFrame::wcs;
+  options.z = solid.z;
+  const auto made = nc::rewrite_program(original, "p.nc", kX, kY, theta, options);
+  EXPECT_TRUE(made) << (made ? "" : made.error().message);
+  if (made)
+    solid.made = {nc::with_header(made->program, made->notes, made->control), made->rounding_mm,
+                  made->control};
+  return solid;
+}
+
+TEST(VerifyMovedProgram, ConfirmsProgramsOfSolidsInEveryMode) {
+  for (const std::string& original : {kPlain, kHard})
+    for (const RewriteMode mode : {RewriteMode::coordinates, RewriteMode::offset, RewriteMode::g68})
+      for (const double theta : {0.0, 0.58, -2.0}) {
+        if (mode == RewriteMode::offset && original == kHard) continue;
+        MovedSolid solid = moved_solid(original, mode, theta);
+        EXPECT_EQ(solid.said_of(original, solid.made.text), "confirmed") << solid.made.text;
+        // The same program claims another height, or another turn, in vain.
+        solid.z += 0.01;
+        EXPECT_EQ(solid.said_of(original, solid.made.text).find("fault"), 0U);
+        solid.z -= 0.01, solid.theta += 0.01;
+        EXPECT_EQ(solid.said_of(original, solid.made.text).find("fault"), 0U);
+      }
+}
+
+TEST(VerifyMovedProgram, RefusesEveryOtherHeightOfASolid) {
+  std::size_t changes = 0;
+  for (const std::string& original : {kPlain, kHard})
+    for (const RewriteMode mode : {RewriteMode::coordinates, RewriteMode::g68}) {
+      const MovedSolid solid = moved_solid(original, mode, 0.58);
+      const std::string& text = solid.made.text;
+      bool comment = false;
+      for (std::size_t at = 0; at + 1 < text.size(); ++at) {
+        comment = text[at] == '(' || (comment && text[at] != ')');
+        if (comment || (text[at] != 'Z' && text[at] != 'R')) continue;
+        std::string other = text;
+        other.insert(at + (text[at + 1] == '-' ? 2 : 1), "1");
+        ++changes;
+        EXPECT_EQ(solid.said_of(original, other).find("fault"), 0U)
+            << other.substr(at > 20 ? at - 20 : 0, 40);
+      }
+    }
+  EXPECT_GT(changes, 60U);
+}
+
+/// A Z that the program has not said is nowhere on the part, and a cycle may not carry numbers of G90 into
+/// G91.
+TEST(VerifyMovedProgram, HoldsASolidToHeightsThatAreSaid) {
+  const MovedSolid solid{{"", 1e-9, words::Control::linuxcnc}};
+  const std::string begin = "G21 G90 G17 F90.\n";
+  const std::string moved_begin = begin + "G0 X12.7 Y-25.4\n", unmoved = begin + "G0 X0. Y0.\n";
+  EXPECT_EQ(solid.said_of(unmoved, moved_begin), "confirmed");
+  EXPECT_EQ(solid.said_of(unmoved + "G0 Z5.\n", moved_begin + "G0 Z35.5\n"), "confirmed");
+  EXPECT_EQ(solid.said_of(unmoved + "G0 Z5.\n", moved_begin + "G0 Z5.\n").find("fault"), 0U);
+  EXPECT_EQ(solid.said_of(unmoved + "G1 X1.\n", moved_begin + "G1 X13.7\n").find("fault"), 0U);
+  EXPECT_EQ(solid.said_of(unmoved + "G91 G28 Z0.\n", moved_begin + "G91 G28 Z0.\n"), "confirmed");
+  EXPECT_EQ(solid.said_of(unmoved + "G53 G0 Z-1.\n", moved_begin + "G53 G0 Z29.5\n").find("fault"), 0U);
+  const std::string cycle = unmoved + "G0 Z5.\nG99 G81 X1. Z-1. R2.\nG91 X1.\nM2\n",
+                    moved_cycle = moved_begin + "G0 Z35.5\nG99 G81 X13.7 Z29.5 R32.5\nG91 X1.\nM2\n";
+  EXPECT_EQ(solid.said_of(cycle, moved_cycle).find("open"), 0U);
 }
 
 /// Of a way along Z from a height that is not known no motion is seen, only its words.

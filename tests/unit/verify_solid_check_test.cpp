@@ -196,13 +196,13 @@ TEST(SolidCheck, AFileHasARoleAndAStartSaysNothingElse) {
   other["role"] = "stop";
   EXPECT_EQ(with_input(other),
             "bad input: result.json: field inputs[2].role is \"stop\", not \"part\", \"blank\", \"start\", "
-            "\"points\"");
-  for (const char* key : {"units", "triangles"}) {
+            "\"points\", \"nc\", \"allow\"");
+  for (const char* key : {"units", "triangles", "points"}) {
     other = start;
     other[key] = 12;
     EXPECT_EQ(
         with_input(other),
-        fmt::format("bad input: result.json: field inputs[2].{} is said of a start, which is no solid", key));
+        fmt::format("bad input: result.json: field inputs[2].{} is said of the file of the role start", key));
   }
 }
 

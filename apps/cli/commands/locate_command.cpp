@@ -35,9 +35,12 @@ Result<jobs::LocateJob> read_files(const LocateOptions& o, jobs::File part, jobs
 }
 
 Result<jobs::SolidLocateJob> read_solids(const LocateOptions& o, jobs::File part, jobs::File blank) {
-  jobs::SolidLocateJob job{std::move(part), std::move(blank), {}, o.solid, {}, o.warnings};
+  jobs::SolidLocateJob job{std::move(part), std::move(blank), {}, {}, {}, o.solid, {}, o.warnings};
   LEKALO_CHECK(read_if_named(o.start, job.start));
+  LEKALO_CHECK(read_if_named(o.nc, job.program));
+  LEKALO_CHECK(read_if_named(o.allow, job.allow));
   job.outputs.certificate = o.outputs.certificate, job.outputs.mesh = o.mesh;
+  job.outputs.program = o.outputs.program;
   job.outputs.allowances = o.outputs.allowances;
   job.outputs.report = o.outputs.report;
   if (!o.picture.empty())
@@ -109,6 +112,7 @@ Result<int> locate_solid(const LocateOptions& o, jobs::File part, jobs::File bla
                                 {&o.report, &made.report},
                                 {&o.allowances, &made.allowances}};
   if (!made.mesh.empty()) documents.push_back({&o.mesh, &made.mesh});
+  if (made.document.nc) documents.push_back({&o.outputs.program, &made.program});
   LEKALO_TRY(const std::vector<std::string> written, write_all(o, made.result, documents));
   tell(solid_summary(made.document, written));
   return made.holds() ? 0 : 1;

@@ -240,6 +240,8 @@ void read_program(const LocateWords& words, WordReader& read, LocateOptions& o) 
   if (o.job.part.units) o.job.rewrite.start_unit = *o.job.part.units;
   read.number("--wcs", words.wcs, 1, 9, "a whole number from 1 (G54) to 9 (G59.3)",
               o.job.rewrite.work_offset);
+  o.solid.rewrite = o.job.rewrite;
+  if (o.solid.units == io::SolidUnit::inch) o.solid.rewrite.start_unit = LengthUnit::inch;
 }
 
 void read_outputs(const LocateWords& words, WordReader& read, LocateOptions& o) {
@@ -289,11 +291,15 @@ void check_method(const LocateWords& words, WordReader& read, LocateOptions& o) 
 }
 
 /// The options that solids have, too, and those that they alone have; all others are for outlines.
-constexpr std::array<std::string_view, 20> kOfBoth{
-    "--part",        "--blank",    "--units",       "--window",     "--gap",
-    "--method",      "--work",     "--time",        "--json",       "--output",
-    "--picture",     "--report",   "--certificate", "--allowances", "--min-allowance",
-    "--uncertainty", "--coverage", "--min-radius",  "--max-dip",    "--drop-outliers"};
+constexpr std::array<std::string_view, 29> kOfBoth{
+    "--part",        "--blank",           "--units",         "--window",
+    "--gap",         "--method",          "--work",          "--time",
+    "--json",        "--output",          "--picture",       "--report",
+    "--certificate", "--allowances",      "--min-allowance", "--uncertainty",
+    "--coverage",    "--min-radius",      "--max-dip",       "--drop-outliers",
+    "--nc",          "--nc-out",          "--nc-mode",       "--control",
+    "--allow",       "--chord-tolerance", "--wcs",           "--nc-angle-decimals",
+    "--scan-frame"};
 constexpr std::array<std::string_view, 8> kOfSolids{"--freedom",   "--tilt", "--shift", "--start",
                                                     "--underside", "--flat", "--mesh",  "--mesh-step"};
 
@@ -352,6 +358,9 @@ void check_turns(const LocateWords& words, LocateOptions& o) {
            "--window: the turns of a solid lie at most 180 degrees apart");
   complain(!words.tilt.empty() && o.solid.freedom != locate::SolidFreedom::six,
            "--tilt goes with --freedom six");
+  complain(
+      !words.nc.empty() && o.solid.freedom == locate::SolidFreedom::six,
+      "--nc, whose program has three axes, goes with --freedom c-xyz or xyz: no such axis follows a tilt");
 }
 
 /// A scanner's mesh has its place in space; what is between its points has to be said.

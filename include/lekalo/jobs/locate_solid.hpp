@@ -51,6 +51,8 @@ struct SolidLocateOptions {
   SolidMethod method = SolidMethod::certified;
   /// Without it the blank is taken as drawn.
   std::optional<SolidScanOptions> scan;
+  /// The way a program is rewritten; its `z` is that of the placement.
+  nc::RewriteOptions rewrite = {};
   /// They change the time and nothing else.
   unsigned threads = kUsualThreads;
 };
@@ -64,6 +66,9 @@ struct SolidLocateOutputs {
   std::string certificate;
   /// The name of the file for the mesh of a blank that is points, or whose mesh does not close.
   std::string mesh;
+  /// The name of the rewritten program.
+  /// \pre not empty where the job has one
+  std::string program;
   /// The allowance at every corner of the part as CSV.
   bool allowances = false;
   std::optional<SolidPictureForm> picture;
@@ -75,6 +80,8 @@ struct SolidLocateJob {
   /// An earlier result for solids, whose pose is the start. Without one the part begins where its file has
   /// it.
   std::optional<File> start = {};
+  /// See LocateJob.
+  std::optional<File> program = {}, allow = {};
   SolidLocateOptions options = {};
   SolidLocateOutputs outputs = {};
   /// The warnings that the caller has to give; the result repeats them first.
@@ -86,12 +93,15 @@ struct LocatedSolid {
   io::SolidDocument document;
   /// The bytes of `document`, which are what was checked.
   std::string result;
-  std::string certificate, mesh, allowances, picture, report;
+  std::string certificate, mesh, allowances, picture, report, program;
+  /// There was a program, but the placement does not allow it; a warning in the document says why.
+  bool program_withheld = false;
 
-  /// True if the answer is yes: the part lies in the blank and has the allowance, and all of the blank is
-  /// known.
+  /// True if the answer is yes: the part lies in the blank and has the allowance, all of the blank is known,
+  /// and the program, if there was one, is there.
   [[nodiscard]] bool holds() const noexcept {
-    return document.inside() && !(*document.shortfall() > 0) && (!document.scan || document.scan->proved());
+    return document.inside() && !(*document.shortfall() > 0) && !program_withheld &&
+           (!document.scan || document.scan->proved());
   }
 };
 
@@ -102,16 +112,17 @@ struct LocatedSolid {
 
 /// Places a solid in a blank, both closed meshes; the part is taken as drawn, and so is a blank that is no
 /// scan. Points of a scan, or one whose mesh does not close, are meshed first, if the mesh has a name: it is
-/// then the blank of the result. Before anything is handed out the very bytes of the result are put before the
-/// checker of verify/verify.hpp, as in locate().
+/// then the blank of the result. Before anything is handed out the very bytes of the result are put before
+/// the checker of verify/verify.hpp, as in locate().
 ///
 /// Deterministic: only SolidDocument::seconds and ::threads are not functions of the job. `run` is for the
 /// search: its unit of work is a box bounded, a program solved or a pose measured.
 ///
 /// Errors: bad_input as of io::parse_solid, solid::closed_mesh and solid::surface_through, for points that
 /// nobody says how to mesh or that contradict what is said of them, and for a start that is no result for
-/// solids; usage as of locate::locate_solid and locate::guaranteed_solid; environment where a
-/// drawing library fails; refuted where the checker does not confirm the result, which is a mistake of ours.
+/// solids; program_refused as of nc::rewrite_program; usage as of locate::locate_solid and
+/// locate::guaranteed_solid; environment where a drawing library fails; refuted where the checker does not
+/// confirm the result, which is a mistake of ours.
 [[nodiscard]] Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& run = {},
                                                 const Stopwatch& stopwatch = {});
 

@@ -17,8 +17,8 @@ namespace lekalo::nc {
 /// rounding.
 
 enum class RewriteMode {
-  coordinates,  ///< X Y I J of every motion turned and shifted; every other byte unchanged
-  offset,       ///< LinuxCNC: one `G10 L2 P. X. Y. R.` before the first motion, the program unchanged
+  coordinates,  ///< X Y I J, and heights, of every motion turned and shifted; every other byte unchanged
+  offset,       ///< LinuxCNC: one `G10 L2 P. X. Y. (Z.) R.` before the first motion, the program unchanged
   g68           ///< Fanuc: local shift and G68 rotation before the first motion, cancelled at the end
 };
 
@@ -45,6 +45,9 @@ struct RewriteOptions {
   std::optional<words::Control> control = {};
   /// M words that a shop allows beside those of the list: they move no axis.
   std::vector<int> allowed_m = {};
+  /// A solid's program is shifted by this along Z too, mm; it counts as exact. Then whatever cuts has to be
+  /// at a height that the program says.
+  std::optional<double> z = {};
 };
 
 struct Rewritten {
@@ -60,8 +63,8 @@ struct Rewritten {
   words::Control control = words::Control::linuxcnc;
 };
 
-/// Rewrites a program by the pose `p -> R(theta) p + (x, y)`, whose shift is in mm; theta, x and y count as
-/// exact.
+/// Rewrites a program by the pose `p -> R(theta) p + (x, y, options.z)`, R about Z, the shift in mm; theta,
+/// x and y count as exact.
 ///
 /// \param name  the name of the program, for messages.
 /// \return      passes only words on the white list. Anything else, and anything whose meaning would change
@@ -70,9 +73,8 @@ struct Rewritten {
 ///              or the mode cannot serve the scan frame.
 ///
 /// Properties (tests/property/nc_rewrite_test.cpp):
-///   (1) coordinates: as many lines as before, and what is neither X Y I J of a motion nor supplied for one
-///   is
-///       byte for byte the same;
+///   (1) coordinates: as many lines as before, and what is neither X Y I J of a motion, a height that z
+///       shifts, nor supplied for a motion is byte for byte the same;
 ///   (2) the identity pose in mode coordinates changes no byte;
 ///   (3) every programmed point of the result lies within rounding_mm of the pose applied to its original.
 ///

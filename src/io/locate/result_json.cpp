@@ -53,19 +53,6 @@ void write(JsonWriter& json, const TrimRecord& trim) {
   json.key("contour").list(trim.contour, [&](geom::Point p) { write(json, p); }).end();
 }
 
-void write(JsonWriter& json, const NcRecord& nc) {
-  json.begin_object().fields({{"mode", nc.mode},
-                              {"scan_frame", nc.scan_frame},
-                              {"control", nc.control},
-                              {"work_offset", nc.work_offset},
-                              {"rounding_mm", nc.rounding_mm},
-                              {"clearance", nc.clearance},
-                              {"motions", nc.motions}});
-  json.key("notes").list(nc.notes);
-  write(json.key("output"), nc.output);
-  json.end();
-}
-
 void write(JsonWriter& json, const ComparisonRecord& comparison) {
   json.object({{"same_part", comparison.same_part},
                {"dx", comparison.dx},
@@ -456,7 +443,7 @@ std::string result_json(const LocateDocument& d) {
   write_placement(json, d);
   std::visit([&](const auto& proof) { write(json, d, proof); }, d.proof);
   write_or_null(line_of(json, "trim"), d.trim);
-  write_or_null(line_of(json, "nc"), d.nc);
+  detail::write_nc(line_of(json, "nc"), d.nc);
   write_or_null(line_of(json, "comparison"), d.comparison);
   write_or_null(line_of(json, "deviations"), d.deviations);
   line_of(json, "run").object({{"seconds", d.seconds}, {"threads", d.threads}});
@@ -497,6 +484,20 @@ const char* name_of(locate::Status status) noexcept {
       break;
   }
   return "infeasible";
+}
+
+void detail::write_nc(JsonWriter& json, const std::optional<NcRecord>& nc) {
+  if (!nc) return void(json.value(nullptr));
+  json.begin_object().fields({{"mode", nc->mode},
+                              {"scan_frame", nc->scan_frame},
+                              {"control", nc->control},
+                              {"work_offset", nc->work_offset},
+                              {"rounding_mm", nc->rounding_mm},
+                              {"clearance", nc->clearance},
+                              {"motions", nc->motions}});
+  json.key("notes").list(nc->notes);
+  write(json.key("output"), nc->output);
+  json.end();
 }
 
 const char* name_of(nc::RewriteMode mode) noexcept {

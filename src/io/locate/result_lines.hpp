@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 
 #include "lekalo/io/locate/result_json.hpp"
 #include "lekalo/io/text/json_writer.hpp"
@@ -20,5 +21,8 @@ template <class Items, class WriteItem>
 void list_of_lines(JsonWriter& json, const Items& items, const WriteItem& write_item) {
   json.list_of_lines(items, 4, 2, write_item);
 }
+
+/// Writes what became of a program, or null.
+void write_nc(JsonWriter& json, const std::optional<NcRecord>& nc);
 
 }  // namespace lekalo::io::detail

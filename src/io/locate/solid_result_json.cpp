@@ -122,6 +122,7 @@ std::string result_json(const SolidDocument& d) {
   write_head(json, d);
   write_placement(json, d);
   write_proof(json, d);
+  detail::write_nc(line_of(json, "nc"), d.nc);
   line_of(json, "run").object({{"seconds", d.seconds}, {"threads", d.threads}});
   json.line(0).end();
   return json.take() + "\n";

@@ -44,13 +44,16 @@ std::vector<io::SolidInputRecord> input_records(const SolidLocateJob& job, const
     record.unit = in.meshed->unit, record.points = in.meshed->points;
     records.push_back(std::move(record));
   }
-  if (job.start) records.push_back(record_of("start", *job.start));
+  for (const auto& [role, file] :
+       {std::pair{"start", &job.start}, {"nc", &job.program}, {"allow", &job.allow}})
+    if (*file) records.push_back(record_of(role, **file));
   return records;
 }
 
 void warn_of_names(const SolidLocateJob& job, std::vector<std::string>& warnings) {
-  for (const std::string& name :
-       {job.part.name, job.blank.name, job.start ? job.start->name : std::string(), job.outputs.certificate})
+  const auto name_of_file = [](const std::optional<File>& file) { return file ? file->name : std::string(); };
+  for (const std::string& name : {job.part.name, job.blank.name, name_of_file(job.start),
+                                  name_of_file(job.program), job.outputs.certificate, job.outputs.program})
     if (const auto warning = warning_of_name(name)) warnings.push_back(*warning);
 }
 
@@ -155,6 +158,9 @@ Result<verify::LocateReport> rechecked(const SolidLocateJob& job, const SolidInp
   verify::LocateInputs inputs{
       {"result", made.result}, {job.part.name, job.part.bytes}, {blank.name, blank.bytes}, {}};
   if (in.meshed) inputs.points = {job.blank.name, job.blank.bytes};
+  for (const auto& [file, to] : {std::pair{&job.program, &inputs.program}, {&job.allow, &inputs.allow}})
+    if (*file) *to = verify::Document{(*file)->name, (*file)->bytes};
+  if (made.document.nc) inputs.written_program = verify::Document{job.outputs.program, made.program};
   std::string with_proof;
   if (!made.certificate.empty()) inputs.certificate = {"certificate", made.certificate};
   if (inputs.certificate && !made.document.certificate_file) {
@@ -245,6 +251,7 @@ Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& r
   made.document = document_of(job, in, std::move(found));
   made.document.seconds = seconds;
   place_proof(job, made);
+  LEKALO_CHECK(add_program(job, made));
   LEKALO_CHECK(add_pictures(job, in, made));
   LEKALO_CHECK(self_check(job, in, made));
   if (in.meshed) made.mesh = std::move(in.meshed->mesh.bytes);

@@ -362,7 +362,7 @@ void AngleCheck::check_derived() {
   if (!(approximate(r.nc->clearance - most) <= slack) || sgn(r.nc->rounding_mm.digits) < 0)
     find("nc.clearance is {}, but the clearance less the rounding of the program is {}",
          approximate(r.nc->clearance), approximate(most));
-  if (!check_program(inputs_, *r.nc, r.best.x, r.best.y, r.best.theta, report_)) all_rechecked_ = false;
+  if (!check_program(inputs_, *r.nc, {r.best.x, r.best.y, r.best.theta}, report_)) all_rechecked_ = false;
 }
 
 /// Holds the earlier pose's clearance in the new blank against the outlines. The rest of the comparison was

@@ -310,7 +310,7 @@ void PoseCheck::check_side() {
   if (enclosed(r_.nc->clearance).low > left.high || sgn(r_.nc->rounding_mm.digits) < 0)
     find("the program's clearance {} is above clearance less its rounding", approximate(r_.nc->clearance));
   if (r_.mirrored) find("a program was written, but the part lies mirrored");
-  program_open_ = !check_program(inputs_, *r_.nc, r_.x, r_.y, r_.theta, report_);
+  program_open_ = !check_program(inputs_, *r_.nc, {r_.x, r_.y, r_.theta}, report_);
 }
 
 Json PoseCheck::certificate_of(const char* key) {

@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "verify/pocket/moved_program.hpp"
 #include "verify/read/fields.hpp"
 
 namespace lekalo::verify {
@@ -51,8 +50,8 @@ std::optional<std::vector<int>> allowed_words(std::string_view text) {
 
 }  // namespace
 
-bool check_program(const LocateInputs& inputs, const WrittenNc& nc, const Decimal& x, const Decimal& y,
-                   const Decimal& theta, LocateReport& report) {
+bool check_program(const LocateInputs& inputs, const WrittenNc& nc, const ProgramPose& pose,
+                   LocateReport& report) {
   if (!inputs.program) {
     report.findings.emplace_back("a program was written, but the result names none that it was made from");
     return true;
@@ -66,8 +65,8 @@ bool check_program(const LocateInputs& inputs, const WrittenNc& nc, const Decima
   const auto allowed = allowed_words(inputs.allow ? inputs.allow->bytes : "");
   if (!allowed) return leave_open(fmt::format("{} is no list of M words", inputs.allow->name));
   const ProgramVerdict verdict =
-      check_moved_program({*inputs.program, *inputs.written_program, x, y, theta, nc.rounding_mm, nc.mode,
-                           nc.work_offset, nc.control, *allowed});
+      check_moved_program({*inputs.program, *inputs.written_program, pose.x, pose.y, pose.theta,
+                           nc.rounding_mm, nc.mode, nc.work_offset, nc.control, *allowed, pose.solid});
   if (verdict.fault)
     report.findings.push_back(fmt::format("the program {} is not {}, moved: {}", inputs.written_program->name,
                                           inputs.program->name, *verdict.fault));

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "lekalo/base/nc_words.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "verify/number/exact.hpp"
+#include "verify/pocket/moved_program.hpp"
 #include "verify/read/json.hpp"
 
 namespace lekalo::verify {
@@ -19,9 +21,15 @@ struct WrittenNc {
 };
 [[nodiscard]] WrittenNc read_written_nc(Json value, std::string& complaint);
 
-/// Holds the program against the original one, moved by p -> R(theta) p + (x, y). Returns false where a note
-/// says that this was not rechecked.
-[[nodiscard]] bool check_program(const LocateInputs& inputs, const WrittenNc& nc, const Decimal& x,
-                                 const Decimal& y, const Decimal& theta, LocateReport& report);
+/// The placement that a program was moved by: p -> R(theta) p + (x, y), or as ProgramClaim has it for solids.
+struct ProgramPose {
+  Decimal x, y, theta;
+  std::optional<ProgramClaim::Solid> solid = {};
+};
+
+/// Holds the program against the original one, moved. Returns false where a note says that this was not
+/// rechecked.
+[[nodiscard]] bool check_program(const LocateInputs& inputs, const WrittenNc& nc, const ProgramPose& pose,
+                                 LocateReport& report);
 
 }  // namespace lekalo::verify

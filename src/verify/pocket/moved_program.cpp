@@ -26,7 +26,7 @@ constexpr double kReading = 1e-12;
 constexpr double kSame = 1e-12;
 
 struct Map {
-  double cosine = 1, sine = 0, x = 0, y = 0;
+  double cosine = 1, sine = 0, x = 0, y = 0, z = 0;
   [[nodiscard]] Place operator()(Place p) const {
     return {cosine * p.x - sine * p.y + x, sine * p.x + cosine * p.y + y};
   }
@@ -35,6 +35,14 @@ struct Map {
 Map map_of(double x, double y, double theta) {
   const RoundedTurn turn = rounded_turn(theta);
   return {turn.cosine, turn.sine, x, y};
+}
+
+Map map_of(const ProgramClaim& claim) {
+  const double x = approximate(claim.x), y = approximate(claim.y);
+  if (!claim.solid) return map_of(x, y, approximate(claim.theta));
+  const double a = approximate(claim.solid->turn[0]), b = approximate(claim.solid->turn[1]);
+  const double square = a * a + b * b;
+  return {(a * a - b * b) / square, 2 * a * b / square, x, y, approximate(claim.solid->z)};
 }
 
 double apart(Place a, Place b) { return length(a - b); }
@@ -105,6 +113,7 @@ struct Framed {
   /// For each line whether the frame is in force whenever it runs.
   std::vector<bool> in_force;
   std::optional<Place> shift;  ///< mm
+  double height = 0;           ///< mm
   std::optional<double> degrees;
   std::optional<std::string> fault;
 };
@@ -159,10 +168,10 @@ class FrameReader {
   bool set_frame(std::string_view words) {
     const std::string_view rest = words.substr(g68_ ? 3 : 6);
     if (!g68_) {
-      const auto n = numbers_of(rest, "PXYR");
+      const auto n = numbers_of(rest, claim_.solid ? "PXYZR" : "PXYR");
       if (n && (*n)[0] != static_cast<double>(claim_.work_offset)) fault(kTwoWays);
-      if (!n || !shift({(*n)[1], (*n)[2]})) return false;
-      turn((*n)[3]);
+      if (!n || !shift({(*n)[1], (*n)[2]}, claim_.solid ? (*n)[3] : 0)) return false;
+      turn(n->back());
       return true;
     }
     if (words.starts_with("G69")) {
@@ -175,17 +184,17 @@ class FrameReader {
       turn((*n)[2]);
       return true;
     }
-    const auto n = numbers_of(rest, "XY");
-    if (n && framed_.shift && (*n)[0] == 0 && (*n)[1] == 0) {
+    const auto n = numbers_of(rest, claim_.solid ? "XYZ" : "XY");
+    if (n && framed_.shift && std::ranges::all_of(*n, [](double each) { return each == 0; })) {
       shifted_ = false;
       return true;
     }
-    return n && absolute_ && shift({(*n)[0], (*n)[1]});
+    return n && absolute_ && shift({(*n)[0], (*n)[1]}, claim_.solid ? (*n)[2] : 0);
   }
 
-  bool shift(Place by) {
+  bool shift(Place by, double height) {
     if (framed_.shift) fault(kTwoWays);
-    framed_.shift = unit_ * by;
+    framed_.shift = unit_ * by, framed_.height = unit_ * height;
     shifted_ = true;
     return unit_ != 0;
   }
@@ -214,7 +223,7 @@ class ProgramCheck {
       : claim_(claim),
         original_(without_mark(claim.original)),
         written_(without_mark(claim.written)),
-        exact_(map_of(approximate(claim.x), approximate(claim.y), approximate(claim.theta))),
+        exact_(map_of(claim)),
         rounding_(approximate(claim.rounding)) {}
 
   ProgramVerdict run() {
@@ -236,8 +245,10 @@ class ProgramCheck {
 
   /// Returns nothing where a program is not understood.
   std::optional<NcProgram> read(const Document& program) {
-    return kept(
-        read_program(program, {.control = claim_.control, .judged = false, .allowed_m = claim_.allowed_m}));
+    return kept(read_program(program, {.control = claim_.control,
+                                       .judged = false,
+                                       .allowed_m = claim_.allowed_m,
+                                       .heights_apart = claim_.solid && claim_.mode == "coordinates"}));
   }
 
   template <class T>
@@ -248,7 +259,8 @@ class ProgramCheck {
   }
 
   void compare(const NcProgram& original, const NcProgram& written, const Map& map) {
-    limit_ = rounding_ + kReading * (largest_of(original.moves) + largest_of(written.moves));
+    limit_ =
+        rounding_ + kReading * (largest_of(original.moves) + largest_of(written.moves) + std::abs(map.z));
     std::size_t next = 0;
     for (const NcEvent& event : original.events) {
       ask();
@@ -290,6 +302,8 @@ class ProgramCheck {
     if (a.words != b.words)
       return fault(fmt::format("its line {} says \"{}\" besides places, where the original has \"{}\"",
                                b.line, excerpt(b.words), excerpt(a.words)));
+    for (std::size_t k = 0; k < a.heights.size(); ++k)
+      off_by(std::abs(a.heights[k] + map.z - b.heights[k]), b.line);
     if (!same_offset(a, b))
       return fault(fmt::format("its line {} runs in another work offset than the original", b.line));
     if (a.upright) return compare_upright(*a.upright, *b.upright, b.line, map);
@@ -310,13 +324,25 @@ class ProgramCheck {
   }
 
   void compare_move(const Move& a, const Move& b, const Map& map) {
-    const bool alike = a.rapid == b.rapid && a.arc == b.arc && a.ccw == b.ccw && a.turns == b.turns &&
-                       (!a.arc || same_ends(a) == same_ends(b)) && same(a.feed, b.feed) &&
-                       same(a.from_z, b.from_z) && same(a.to_z, b.to_z);
+    const bool alike =
+        a.rapid == b.rapid && a.arc == b.arc && a.ccw == b.ccw && a.turns == b.turns &&
+        (!a.arc || same_ends(a) == same_ends(b)) && same(a.feed, b.feed) &&
+        (claim_.solid ? alike_in_height(a, b) : same(a.from_z, b.from_z) && same(a.to_z, b.to_z));
     if (!alike) return fault(fmt::format("its motion in line {} is another than the original's", b.line));
     double off = std::max(apart(map(a.from), b.from), apart(map(a.to), b.to));
     if (a.arc) off = std::max(off, apart(map(a.centre), b.centre));
-    off_by(off, b.line);
+    off_by(claim_.solid ? std::hypot(off, off_in_height(a, b, map)) : off, b.line);
+  }
+
+  /// A tool that cuts has to be at a height that the program says. Others may be anywhere, and then step
+  /// alike.
+  static bool alike_in_height(const Move& a, const Move& b) {
+    if (a.from_z_said != b.from_z_said || a.to_z_said != b.to_z_said) return false;
+    return a.to_z_said || (a.rapid && same(1 + a.to_z - a.from_z, 1 + b.to_z - b.from_z));
+  }
+  static double off_in_height(const Move& a, const Move& b, const Map& map) {
+    const double from = a.from_z_said ? std::abs(a.from_z + map.z - b.from_z) : 0;
+    return a.to_z_said ? std::max(from, std::abs(a.to_z + map.z - b.to_z)) : from;
   }
 
   void off_by(double off, std::size_t line) {
@@ -333,7 +359,7 @@ class ProgramCheck {
   }
 
   static double off_of(const Spot& a, const Spot& b, const Map& map) {
-    return std::hypot(apart(map({a[0], a[1]}), {b[0], b[1]}), a[2] - b[2]);
+    return std::hypot(apart(map({a[0], a[1]}), {b[0], b[1]}), a[2] + map.z - b[2]);
   }
 
   /// Holds the lines that stand for an arc against it, at their ends and their middles. Returns the event
@@ -381,6 +407,8 @@ class ProgramCheck {
     if (!framed->shift || !framed->degrees) return fault("it sets no frame");
     if (framed->fault) return fault(*framed->fault);
     compare(*original, *written, {});
+    if (!(std::abs(framed->height - exact_.z) <= limit_))
+      return fault(fmt::format("its frame is {:.3g} mm off in Z", framed->height - exact_.z));
     for (const NcEvent& event : written->events)
       for (std::size_t k = event.first_move; k < event.end_move; ++k)
         check_framed(event, written->moves[k], *framed);
@@ -392,6 +420,7 @@ class ProgramCheck {
       double off = std::max(apart(exact_(move.from), map(move.from)), apart(exact_(move.to), map(move.to)));
       // Another direction moves a point of a circle by its radius more than the middle.
       if (move.arc) off = std::max(off, apart(exact_(move.centre), map(move.centre)) + turned * radius);
+      off = std::hypot(off, framed->height - exact_.z);
       if (!(off <= limit_)) return fault(fmt::format("its frame puts line {} {:.3g} mm off", move.line, off));
     }
   }

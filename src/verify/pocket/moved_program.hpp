@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,13 @@ struct ProgramClaim {
   /// The control in whose language both programs are, and the M words that the shop allows.
   words::Control control = words::Control::linuxcnc;
   std::vector<int> allowed_m = {};
+  /// The placement of a solid also shifts by `z`, and its turn about Z is that of the quaternion
+  /// [w, 0, 0, z] in place of theta.
+  struct Solid {
+    Decimal z;
+    std::array<Decimal, 2> turn;  ///< w and z, not both 0
+  };
+  std::optional<Solid> solid = {};
 };
 
 /// A fault is a reason to refuse, an open question one to say so; with neither the claim is confirmed.

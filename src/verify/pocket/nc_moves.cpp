@@ -49,6 +49,7 @@ class ProgramReader {
         top_(reading.top),
         control_(reading.control),
         judged_(reading.judged),
+        heights_apart_(reading.heights_apart),
         lines_(reading.control, reading.allowed_m) {}
 
   Result<NcProgram> read() {
@@ -126,8 +127,15 @@ class ProgramReader {
     return takers == 1 || homes || complain(fmt::format("two words of the block take {}", letter));
   }
 
+  /// Says whether the word is a height of the program, and no step nor a place of the machine.
+  [[nodiscard]] bool is_height(const NcBlock& block, char letter) const {
+    const words::Word* once = block.code(Group::once);
+    if (incremental_ || (once != nullptr && once->tenths == words::kMachineFrame)) return false;
+    return letter == 'Z' || (letter == 'R' && once == nullptr && is_cycle(motion_) && block.has_axis());
+  }
+
   /// The words that the moves of the block do not show.
-  [[nodiscard]] std::string rest_of(const NcBlock& block, bool moved) const {
+  [[nodiscard]] std::string rest_of(const NcBlock& block, bool moved, std::vector<double>& heights) const {
     constexpr std::array kShown{Group::motion,   Group::motion_off, Group::plane,      Group::unit,
                                 Group::distance, Group::centre,     Group::work_offset};
     std::string rest;
@@ -146,6 +154,11 @@ class ProgramReader {
     for (char letter = 'A'; letter <= 'Z'; ++letter) {
       if (!block[letter] || shown.find(letter) != std::string_view::npos) continue;
       if (letter == 'Z' && moved && known_[2]) continue;
+      if (heights_apart_ && is_height(block, letter)) {
+        rest += fmt::format("{} ", letter);
+        heights.push_back(*block[letter] * unit_);
+        continue;
+      }
       const bool length = std::string_view("XYZRQF").find(letter) != std::string_view::npos;
       rest += fmt::format("{}{} ", letter, *block[letter] * (length ? unit_ : 1));
     }
@@ -159,9 +172,10 @@ class ProgramReader {
     const std::size_t before = moves_.size();
     upright_.reset();
     run(block);
-    const std::string rest = rest_of(block, moves_.size() > before);
+    std::vector<double> heights;
+    const std::string rest = rest_of(block, moves_.size() > before, heights);
     if (!rest.empty() || moves_.size() > before)
-      events_.push_back({block.line, rest, before, moves_.size(), upright_,
+      events_.push_back({block.line, rest, std::move(heights), before, moves_.size(), upright_,
                          work_offset_ == nullptr ? 0 : work_offset_->tenths, by_time_, said_,
                          block.has_axis()});
   }
@@ -253,6 +267,7 @@ class ProgramReader {
     if (is_cycle(motion_)) return drill(block);
     std::array<double, 3> to = at_;
     const bool were_known = is_known(), xy_known = known_[0] && known_[1];
+    z_was_said_ = known_[2];
     for (std::size_t i = 0; i < 3; ++i)
       if (!go_along(i, block[kAxes[i]], to)) return;
     const std::array<double, 3> from = std::exchange(at_, to);
@@ -295,6 +310,8 @@ class ProgramReader {
             .centre = {},
             .from_z = from[2],
             .to_z = at_[2],
+            .from_z_said = z_was_said_,
+            .to_z_said = known_[2],
             .feed = rapid ? 0 : feed_,
             .line = line};
   }
@@ -310,6 +327,7 @@ class ProgramReader {
 
   /// A motion comes from a place that is not known, and goes to one that is.
   void appear(bool rapid, std::size_t line) {
+    z_was_said_ = known_[2];
     if (is_arc(motion_)) return void(complain("an arc from a place that no block has said"));
     if (known_[0] && known_[1]) moves_.push_back(straight(rapid, at_, line));
   }
@@ -384,6 +402,11 @@ class ProgramReader {
 
   /// The places of the holes alone; what is done there stands in the words of the block.
   void visit(const NcBlock& block, double repeats) {
+    z_was_said_ = known_[2];
+    const bool both = block['Z'] && block['R'];
+    if (heights_apart_ && !both && cycle_incremental_ != incremental_)
+      return void(complain("a canned cycle that goes on under another of G90 and G91 without its Z and R"));
+    if (block['Z'] || block['R']) cycle_incremental_ = incremental_;
     // No hole is a place all the same, which the words must say alike.
     for (double k = 0; k < std::max(1.0, repeats); ++k) {
       if (!go_along_xy(block)) return;
@@ -453,7 +476,7 @@ class ProgramReader {
   const Document& program_;
   double top_;
   Control control_;
-  bool judged_;
+  bool judged_, heights_apart_;
   NcLines lines_;
   std::vector<NcEvent> events_;
   std::optional<NcArc> upright_;  ///< of the block at hand
@@ -461,6 +484,7 @@ class ProgramReader {
   std::string complaint_;
   std::array<double, 3> at_{};
   std::array<bool, 3> known_{};
+  bool z_was_said_ = false;  ///< before the block at hand
   double unit_ = 1, feed_ = 0, initial_z_ = 0;
   const words::Word *motion_ = nullptr, *work_offset_ = nullptr, *tool_length_ = nullptr;
   std::optional<double> tool_length_of_;

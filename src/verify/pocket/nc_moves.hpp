@@ -15,6 +15,8 @@ struct Move {
   bool rapid = false, arc = false, ccw = true;
   Place from, to, centre;
   double from_z = 0, to_z = 0;
+  /// False where the program has not said that Z, which a program that is not judged may leave open.
+  bool from_z_said = true, to_z_said = true;
   /// An arc turns by less than turns * 360 degrees and at least (turns - 1) * 360.
   int turns = 1;
   double feed = 0;  ///< mm/min; 0 for a rapid

@@ -24,12 +24,17 @@ struct NcReading {
   bool judged = true;
   /// M words that a shop allows beside those of the table.
   std::vector<int> allowed_m = {};
+  /// True where the program is compared with one that lies at another height: then events have the heights of
+  /// their words apart.
+  bool heights_apart = false;
 };
 
 /// A block that does something: its words but for places and for modes that its moves show, and its moves.
 struct NcEvent {
   std::size_t line{};
   std::string words;
+  /// The heights of Z, and of R of a cycle, in these words, mm; of G90 alone.
+  std::vector<double> heights = {};
   /// Indices of its moves, the last one not among them.
   std::size_t first_move = 0, end_move = 0;
   /// An arc of G18 or G19, whose moves are chords.

@@ -149,6 +149,7 @@ constexpr Known kSolidPlacement[] = {{"format", kFormat},
                                      {"unknown_area_mm2"},
                                      {"certificate", kSolidCertificate},
                                      {"certificate_file", kSolidFile},
+                                     {"nc", kNc},
                                      {"run"}};
 constexpr Known kOfReports[] = {{"regions", kRegion}, {"drawing", kDrawing}, {"scan", kScan}};
 

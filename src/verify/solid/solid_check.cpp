@@ -15,6 +15,7 @@
 #include "solid_number.hpp"
 #include "solid_window.hpp"
 #include "triangle_distance.hpp"
+#include "verify/locate/program_check.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -70,6 +71,7 @@ class SolidCheck {
     check_pose();
     check_derived();
     check_status(has_certificate);
+    check_nc();
     if (!d_.inside) note("the part does not lie in the blank at the placement, so there is no clearance");
     report_.verdict = !report_.findings.empty() ? Verdict::refuted
                       : open_                   ? Verdict::incomplete
@@ -96,6 +98,7 @@ class SolidCheck {
   void check_pose();
   void check_derived();
   void check_status(bool has_certificate);
+  void check_nc();
 
   const LocateInputs& inputs_;
   SolidDocument d_;
@@ -275,6 +278,21 @@ void SolidCheck::check_status(bool has_certificate) {
     find("status is {}, but upper_bound {} is {} min_allowance {}", d_.status, approximate(*d_.upper_bound),
          out_of_reach ? "below" : "not below", approximate(d_.min_allowance));
   if (d_.status == "optimal" && !d_.inside) find("status is optimal, but the part is not in the blank");
+}
+
+/// Holds the program that was written against the original.
+void SolidCheck::check_nc() {
+  if (!d_.nc) return;
+  if (!d_.clearance) return find("a program was written, but the part is not in the blank");
+  const auto& [w, x, y, z] = d_.pose.quaternion;
+  if (sgn(x.digits) != 0 || sgn(y.digits) != 0)
+    return find("a program was written, but the part lies tilted, which three axes cannot follow");
+  if (to_fraction(d_.nc->clearance) > to_fraction(*d_.clearance) - to_fraction(d_.nc->rounding_mm) ||
+      sgn(d_.nc->rounding_mm.digits) < 0)
+    find("the program's clearance {} is above clearance less its rounding", approximate(d_.nc->clearance));
+  const auto& at = d_.pose.shift;
+  const ProgramPose pose{at[0], at[1], {}, ProgramClaim::Solid{at[2], {w, z}}};
+  open_ = !check_program(inputs_, *d_.nc, pose, report_) || open_;
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace lekalo::verify {
 namespace {
 
 constexpr std::array<std::string_view, 4> kStatuses{"optimal", "stopped", "infeasible", "unproved"};
-constexpr std::array<std::string_view, 4> kRoles{"part", "blank", "start", "points"};
+constexpr std::array<std::string_view, 6> kRoles{"part", "blank", "start", "points", "nc", "allow"};
 /// In the order of SolidUnit and of SolidFreedom.
 constexpr std::array<std::string_view, 3> kUnits{"mm", "inch", "m"}, kFreedoms{"xyz", "c-xyz", "six"};
 
@@ -62,10 +62,11 @@ class Reader {
     for (const auto& value : {d_.clearance, d_.upper_bound, d_.gap, d_.shortfall})
       if (value && is_beyond_all_sizes(*value)) fields_.complain("a length is beyond all sizes");
     fields_.each("contacts", [&](Json item, const std::string& path) { read_contact(item, path); });
-    fields_.require(
-        {"warnings", "seed", "work", "version", "method", "scan", "certificate", "certificate_file", "run"});
+    fields_.require({"warnings", "seed", "work", "version", "method", "scan", "certificate",
+                     "certificate_file", "nc", "run"});
     read_scan();
     read_proof();
+    if (const Json nc = fields_.get("nc"); !nc.is_null()) d_.nc = read_written_nc(nc, complaint_);
     return std::move(d_);
   }
 
@@ -100,20 +101,16 @@ class Reader {
     fields_.each("inputs", [&](Json item, const std::string& path) {
       Fields input(item, path, complaint_);
       const std::string_view role = kRoles[word_of(input, "role", kRoles)];
-      if (role == "start") {
-        for (const std::string_view key : {"units", "triangles"})
-          if (!input.get(key).text.empty())
-            input.complain(fmt::format("field {} is said of a start, which is no solid", input.name(key)));
-        return;
-      }
-      const std::string_view other = role == "points" ? "triangles" : "points";
-      if (!input.get(other).text.empty())
-        input.complain(fmt::format("field {} is not said of the {}", input.name(other), role));
+      for (const auto& [key, is_said] :
+           {std::pair("units", role == "part" || role == "blank" || role == "points"),
+            std::pair("triangles", role == "part" || role == "blank"), std::pair("points", role == "points")})
+        if (!is_said && !input.get(key).text.empty())
+          input.complain(fmt::format("field {} is said of the file of the role {}", input.name(key), role));
       if (role == "points") {
         if (d_.points) fields_.complain("inputs name two files of points");
         d_.points = {static_cast<SolidUnit>(word_of(input, "units", kUnits)), input.index("points")};
-        return;
       }
+      if (role != "part" && role != "blank") return;
       ++(role == "part" ? parts : blanks);
       WrittenSolid& solid = role == "part" ? d_.part : d_.blank;
       solid.unit = static_cast<SolidUnit>(word_of(input, "units", kUnits));

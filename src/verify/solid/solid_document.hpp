@@ -7,6 +7,7 @@
 
 #include "lekalo/base/limits.hpp"
 #include "solid_clearance.hpp"
+#include "verify/locate/program_check.hpp"
 #include "verify/read/fields.hpp"
 #include "verify/read/json.hpp"
 
@@ -71,6 +72,7 @@ struct SolidDocument {
   Json certificate;
   /// The number of boxes that the result states of the certificate's file.
   std::optional<std::size_t> boxes_in_file;
+  std::optional<WrittenNc> nc;
 };
 
 /// Reads a result. bad_input names the document, where a field is missing or is not what docs/formats.md

@@ -17,7 +17,7 @@ namespace lekalo::io {
 
 /// One file that the result was made from.
 struct SolidInputRecord {
-  std::string role;  ///< "part", "blank", "points" or "start"
+  std::string role;  ///< "part", "blank", "points", "start", "nc" or "allow"
   FileRecord file;
   std::optional<SolidUnit> unit;  ///< of a solid, or of points
   std::size_t triangles = 0;      ///< of a solid
@@ -71,6 +71,7 @@ struct SolidDocument {
   std::optional<FileRecord> certificate_file;
   /// The boxes of the certificate, wherever it is.
   std::size_t certificate_boxes = 0;
+  std::optional<NcRecord> nc;
   /// The time of this run; the only field that is not a function of the input.
   double seconds = 0;
   unsigned threads = 1;
