@@ -17,7 +17,7 @@ using solid::Vector;
 /// So many points are spread over the part's surface.
 constexpr std::size_t kPoints = 10'000;
 /// A step below this part of the part's size ends the iteration, and so does the number of steps.
-constexpr double kVanished = 1e-10;
+constexpr double kVanishedPivot = 1e-10;
 constexpr int kMostSteps = 100;
 
 /// One point for each equal share of the surface. Where in its triangle it lies goes by the multiples of two
@@ -93,7 +93,7 @@ Result<SolidPlacement> place_solid_icp(const SolidProblem& problem, const SolidO
   std::uint64_t steps = 0;
   while (steps < kMostSteps && !options.run.stop_requested()) {
     ++steps;
-    if (registration.step(pose) <= kVanished * meter.frame().reach) break;
+    if (registration.step(pose) <= kVanishedPivot * meter.frame().reach) break;
   }
   std::vector<SolidContact> contacts;
   const MeasuredSolid there = meter.measure(pose, kInfinity, 1, contacts);
