@@ -170,7 +170,7 @@ std::string program_with(const std::string& list, const char* word = "M130") {
                             Document{"list.txt", list}};
   LocateReport report;
   const WrittenNc nc{{}, {}, "coordinates", 1};
-  const bool whole = check_program(inputs, nc, {}, {}, {}, report);
+  const bool whole = check_program(inputs, nc, {}, report);
   std::string all = whole ? "" : "left open\n";
   for (const std::string& finding : report.findings) all += finding + "\n";
   for (const std::string& note : report.notes) all += note + "\n";

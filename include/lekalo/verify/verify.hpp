@@ -25,8 +25,6 @@ struct LocateInputs {
   std::optional<Document> certificate;
   /// Given when the result names a file of features.
   std::optional<Document> features = std::nullopt;
-  /// The points that the blank's mesh was made from.
-  std::optional<Document> points = std::nullopt;
   /// The program that was to be moved, and the one that was written, where it is still there.
   std::optional<Document> program = std::nullopt, written_program = std::nullopt;
   /// The list of M words that the shop allows.
@@ -35,6 +33,8 @@ struct LocateInputs {
   std::optional<Document> earlier = std::nullopt;
   /// The file of deviations that was written, where it is still there.
   std::optional<Document> deviations = std::nullopt;
+  /// The points that the blank's mesh was made from.
+  std::optional<Document> points = std::nullopt;
 };
 
 enum class Verdict {
