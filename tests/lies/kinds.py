@@ -35,7 +35,8 @@ TO_A_MILLIONTH = ((r"/contacts/\d+/(part_at|blank_at|distance)", 1e-3), (r"/.*/m
 OF_SOLIDS = ((r"/contacts/\d+/(part|blank)_point", 0.05), (r"/certificate/trees/\d+/(x|y|z|turn)", 1e-9),
              (r"/certificate/(part|blank)_balls|/certificate/planes|/certificate/.*/nodes/\d+/1$", 0.02),
              (r"/certificate/.*/quaternion|/(window/)?(quaternion|x$|y$|z$)|/(upper_bound|gap)$", 1e-6),
-             (r"/window/(shift|turn_deg)$", 1e-9))
+             (r"/window/(shift|turn_deg)$", 1e-9),
+             (r"/scan/(widest|guard|min_radius|max_dip)$|/unknown_area_mm2$", 1e-4))
 
 
 def least_step(value, way, path):
@@ -155,6 +156,12 @@ def box(low, high):
     return "\n".join(corners + [f"f {a} {b} {c}\nf {a} {c} {d}" for a, b, c, d in sides]) + "\n"
 
 
+def measured_box(x, y, z):
+    """The points that a scanner sees of a box that stands at z = 0, 2 mm apart."""
+    return "".join(f"{a} {b} {c}\n" for a in range(0, x + 1, 2) for b in range(0, y + 1, 2) for c in range(0, z + 1, 2)
+                   if c == z or a in (0, x) or b in (0, y))
+
+
 def of_solids():
     meshes = ["examples/solid/part.stl", "examples/solid/casting.stl"]
     climb = ["locate", "--part", "part.stl", "--blank", "casting.stl", "--method", "climb"]
@@ -174,6 +181,14 @@ def of_solids():
     yield placed("placement, solids, none", meshes, [none], inputs=stl)
     yield placed("placement, solids, climb", meshes, [climb + ["--min-allowance", "2", "-o", "r.json"]], inputs=stl,
                  base=1, unproved=True)
+    measured = ["--uncertainty", "0.01", "--max-dip", "0.05"]
+    yield placed("placement, solids, a scan", meshes, [climb + measured + ["-o", "r.json"]], inputs=stl, base=1,
+                 unproved=True)
+    yield placed("placement, solids, points", [], [
+        ["locate", "--part", "part.obj", "--blank", "scan.xyz", "--mesh", "mesh.ply", "--method", "climb",
+         "--uncertainty", "0.01", "--min-radius", "6", "--underside", "z=0", "--flat", "0.2", "--drop-outliers", "4", "-o",
+         "r.json"]], written={"part.obj": box((2, 2, 2), (18, 14, 9)), "scan.xyz": measured_box(20, 16, 12) + "10 8 5\n"},
+        inputs=["part.obj", "scan.xyz", "mesh.ply"], base=1, unproved=True)
     boxes = {"part.obj": box((0, 0, 0), (1, 0.75, 0.5)),
              "blank.obj": box((-0.0625, -0.0625, -0.03125), (1.125, 0.875, 0.625))}
     inches = [["locate", "--part", "part.obj", "--blank", "blank.obj", "--units", "inch", "--shift", "1", "--tilt", "1",

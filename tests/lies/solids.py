@@ -23,7 +23,7 @@ import truth
 from exact_solids import cross, dot, plus, sub, times
 
 INFORMATION = [r"/(seed|work|version|method|run|warnings)(/.*)?$", r"/inputs/\d+/path$", r"/certificate_file/path$",
-               r"/contacts/\d+/multiplier$"]
+               r"/contacts/\d+/multiplier$", r"/scan/assumptions/\d+$"]
 # Items that each say something for themselves; a term, a ball or a node is missed where it is needed.
 MAY_GO = r"/(contacts|inputs)/\d+$|/certificate/(part_balls|blank_balls|planes)/\d+$|/certificate/trees/\d+/nodes/\d+(/\d+)?$"
 UNITS = {"mm": F(1), "inch": F(254, 10), "m": F(1000)}
@@ -35,8 +35,18 @@ def bytes_of(text):
 
 
 def triangles_of(text, unit):
-    """The triangles of a binary STL or of an OBJ without faces of more corners, in mm."""
+    """The triangles of a binary STL, of a PLY of doubles or of an OBJ without faces of more corners, in mm."""
     data = bytes_of(text)
+    if data.startswith(b"ply\n"):
+        header, body = data.split(b"end_header\n", 1)
+        if header.split(b"\n")[1] != b"format binary_little_endian 1.0" or header.count(b"property") != 4:
+            raise ValueError("another PLY than those of lekalo")
+        vertices, faces = (int(line.split()[2]) for line in header.split(b"\n") if line.startswith(b"element"))
+        places = [[F(c) * UNITS[unit] for c in row] for row in struct.iter_unpack("<3d", body[:24 * vertices])]
+        rows = list(struct.iter_unpack("<B3i", body[24 * vertices:]))
+        if len(rows) != faces or any(row[0] != 3 for row in rows):
+            raise ValueError("faces that are no triangles")
+        return [[places[k] for k in row[1:]] for row in rows]
     if len(data) >= 84 and len(data) == 84 + 50 * struct.unpack_from("<I", data, 80)[0]:
         rows = [struct.unpack_from("<9f", data, at + 12) for at in range(84, len(data), 50)]
         return [[[F(c) * UNITS[unit] for c in row[k:k + 3]] for k in (0, 3, 6)] for row in rows]
@@ -134,6 +144,24 @@ def boxes(triangles):
     return [[(min(p[k] for p in t), max(p[k] for p in t)) for k in range(3)] for t in triangles]
 
 
+def least_allowance(part, blank, widths):
+    """The least distance of two surfaces less the widths of the blank's triangles, which part and blank keep."""
+    apart = sorted((math.sqrt(sum(max(l - high, low - h, 0.0) ** 2 for (low, high), (l, h) in zip(a, b))), i, j)
+                   for (i, a), (j, b) in itertools.product(*map(enumerate, map(boxes, (part, blank)))))
+    widest, least = float(max(widths)), math.inf
+    near = []
+    for gap, i, j in apart:
+        if gap - widest > least + 1e-6:
+            break
+        s, t = ([[float(c) for c in p] for p in mesh[k]] for mesh, k in ((part, i), (blank, j)))
+        if gap == 0 and may_pierce(s, t):
+            return None
+        allowance = math.sqrt(of_triangles(s, t)) - float(widths[j])
+        least = min(least, allowance)
+        near.append((allowance, i, j))
+    return min(root_of(of_triangles(part[i], blank[j])) - widths[j] for a, i, j in near if a <= least + 1e-9)
+
+
 def least_distance(part, blank):
     """The least squared distance of two surfaces, or None where they may pass through each other."""
     near = [[[float(c) for c in p] for p in t] for t in part], [[[float(c) for c in p] for p in t] for t in blank]
@@ -152,6 +180,84 @@ def least_distance(part, blank):
         least = min(least, distance)
         found.append((distance, i, j))
     return min(of_triangles(part[i], blank[j]) for distance, i, j in found if distance <= least + 1e-9)
+
+
+# Scans. --------------------------------------------------------------------------------------------------------
+
+def decimal_of(fraction):
+    return exact.D(fraction.numerator) / exact.D(fraction.denominator)
+
+
+def root_of(fraction):
+    return decimal_of(fraction).sqrt()
+
+
+def squared_circle(t):
+    """The squared radius of the smallest circle around a triangle."""
+    a, b, c = sorted(dot(w, w) for w in (sub(t[k], t[k - 1]) for k in range(3)))
+    n = proof.normal(t)
+    return c / 4 if a + b <= c else a * b * c / (4 * dot(n, n))
+
+
+class Scan:
+    """The widths of a blank, and what a result says of them."""
+
+    def __init__(self, scan, blank):
+        self.scan, self.side = scan, scan["underside"]
+        guard, reach, dip = scan["guard"], scan["min_radius"], scan["max_dip"]
+        if guard < 0 or (reach is None and dip is None) or (dip is not None and dip < 0) or \
+                (self.side and self.side["flat"] <= 0) or any(
+                    reach is not None and off >= reach for off in [guard] + ([self.side["flat"]] if self.side else [])):
+            raise ValueError("no statements about a scan")
+        ways = [self.widths(blank.kept, radius) for radius, given in ((True, reach), (False, dip)) if given is not None]
+        by = ways[0] if len(ways) == 1 or (None not in ways[0] and max(ways[0]) <= max(ways[1])) else ways[1]
+        self.unknown = [t for t, width in zip(blank.kept, by) if width is None]
+        self.of = [decimal_of(self.guard(t)) if width is None else width for t, width in zip(blank.kept, by)]
+
+    def is_low(self, p):
+        return self.side is not None and abs(float(p[2]) - float(self.side["z"])) <= float(self.side["flat"])
+
+    def guard(self, t):
+        return max([self.scan["guard"]] + ([self.side["flat"]] if any(map(self.is_low, t)) else []))
+
+    def widths(self, triangles, radius):
+        made = []
+        for t in triangles:
+            if all(map(self.is_low, t)):
+                made.append(decimal_of(self.side["flat"]))
+            elif not radius:
+                made.append(decimal_of(self.guard(t) + self.scan["max_dip"]))
+            else:
+                reach = self.scan["min_radius"]
+                rest = (reach - self.guard(t)) ** 2 - squared_circle(t)
+                made.append(decimal_of(reach) - root_of(rest) if rest > 0 else None)
+        return made
+
+    def is_told(self, document):
+        area = sum(root_of(dot(n, n)) / 2 for n in map(proof.normal, self.unknown))
+        said = self.scan["assumptions"]
+        return (self.scan["unknown_triangles"] == len(self.unknown) and self.scan["proved"] == (not self.unknown) and
+                isinstance(said, list) and len(said) > 0 and all(
+                    abs(decimal_of(F(told)) - real) <= exact.D("1e-6") * max(1, real)
+                    for told, real in ((self.scan["widest"], max(self.of)), (document["unknown_area_mm2"], area))))
+
+
+def points_of(text, unit):
+    return [[F(word) * UNITS[unit] for word in line.split()] for line in text.splitlines() if line.strip()]
+
+
+def nothing_measured_is_material(points, blank, scan):
+    """The corners of the blank are points, and no point is deeper in the material than points may be off."""
+    if any(k != int(k) or not 0 <= k < len(points) for k in scan.scan["left_out"]):
+        return False
+    kept = [p for k, p in enumerate(points) if k not in set(scan.scan["left_out"])]
+    known = {tuple(map(float, p)) for p in kept}
+    corners = {tuple(map(float, p)) for t in blank.kept for p in t if not scan.is_low(p)}
+    if not corners <= known:
+        return False
+    guard = decimal_of(scan.scan["guard"])
+    return all(tuple(map(float, p)) in corners or not space.inside(p, blank.kept) or any(
+        root_of(space.squared_distance(p, t)) - width <= guard for t, width in zip(blank.kept, scan.of)) for p in kept)
 
 
 # Poses. --------------------------------------------------------------------------------------------------------
@@ -211,6 +317,7 @@ class Solids:
 
     def __init__(self, files):
         self.files, self.meshes, self.clearances, self.leaves = files, {}, {}, {}
+        self.measured = {}
 
     def mesh(self, path, unit):
         key = self.files[path], unit
@@ -227,27 +334,44 @@ class Solids:
             if hashlib.sha256(bytes_of(self.files[entry["path"]])).hexdigest() != entry["sha256"]:
                 return False
         roles = {entry["role"]: entry for entry in document["inputs"]}
-        if len(roles) != len(document["inputs"]) or not {"part", "blank"} <= roles.keys() <= {"part", "blank", "start"}:
+        if len(roles) != len(document["inputs"]) or not {"part", "blank"} <= roles.keys() <= {"part", "blank", "start", "points"}:
             return False
         part, blank = (self.mesh(roles[role]["path"], roles[role]["units"]) for role in ("part", "blank"))
         if any(roles[role]["triangles"] != len(mesh.all) for role, mesh in (("part", part), ("blank", blank))):
             return False
+        scan = Scan(document["scan"], blank) if document["scan"] else None
+        if not (scan.is_told(document) and self.is_measured(roles.get("points"), blank, scan) if scan
+                else document["unknown_area_mm2"] == 0 and "points" not in roles):
+            return False
         return (derived(document, certificate) and pose_is_allowed(document) and
-                all(contact_holds(document, contact, part, blank) for contact in document["contacts"]) and
-                self.clearance_holds(document, part, blank) and self.is_proved(document, certificate, part, blank))
+                all(contact_holds(document, contact, part, blank, scan) for contact in document["contacts"]) and
+                self.clearance_holds(document, part, blank, scan) and
+                self.is_proved(document, certificate, part, blank))
 
-    def clearance_holds(self, document, part, blank):
+    def is_measured(self, entry, blank, scan):
+        if entry is None:
+            return not scan.scan["left_out"]
+        key = self.files[entry["path"]], entry["units"], blank, json.dumps(scan.scan, default=str, sort_keys=True)
+        if key not in self.measured:
+            points = points_of(*key[:2])
+            self.measured[key] = entry["points"] == len(points) and nothing_measured_is_material(points, blank, scan)
+        return self.measured[key]
+
+    def clearance_holds(self, document, part, blank, scan):
         there = [[place(document, p) for p in t] for t in part.kept]
         if not document["inside"]:
             # A corner outside is enough, and what else there may be is not excused.
             return any(not space.inside(p, blank.kept) for t in there[:48] for p in t)
-        key = part, blank, tuple(document["quaternion"]), tuple(document[axis] for axis in "xyz")
+        key = part, blank, tuple(document["quaternion"]), tuple(document[axis] for axis in "xyz"), \
+            tuple(scan.of) if scan else None
         if key not in self.clearances:
-            least = least_distance(there, blank.kept)
-            lies_in = least and not any(space.inside(p, there) for p in blank.one_of_each_component()) and all(
+            least = least_allowance(there, blank.kept, scan.of) if scan else least_distance(there, blank.kept)
+            lies_in = least and least > 0 and not any(space.inside(p, there) for p in blank.one_of_each_component()) and all(
                 space.inside(place(document, p), blank.kept) for p in part.one_of_each_component())
             self.clearances[key] = least if lies_in else None
         least = self.clearances[key]
+        if scan:
+            return least is not None and decimal_of(document["clearance"]) <= least
         return least is not None and document["clearance"] ** 2 <= least
 
     def is_proved(self, document, certificate, part, blank):
@@ -306,7 +430,7 @@ def derived(document, certificate):
     clearance, bound, least = document["clearance"], document["upper_bound"], document["min_allowance"]
     gap, shortfall, status = document["gap"], document["shortfall"], document["status"]
     if document["inside"] != (clearance is not None) or (shortfall is None) != (clearance is None) or \
-            document["unknown_area_mm2"] != 0 or (gap is None) != (clearance is None or bound is None):
+            (gap is None) != (clearance is None or bound is None):
         return False
     if clearance is not None:
         missing = max(F(0), least - clearance)
@@ -321,7 +445,7 @@ def derived(document, certificate):
         status in ("optimal", "infeasible") and (status == "infeasible" or document["inside"])
 
 
-def contact_holds(document, contact, part, blank):
+def contact_holds(document, contact, part, blank, scan):
     sizes = [max(p[k] for t in blank.all for p in t) - min(p[k] for t in blank.all for p in t) for k in range(3)]
     slack = max(F(1), *sizes) / 10 ** 6
     for role, mesh in (("part", part), ("blank", blank)):
@@ -330,7 +454,8 @@ def contact_holds(document, contact, part, blank):
                 space.squared_distance(point, mesh.all[int(number)]) > slack ** 2:
             return False
     way = sub(place(document, contact["part_point"]), contact["blank_point"])
-    return abs(space.root(dot(way, way)) - contact["distance"]) <= slack
+    width = scan.of[blank.kept.index(blank.all[int(contact["blank_triangle"])])] if scan else exact.D(0)
+    return abs(root_of(dot(way, way)) - width - decimal_of(F(contact["distance"]))) <= decimal_of(slack)
 
 
 # Oracles. ------------------------------------------------------------------------------------------------------
