@@ -95,13 +95,16 @@ class ShellFinder {
   }
 
   /// Turns what can be turned.
-  void turn(std::vector<std::string>& notices) {
+  void turn(ClosedMesh& closed) {
+    std::vector<std::string>& notices = closed.notices;
+    closed.turned.assign(turn_.size(), false);
     std::vector<std::uint32_t> turned(shells_.size(), 0);
     for (std::uint32_t t = 0; t < turn_.size(); ++t) {
       const std::uint32_t s = shell_of_[t];
       if (!can_be_turned(s)) continue;
       if ((turn_[t] != 0) == is_right_side_out(s)) {
         std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
+        closed.turned[t] = true;
         ++turned[s];
       }
     }
@@ -218,7 +221,7 @@ class ShellFinder {
 void find_shells(const std::vector<Edge>& edges, ClosedMesh& closed) {
   ShellFinder finder(closed);
   finder.find(edges);
-  finder.turn(closed.notices);
+  finder.turn(closed);
 }
 
 }  // namespace lekalo::solid

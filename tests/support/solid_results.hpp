@@ -27,12 +27,14 @@ struct SolidResultFiles {
   std::optional<std::string> certificate;
   /// The points that the blank was made from.
   std::optional<std::string> points = {};
+  std::optional<std::string> features = {};
 
   [[nodiscard]] Result<verify::LocateReport> report() const {
     const std::string text = result.dump();
     verify::LocateInputs inputs{{"result.json", text}, {"part.stl", part}, {"blank.stl", blank}, {}};
     if (certificate) inputs.certificate = verify::Document{"certificate.json", *certificate};
     if (points) inputs.points = verify::Document{"points.xyz", *points};
+    if (features) inputs.features = verify::Document{"features.json", *features};
     return verify::verify_locate(inputs);
   }
   /// The verdict in a word, or "bad input", then what was found.

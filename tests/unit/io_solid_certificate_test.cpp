@@ -31,7 +31,8 @@ locate::SolidProof sample() {
 
 TEST(SolidCertificate, IsWrittenAsTheFormatSays) {
   const std::vector<std::uint32_t> part{0, 1}, blank{8, 6};
-  EXPECT_EQ(solid_certificate_json(sample(), {part, blank}),
+  const std::vector<bool> turned{false, true}, none{false, false};
+  EXPECT_EQ(solid_certificate_json(sample(), {part, blank, turned, none}),
             R"({"format": {"name": "lekalo-certificate", "version": 1},
 "certificate": {"pivot": [1, 2, 3], "part_balls": [
     [0.5, 0, -1, 0.25]
@@ -43,7 +44,7 @@ TEST(SolidCertificate, IsWrittenAsTheFormatSays) {
             R"("turn_x": [0, 0], "turn_y": [0, 0], "turn_z": [-0.125, 0.125], "nodes": [
     ["turn_z", 0],
     [["plane", 0, 0, 1]],
-    [["ball", 0, 0, 3], ["face", 0, 6, 2], ["part_face", 1, 0, 5], ["edges", 5, 18, 7]]
+    [["ball", 0, 0, 3], ["face", 0, 6, 2], ["part_face", 1, 0, 5], ["edges", 3, 18, 7]]
   ]}]}
 }
 )");

@@ -50,6 +50,8 @@ struct ClosedMesh {
   Mesh mesh;
   /// The number of each triangle among those given, from 0.
   std::vector<std::uint32_t> numbers;
+  /// Says of each triangle whether it is turned round, so that its last two corners have changed places.
+  std::vector<bool> turned;
   std::vector<Shell> shells;  ///< in the order of their first triangles
   /// Sentences about mends and about what does not matter.
   std::vector<std::string> notices;

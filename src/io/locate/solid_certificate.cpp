@@ -31,17 +31,22 @@ const char* name_of(SolidTerm::Kind kind) {
 
 void write(JsonWriter& json, Vector v, double number) { json.list({v.x, v.y, v.z, number}); }
 
-/// The number in the file of what a term is made of: of a triangle, or of an edge.
+/// The number in the file of what a term is made of: of a triangle, or of an edge, which has another place in
+/// a triangle that is turned round.
 std::uint32_t number_in_file(SolidTerm::Kind kind, SolidTerm::Kind of_triangles, std::uint32_t number,
-                             std::span<const std::uint32_t> triangles) {
+                             std::span<const std::uint32_t> triangles, const std::vector<bool>& turned) {
   if (kind == of_triangles) return triangles[number];
-  return kind == SolidTerm::Kind::edges ? 3 * triangles[number / 3] + number % 3 : number;
+  if (kind != SolidTerm::Kind::edges) return number;
+  const std::uint32_t triangle = number / 3, side = number % 3;
+  return 3 * triangles[triangle] + (turned[triangle] ? 2 - side : side);
 }
 
 void write(JsonWriter& json, const SolidTerm& term, const SolidNumbers& numbers) {
-  json.list({name_of(term.kind),
-             number_in_file(term.kind, SolidTerm::Kind::part_face, term.part, numbers.part),
-             number_in_file(term.kind, SolidTerm::Kind::face, term.blank, numbers.blank), term.multiplier});
+  json.list(
+      {name_of(term.kind),
+       number_in_file(term.kind, SolidTerm::Kind::part_face, term.part, numbers.part, numbers.part_turned),
+       number_in_file(term.kind, SolidTerm::Kind::face, term.blank, numbers.blank, numbers.blank_turned),
+       term.multiplier});
 }
 
 void write(JsonWriter& json, const SolidTree& tree, const SolidTree::Node& node,

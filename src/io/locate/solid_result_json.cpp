@@ -99,7 +99,7 @@ void write_proof(JsonWriter& json, const SolidDocument& d) {
   if (d.proof.trees.empty())
     json.value(nullptr);
   else
-    write_solid_certificate(json, d.proof, {d.part_numbers, d.blank_numbers});
+    write_solid_certificate(json, d.proof, {d.part_numbers, d.blank_numbers, d.part_turned, d.blank_turned});
   line_of(json, "certificate_file");
   if (d.certificate_file)
     json.object({{"path", d.certificate_file->path},
@@ -129,7 +129,7 @@ std::string result_json(const SolidDocument& d) {
 }
 
 std::string certificate_text(const SolidDocument& d) {
-  return solid_certificate_json(d.proof, {d.part_numbers, d.blank_numbers});
+  return solid_certificate_json(d.proof, {d.part_numbers, d.blank_numbers, d.part_turned, d.blank_turned});
 }
 
 const char* name_of(locate::SolidFreedom freedom) noexcept {

@@ -219,6 +219,7 @@ io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&
     warn_of_start(in, d.warnings);
   d.proof = std::move(found.proof);
   d.part_numbers = in.part.numbers, d.blank_numbers = in.blank.numbers;
+  d.part_turned = in.part.turned, d.blank_turned = in.blank.turned;
   return d;
 }
 

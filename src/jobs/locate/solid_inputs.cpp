@@ -51,6 +51,7 @@ Result<void> close_solid(const File& file, io::SolidFile parsed, solid::Mesh& me
   for (const std::string& notice : closed->notices) notices.push_back(file.name + ": " + notice);
   mesh = std::move(closed->mesh);
   read.numbers = std::move(closed->numbers);
+  read.turned = std::move(closed->turned);
   return {};
 }
 

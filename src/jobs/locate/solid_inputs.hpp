@@ -14,8 +14,9 @@ namespace lekalo::jobs {
 struct ReadSolid {
   io::SolidUnit unit = io::SolidUnit::millimetre;
   std::size_t triangles = 0;  ///< of the file
-  /// The number in the file of each triangle of the mesh.
+  /// The number in the file of each triangle of the mesh, and which are turned round.
   std::vector<std::uint32_t> numbers;
+  std::vector<bool> turned;
 };
 
 /// The mesh that was made of a blank's points.

@@ -115,8 +115,11 @@ constexpr Known kSolidContacts[] = {{"part_point"},     {"blank_point"}, {"part_
                                     {"blank_triangle"}, {"distance"},    {"multiplier"}};
 constexpr Known kSolidTrees[] = {{"quaternion"}, {"x"},      {"y"},      {"z"},
                                  {"turn_x"},     {"turn_y"}, {"turn_z"}, {"nodes"}};
-constexpr Known kSolidCertificate[] = {
-    {"pivot"}, {"part_balls"}, {"blank_balls"}, {"planes"}, {"trees", kSolidTrees}};
+constexpr Known kSolidCertificate[] = {{"pivot"},       {"part_balls"}, {"part_points"},
+                                       {"blank_balls"}, {"planes"},     {"trees", kSolidTrees}};
+constexpr Known kSolidFeatures[] = {{"name"}, {"triangles"}, {"minimum"}, {"scale"}, {"as_cast"}};
+constexpr Known kSolidDemands[] = {
+    {"minimum"}, {"features", kSolidFeatures}, {"margin"}, {"margin_bound"}, {"margin_gap"}};
 constexpr Known kSolidUnderside[] = {{"z"}, {"flat"}};
 constexpr Known kSolidScan[] = {
     {"guard"},      {"min_radius"},        {"max_dip"}, {"underside", kSolidUnderside},
@@ -144,6 +147,7 @@ constexpr Known kSolidPlacement[] = {{"format", kFormat},
                                      {"gap"},
                                      {"min_allowance"},
                                      {"shortfall"},
+                                     {"demands", kSolidDemands},
                                      {"contacts", kSolidContacts},
                                      {"scan", kSolidScan},
                                      {"unknown_area_mm2"},

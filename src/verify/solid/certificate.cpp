@@ -20,10 +20,11 @@ constexpr std::size_t kMostFailures = 3;
 
 class TreeCheck {
  public:
-  TreeCheck(Json tree, std::string path, const LeafFrame& frame, CertificateTables& tables,
-            std::vector<std::string>& findings, std::string& complaint)
+  TreeCheck(Json tree, std::string path, const LeafFrame& frame, const PartBounds* bounds,
+            CertificateTables& tables, std::vector<std::string>& findings, std::string& complaint)
       : path_(std::move(path)),
         frame_(frame),
+        bounds_(bounds),
         tables_(tables),
         findings_(findings),
         complaint_(complaint),
@@ -79,7 +80,8 @@ class TreeCheck {
  private:
   static constexpr std::array<std::string_view, 6> kAxes{"x", "y", "z", "turn_x", "turn_y", "turn_z"};
   /// In the order of LeafTerm::Kind.
-  static constexpr std::array<std::string_view, 5> kKinds{"ball", "plane", "face", "part_face", "edges"};
+  static constexpr std::array<std::string_view, 8> kKinds{"ball",  "plane", "face",        "part_face",
+                                                          "edges", "point", "point_plane", "point_face"};
 
   /// The ends of a box, by their places among all ends: a split has one, which many boxes share.
   struct Cell {
@@ -135,9 +137,8 @@ class TreeCheck {
       where += fmt::format("{}{} {} to {}", k == 0 ? "" : ", ", kAxes[k], nearest(box.low[k].exact),
                            nearest(box.high[k].exact));
     findings_.push_back(
-        fmt::format("{}: its terms do not prove that no placement with {} has more clearance "
-                    "than {} mm",
-                    name(), where, nearest(frame_.bound.exact)));
+        fmt::format("{}: its terms do not prove that no placement with {} has more {} than {} mm", name(),
+                    where, bounds_ == nullptr ? "clearance" : "margin", nearest(frame_.bound.exact)));
   }
 
   /// Reads one term; where `look` says so, it goes to the terms, unless it is not what it has to be.
@@ -166,15 +167,27 @@ class TreeCheck {
     return true;
   }
 
+  static bool is_of_point(LeafTerm::Kind kind) { return kind >= LeafTerm::Kind::point; }
+  static bool is_of_part_ball(LeafTerm::Kind kind) { return kind <= LeafTerm::Kind::face; }
+
   [[nodiscard]] std::optional<std::size_t> number_of_part(LeafTerm::Kind kind, Json value) const {
     if (kind == LeafTerm::Kind::part_face) return triangle_of(value, frame_.part);
     if (kind == LeafTerm::Kind::edges) return edge_of(value, frame_.part);
-    return index(value, tables_.part_balls());
+    return index(value, is_of_point(kind) ? tables_.part_points() : tables_.part_balls());
   }
   [[nodiscard]] std::optional<std::size_t> number_of_blank(LeafTerm::Kind kind, Json value) const {
-    if (kind == LeafTerm::Kind::face) return triangle_of(value, frame_.blank);
-    if (kind == LeafTerm::Kind::edges) return edge_of(value, frame_.blank);
-    return index(value, kind == LeafTerm::Kind::plane ? tables_.planes() : tables_.blank_balls());
+    switch (kind) {
+      case LeafTerm::Kind::face:
+      case LeafTerm::Kind::point_face:
+        return triangle_of(value, frame_.blank);
+      case LeafTerm::Kind::edges:
+        return edge_of(value, frame_.blank);
+      case LeafTerm::Kind::plane:
+      case LeafTerm::Kind::point_plane:
+        return index(value, tables_.planes());
+      default:
+        return index(value, tables_.blank_balls());
+    }
   }
 
   void add_term(LeafTerm::Kind kind, std::size_t of_part, std::size_t of_blank, const Decimal& multiplier) {
@@ -184,12 +197,37 @@ class TreeCheck {
     term.part = static_cast<std::uint32_t>(of_part);
     term.blank = static_cast<std::uint32_t>(of_blank);
     bool holds = true;
-    if (kind == LeafTerm::Kind::ball || kind == LeafTerm::Kind::plane || kind == LeafTerm::Kind::face)
+    std::uint32_t triangle = kind == LeafTerm::Kind::edges ? term.part / 3 : term.part;
+    if (is_of_part_ball(kind)) {
       holds = (term.part_ball = tables_.part_ball(of_part)) != nullptr;
-    if (kind == LeafTerm::Kind::ball || kind == LeafTerm::Kind::part_face)
+    } else if (is_of_point(kind)) {
+      const PartPoint* const point = tables_.part_point(of_part);
+      holds = point != nullptr;
+      if (holds) term.part_ball = &point->ball, triangle = point->triangle;
+    }
+    if (kind == LeafTerm::Kind::ball || kind == LeafTerm::Kind::part_face || kind == LeafTerm::Kind::point)
       holds = (term.blank_ball = tables_.blank_ball(of_blank)) != nullptr && holds;
-    if (kind == LeafTerm::Kind::plane) holds = (term.plane = tables_.plane(of_blank)) != nullptr && holds;
-    if (holds) terms_.push_back(std::move(term));
+    if (kind == LeafTerm::Kind::plane || kind == LeafTerm::Kind::point_plane)
+      holds = (term.plane = tables_.plane(of_blank)) != nullptr && holds;
+    if (!holds || !demands_something(term, triangle)) return;
+    terms_.push_back(std::move(term));
+  }
+
+  /// Gives the term the bound of what its side of the part demands; a finding where that is nothing.
+  bool demands_something(LeafTerm& term, std::uint32_t triangle) {
+    if (bounds_ == nullptr) return true;
+    std::uint32_t place = bounds_->least.value_or(PartBounds::kAsCast);
+    if (!is_of_part_ball(term.kind)) place = bounds_->of[triangle];
+    if (place != PartBounds::kAsCast) {
+      term.bound = &bounds_->bounds[place];
+      return true;
+    }
+    if (is_of_part_ball(term.kind))
+      findings_.push_back(fmt::format("{} has a part ball, but something of the part is as cast", name()));
+    else
+      findings_.push_back(fmt::format("{} has a term of the part's triangle {}, which is as cast", name(),
+                                      frame_.part.numbers[triangle]));
+    return false;
   }
 
   /// Reads a whole number below a count.
@@ -212,6 +250,7 @@ class TreeCheck {
 
   std::string path_;
   const LeafFrame& frame_;
+  const PartBounds* bounds_;
   CertificateTables& tables_;
   std::vector<std::string>& findings_;
   std::string& complaint_;
@@ -251,7 +290,7 @@ Result<void> SolidCertificate::check(Json certificate, const std::string& name) 
       complaint = path + ".quaternion is 0, which is no rotation";
     if (!complaint.empty()) return;
     const LeafFrame frame{part_, blank_, SolidMotion({*start, {}}), at, both(bound_)};
-    TreeCheck tree(item, path, frame, tables, findings_, complaint);
+    TreeCheck tree(item, path, frame, bounds_, tables, findings_, complaint);
     const PoseBox root = tree.root();
     if (!complaint.empty()) return;
     if (beyond) {

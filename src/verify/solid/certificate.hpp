@@ -1,20 +1,34 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "solid_document.hpp"
+#include "solid_number.hpp"
 
 namespace lekalo::verify {
+
+/// Bounds that take the place of one for all, by the demands of the part's triangles.
+struct PartBounds {
+  static constexpr std::uint32_t kAsCast = 0xffffffff;
+  std::vector<Both> bounds;
+  /// The place of each triangle's bound, or kAsCast.
+  std::vector<std::uint32_t> of;
+  /// The place of the least one; none where something is as cast.
+  std::optional<std::uint32_t> least;
+};
 
 /// The proof that no pose of a window has more clearance than a bound: a subdivision of a box of poses around
 /// the window, each of whose leaves names what bounds the clearance there (certificate_leaf.hpp).
 class SolidCertificate {
  public:
   /// \param part, blank  closed; all outlive this
+  /// \param bounds  null where nothing has a demand of its own
   SolidCertificate(const SolidMesh& part, const SolidMesh& blank, const SolidWindow& window,
-                   const Decimal& bound, std::vector<std::string>& findings)
-      : part_(part), blank_(blank), window_(window), bound_(bound), findings_(findings) {}
+                   const Decimal& bound, const PartBounds* bounds, std::vector<std::string>& findings)
+      : part_(part), blank_(blank), window_(window), bound_(bound), bounds_(bounds), findings_(findings) {}
 
   /// Adds a finding for all that it fails to prove; bad_input where the certificate is none.
   /// Cost: a tree of boxes over each mesh, what is used of the tables, and some 40 us a leaf of balls.
@@ -26,6 +40,7 @@ class SolidCertificate {
   const SolidMesh &part_, &blank_;
   const SolidWindow& window_;
   const Decimal& bound_;
+  const PartBounds* bounds_;
   std::vector<std::string>& findings_;
   std::size_t leaves_ = 0;
 };

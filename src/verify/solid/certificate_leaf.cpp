@@ -202,12 +202,7 @@ template <class Number>
 class LeafProof {
  public:
   LeafProof(const std::vector<LeafTerm>& terms, const PoseBox& box, const LeafFrame& frame)
-      : terms_(terms),
-        frame_(frame),
-        cell_(box),
-        middle_(box, frame),
-        pivot_(as<Number>(frame.pivot)),
-        bound_(as<Number>(frame.bound)) {}
+      : terms_(terms), frame_(frame), cell_(box), middle_(box, frame), pivot_(as<Number>(frame.pivot)) {}
 
   Answer answer() {
     Answer all = Answer::yes;
@@ -224,6 +219,9 @@ class LeafProof {
  private:
   using Point = Of3<Number>;
 
+  [[nodiscard]] const Both& bound_of(const LeafTerm& term) const {
+    return term.bound != nullptr ? *term.bound : frame_.bound;
+  }
   static Point negative(const Point& p) { return Point{} - p; }
   [[nodiscard]] Point turned(const Point& way) const { return frame_.turn(way); }
 
@@ -231,10 +229,13 @@ class LeafProof {
   Answer add(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
     switch (term.kind) {
       case LeafTerm::Kind::ball:
+      case LeafTerm::Kind::point:
         return add_ball(term, forms);
       case LeafTerm::Kind::plane:
+      case LeafTerm::Kind::point_plane:
         return add_plane(term, forms);
       case LeafTerm::Kind::face:
+      case LeafTerm::Kind::point_face:
         return add_blank_face(term, forms);
       case LeafTerm::Kind::part_face:
         return add_part_face(term, forms);
@@ -245,6 +246,7 @@ class LeafProof {
   }
 
   Answer add_ball(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
+    const Number bound = as<Number>(bound_of(term));
     const Ball &a = *term.part_ball, &c = *term.blank_ball;
     const double apart = std::sqrt(squared_length(middle_.place(a.centre) - near(as<Span>(c.centre))));
     const Number l = number<Number>(apart > 0 && std::isfinite(apart) ? apart : 1),
@@ -252,25 +254,27 @@ class LeafProof {
     const Point way = as<Number>(a.centre) - pivot_;
     Form<Number> form{turned(way), as<Number>(c.centre) * Number(number<Number>(0) - inverse)};
     form.turn = inverse;
-    form.level = half * (dot(way, way) * inverse + l) - as<Number>(a.radius) - as<Number>(c.radius) - bound_;
+    form.level = half * (dot(way, way) * inverse + l) - as<Number>(a.radius) - as<Number>(c.radius) - bound;
     form.bend = half * l;
     forms.push_back(std::move(form));
-    return not_below_zero(bound_ + as<Number>(c.radius));
+    return term.kind == LeafTerm::Kind::point ? Answer::yes : not_below_zero(bound + as<Number>(c.radius));
   }
 
   Answer add_plane(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
+    const Number bound = as<Number>(bound_of(term));
     const Ball& a = *term.part_ball;
     const Point n = as<Number>(term.plane->normal);
-    const bool sticks_out = sgn(Fraction(a.radius.exact + frame_.bound.exact)) < 0;
+    const bool sticks_out = sgn(Fraction(a.radius.exact + bound_of(term).exact)) < 0;
     const Number inverse = inverse_length(n, sticks_out ? -1 : 1);
     Form<Number> form{turned(as<Number>(a.centre) - pivot_), n * inverse};
     form.slope = form.from;
-    form.level = number<Number>(0) - as<Number>(term.plane->level) * inverse - as<Number>(a.radius) - bound_;
+    form.level = number<Number>(0) - as<Number>(term.plane->level) * inverse - as<Number>(a.radius) - bound;
     forms.push_back(std::move(form));
     return Answer::yes;
   }
 
   Answer add_blank_face(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
+    const Number bound = as<Number>(bound_of(term));
     const Ball& a = *term.part_ball;
     const Facet<Number> face(frame_.blank, term.blank);
     const Facet<Span> seen(frame_.blank, term.blank);
@@ -287,8 +291,8 @@ class LeafProof {
     };
     const Number foot = dot(n, face.at[0]), radius = as<Number>(a.radius),
                  width = number<Number>(frame_.blank.width(term.blank).low);
-    forms.push_back(form_of(n, number<Number>(0) - foot - radius - width - bound_));
-    Answer all = std::min(not_below_zero(bound_), nowhere_positive(form_of(negative(n), foot - radius)));
+    forms.push_back(form_of(n, number<Number>(0) - foot - radius - width - bound));
+    Answer all = std::min(not_below_zero(bound), nowhere_positive(form_of(negative(n), foot - radius)));
     for (std::size_t k = 0; k < 3; ++k)
       all = std::min(all,
                      nowhere_positive(form_of(negative(face.inwards[k]), dot(face.inwards[k], face.at[k]))));
@@ -296,6 +300,7 @@ class LeafProof {
   }
 
   Answer add_part_face(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
+    const Number bound = as<Number>(bound_of(term));
     const Ball& c = *term.blank_ball;
     const Facet<Number> face(frame_.part, term.part);
     const Facet<Span> seen(frame_.part, term.part);
@@ -312,8 +317,8 @@ class LeafProof {
       return form;
     };
     const Number foot = dot(n, face.at[0] - pivot_), radius = as<Number>(c.radius);
-    forms.push_back(form_of(n, number<Number>(0) - foot - radius - bound_));
-    Answer all = std::min(not_below_zero(bound_), nowhere_positive(form_of(negative(n), foot - radius)));
+    forms.push_back(form_of(n, number<Number>(0) - foot - radius - bound));
+    Answer all = std::min(not_below_zero(bound), nowhere_positive(form_of(negative(n), foot - radius)));
     for (std::size_t k = 0; k < 3; ++k)
       all = std::min(all, nowhere_positive(
                               form_of(negative(face.inwards[k]), dot(face.inwards[k], face.at[k] - pivot_))));
@@ -321,6 +326,7 @@ class LeafProof {
   }
 
   Answer add_edges(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
+    const Number bound = as<Number>(bound_of(term));
     const auto [a, b] = edge_of<Number>(frame_.part, term.part);
     auto [q, r] = edge_of<Number>(frame_.blank, term.blank);
     Near3 n{};
@@ -349,9 +355,9 @@ class LeafProof {
       return std::vector<Form<Number>>{form};
     };
     const Number width = number<Number>(frame_.blank.width(term.blank / 3).low);
-    for (Form<Number>& form : passing(q + u * Number(width + bound_), g * number<Number>(1 / angle), 1))
+    for (Form<Number>& form : passing(q + u * Number(width + bound), g * number<Number>(1 / angle), 1))
       forms.push_back(std::move(form));
-    Answer all = not_below_zero(bound_);
+    Answer all = not_below_zero(bound);
     for (const auto& condition :
          {passing(q, g, -1), passing(q, u, 1), passing(r, u, -1), over(p, 1), over(turned(b - pivot_), -1)})
       all = std::min(all, cell_.everywhere_negative(condition));
@@ -382,7 +388,6 @@ class LeafProof {
   Cell<Number> cell_;
   Middle middle_;
   Point pivot_;
-  Number bound_;
 };
 
 }  // namespace

@@ -10,14 +10,18 @@ namespace lekalo::verify {
 
 /// A term of a leaf, by what it bounds the clearance with.
 struct LeafTerm {
-  enum class Kind : std::uint8_t { ball, plane, face, part_face, edges };
+  /// A term of a point has it as a ball of radius 0.
+  enum class Kind : std::uint8_t { ball, plane, face, part_face, edges, point, point_plane, point_face };
   Kind kind = Kind::ball;
   const Ball* part_ball = nullptr;
   const Ball* blank_ball = nullptr;
   const HalfSpace* plane = nullptr;
-  /// The number of a triangle or an edge of either mesh. Edge 3 f + k leads from corner k of triangle f to its next one.
+  /// The number of a triangle or an edge of either mesh. Edge 3 f + k leads from corner k of triangle f to
+  /// its next one.
   std::uint32_t part = 0, blank = 0;
   Both multiplier;
+  /// The bound in place of the leaf's, where the part's triangle has a demand of its own.
+  const Both* bound = nullptr;
 };
 
 /// The leaves of one tree have this in common. The placed part is T p = R(x) turn (p - pivot) + t.
@@ -42,6 +46,7 @@ struct LeafFrame {
 ///               N > 0. Here u is the direction of n at the middle, and not longer than 1. The edges have to
 ///               cross as seen along u. Then two of their points are N / (n . u) times u apart; the bound
 ///               must not be below 0.
+///   point:      as a ball. It lies on the part's surface, and that needs no condition.
 /// So their sum with the multipliers is above 0, and it is shown not to be. With |w| <= (|w|^2 + l^2) / 2 l
 /// for a ball, and times 1 + |x|^2, the sum is a polynomial of degree 2 in x, convex in t: it is nowhere
 /// above the largest of its 27 Bernstein coefficients at the eight corners of the box of t. Spans decide that

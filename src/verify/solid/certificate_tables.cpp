@@ -116,18 +116,51 @@ std::optional<std::string> fault_of_plane(const PlacedSolid& blank, const HalfSp
   return fault;
 }
 
+/// A row of four numbers that was read before.
+template <class Thing>
+Thing row_of(Json written) {
+  std::string none;
+  const auto [x, y, z, last] = *numbers_of<4>(written, none, [] { return std::string(); });
+  return {{both(x), both(y), both(z)}, both(last)};
+}
+
+std::optional<std::string> fault_of_point(const SolidMesh& part, Json written, PartPoint& point) {
+  std::string none;
+  const auto [f, u, v] = *numbers_of<3>(written, none, [] { return std::string(); });
+  const bool is_number =
+      f.exponent >= 0 && sgn(f.digits) >= 0 && approximate(f) < static_cast<double>(limits::kMostSolidItems);
+  const auto triangle =
+      is_number ? part.triangle_of_file(static_cast<std::size_t>(approximate(f))) : std::nullopt;
+  if (!triangle) return "its triangle is none of the part";
+  const Fraction along = to_fraction(u), across = to_fraction(v);
+  if (sgn(along) < 0 || sgn(across) < 0 || along + across > 1) return "it is not in its triangle";
+  point.triangle = *triangle;
+  const auto& corners = part.triangles[*triangle];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Fraction from = part.exact(corners[0], axis);
+    Both& at = point.ball.centre[axis];
+    at.exact =
+        from + along * (part.exact(corners[1], axis) - from) + across * (part.exact(corners[2], axis) - from);
+    at.near = enclosed(at.exact);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 CertificateTables::CertificateTables(Json certificate, const SolidMesh& part, const SolidMesh& blank,
                                      std::vector<std::string>& findings, std::string& complaint)
     : part_(part), blank_(blank), findings_(findings) {
   const Fields fields(certificate, "certificate", complaint);
-  read(fields.get("part_balls"), "part_balls", true, part_balls_, complaint);
-  read(fields.get("blank_balls"), "blank_balls", true, blank_balls_, complaint);
-  read(fields.get("planes"), "planes", false, planes_, complaint);
+  read<4>(fields.get("part_balls"), "part_balls", true, part_balls_, complaint);
+  read<4>(fields.get("blank_balls"), "blank_balls", true, blank_balls_, complaint);
+  read<4>(fields.get("planes"), "planes", false, planes_, complaint);
+  // A certificate without them may leave the word out.
+  if (const Json points = fields.get("part_points"); !points.text.empty())
+    read<3>(points, "part_points", false, part_points_, complaint);
 }
 
-template <class Thing>
+template <std::size_t Count, class Thing>
 void CertificateTables::read(Json list, const char* key, bool has_radius, std::vector<Row<Thing>>& rows,
                              std::string& complaint) {
   const auto complain = [&](std::string_view sentence) {
@@ -139,22 +172,19 @@ void CertificateTables::read(Json list, const char* key, bool has_radius, std::v
     const auto name = [&] { return fmt::format("certificate.{}[{}]", key, rows.size()); };
     if (rows.size() == limits::kMostCertificateRows)
       return complain(fmt::format("has more than {} rows", limits::kMostCertificateRows));
-    const auto numbers = numbers_of<4>(*item, complaint, name);
+    const auto numbers = numbers_of<Count>(*item, complaint, name);
     if (!numbers) return;
-    if (has_radius && sgn((*numbers)[3].digits) < 0) return complain("has a radius below 0");
+    if (has_radius && sgn(numbers->back().digits) < 0) return complain("has a radius below 0");
     rows.push_back({*item});
   }
 }
 
-template <class Thing, class Fault>
-const Thing* CertificateTables::look(Row<Thing>& row, const char* key, std::size_t number,
-                                     const Fault& fault) {
+template <class Thing, class Make>
+const Thing* CertificateTables::look(Row<Thing>& row, const char* key, std::size_t number, const Make& make) {
   if (!row.seen) {
     row.seen = true;
-    std::string none;
-    const auto [x, y, z, last] = *numbers_of<4>(row.written, none, [] { return std::string(); });
-    auto thing = std::make_unique<Thing>(Thing{{both(x), both(y), both(z)}, both(last)});
-    if (const auto wrong = fault(*thing))
+    auto thing = std::make_unique<Thing>();
+    if (const auto wrong = make(row.written, *thing))
       findings_.push_back(
           fmt::format("certificate.{}[{}] is not what it has to be: {}", key, number, *wrong));
     else
@@ -164,16 +194,26 @@ const Thing* CertificateTables::look(Row<Thing>& row, const char* key, std::size
 }
 
 const Ball* CertificateTables::part_ball(std::size_t number) {
-  return look(part_balls_[number], "part_balls", number,
-              [&](const Ball& ball) { return fault_of_part_ball(part_, ball); });
+  return look(part_balls_[number], "part_balls", number, [&](Json written, Ball& ball) {
+    ball = row_of<Ball>(written);
+    return fault_of_part_ball(part_, ball);
+  });
 }
 const Ball* CertificateTables::blank_ball(std::size_t number) {
-  return look(blank_balls_[number], "blank_balls", number,
-              [&](const Ball& ball) { return fault_of_blank_ball(blank_, ball); });
+  return look(blank_balls_[number], "blank_balls", number, [&](Json written, Ball& ball) {
+    ball = row_of<Ball>(written);
+    return fault_of_blank_ball(blank_, ball);
+  });
 }
 const HalfSpace* CertificateTables::plane(std::size_t number) {
-  return look(planes_[number], "planes", number,
-              [&](const HalfSpace& plane) { return fault_of_plane(blank_, plane); });
+  return look(planes_[number], "planes", number, [&](Json written, HalfSpace& plane) {
+    plane = row_of<HalfSpace>(written);
+    return fault_of_plane(blank_, plane);
+  });
+}
+const PartPoint* CertificateTables::part_point(std::size_t number) {
+  return look(part_points_[number], "part_points", number,
+              [&](Json written, PartPoint& point) { return fault_of_point(part_.mesh(), written, point); });
 }
 
 }  // namespace lekalo::verify

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,11 @@ namespace lekalo::verify {
 struct Ball {
   Both3 centre;
   Both radius;
+};
+/// A point of a triangle of the part, as a ball of radius 0.
+struct PartPoint {
+  Ball ball;
+  std::uint32_t triangle = 0;
 };
 /// The half-space n . p >= level; the triangles of the blank may reach out of it by their widths.
 struct HalfSpace {
@@ -32,12 +38,15 @@ class CertificateTables {
   [[nodiscard]] std::size_t part_balls() const { return part_balls_.size(); }
   [[nodiscard]] std::size_t blank_balls() const { return blank_balls_.size(); }
   [[nodiscard]] std::size_t planes() const { return planes_.size(); }
+  [[nodiscard]] std::size_t part_points() const { return part_points_.size(); }
 
   /// A ball in the closed material of the part; nothing, and once a finding, where it is not that.
   [[nodiscard]] const Ball* part_ball(std::size_t number);
   /// A ball within which the blank has no material: either its centre is not in the blank, and every triangle
   /// is as far from it as the radius less the triangle's width, or the width of one triangle has all of it.
   [[nodiscard]] const Ball* blank_ball(std::size_t number);
+  /// A point v0 + u (v1 - v0) + v (v2 - v0) of a triangle.
+  [[nodiscard]] const PartPoint* part_point(std::size_t number);
   /// A half-space that holds the blank.
   [[nodiscard]] const HalfSpace* plane(std::size_t number);
 
@@ -49,16 +58,18 @@ class CertificateTables {
     bool seen = false;
     std::unique_ptr<const Thing> thing = {};
   };
-  template <class Thing>
+  template <std::size_t Count, class Thing>
   static void read(Json list, const char* key, bool has_radius, std::vector<Row<Thing>>& rows,
                    std::string& complaint);
-  template <class Thing, class Fault>
-  const Thing* look(Row<Thing>& row, const char* key, std::size_t number, const Fault& fault);
+  /// Makes the thing of a row by make(written, thing), which says why it is not what it has to be.
+  template <class Thing, class Make>
+  const Thing* look(Row<Thing>& row, const char* key, std::size_t number, const Make& make);
 
   PlacedSolid part_, blank_;
   std::vector<std::string>& findings_;
   std::vector<Row<Ball>> part_balls_, blank_balls_;
   std::vector<Row<HalfSpace>> planes_;
+  std::vector<Row<PartPoint>> part_points_;
 };
 
 }  // namespace lekalo::verify

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "lekalo/base/stop.hpp"
+#include "triangle_distance.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -137,7 +138,7 @@ bool PlacedSolid::holds(const Vec3& enclosed, const Exact3& point) const {
   return odd;
 }
 
-std::vector<std::uint32_t> PlacedSolid::one_of_each_component() const {
+std::vector<std::vector<std::uint32_t>> PlacedSolid::components() const {
   std::vector<std::uint32_t> parent(mesh_->near.size());
   std::iota(parent.begin(), parent.end(), 0U);
   const auto root = [&](std::uint32_t v) {
@@ -153,10 +154,32 @@ std::vector<std::uint32_t> PlacedSolid::one_of_each_component() const {
       parent[std::max(a, b)] = std::min(a, b);
     }
   }
+  std::vector<std::vector<std::uint32_t>> made;
+  std::vector<std::size_t> number(parent.size());
+  for (std::uint32_t v = 0; v < parent.size(); ++v) {
+    if (used[v] == 0) continue;
+    // The root of a component is its first vertex.
+    if (parent[v] == v) number[v] = made.size(), made.emplace_back();
+    made[number[root(v)]].push_back(v);
+  }
+  return made;
+}
+
+std::vector<std::uint32_t> PlacedSolid::one_of_each_component() const {
   std::vector<std::uint32_t> firsts;
-  for (std::uint32_t v = 0; v < parent.size(); ++v)
-    if (used[v] != 0 && parent[v] == v) firsts.push_back(v);
+  for (const auto& component : components()) firsts.push_back(component.front());
   return firsts;
+}
+
+bool PlacedSolid::touches(const Vec3& enclosed, const Exact3& point) const {
+  const Box3 place = box_of(enclosed);
+  bool found = false;
+  tree_.visit([&](const Box3& box) { return !found && !(gap(place, box) > 0); },
+              [&](std::uint32_t number) {
+                found = found || (!(distance({enclosed, enclosed, enclosed}, triangle(number)).low > 0) &&
+                                  sgn(exact_squared_distance(point, exact_triangle(number))) == 0);
+              });
+  return found;
 }
 
 }  // namespace lekalo::verify

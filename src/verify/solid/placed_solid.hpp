@@ -57,7 +57,11 @@ class PlacedSolid {
   /// way meets an edge or a corner. Exact. \pre it lies on no triangle
   [[nodiscard]] bool holds(const Vec3& enclosed, const Exact3& point) const;
 
-  /// Returns a vertex of each part of the surface that hangs together by vertices.
+  /// Says whether a point lies on a triangle, exactly.
+  [[nodiscard]] bool touches(const Vec3& enclosed, const Exact3& point) const;
+
+  /// Returns the vertices of each part of the surface that hangs together by vertices, and one of each.
+  [[nodiscard]] std::vector<std::vector<std::uint32_t>> components() const;
   [[nodiscard]] std::vector<std::uint32_t> one_of_each_component() const;
 
  private:

@@ -7,11 +7,13 @@
 #include <optional>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "certificate.hpp"
 #include "measured_points.hpp"
 #include "scan_widths.hpp"
 #include "solid_document.hpp"
+#include "solid_features.hpp"
 #include "solid_number.hpp"
 #include "solid_window.hpp"
 #include "triangle_distance.hpp"
@@ -64,9 +66,13 @@ class SolidCheck {
     }
     if (part && blank) {
       LEKALO_TRY(const SolidPair pair, SolidPair::make(*part, *blank, d_.pose));
-      check_clearance(pair);
+      if (!d_.demands)
+        check_clearance(pair);
+      else if (demands_)
+        LEKALO_CHECK(check_margin(pair, *part, *blank));
       check_contacts(pair, *part, *blank);
-      if (has_certificate && d_.upper_bound) LEKALO_CHECK(check_certificate(certificate, *part, *blank));
+      if (has_certificate && bound() && demands_.has_value() == d_.demands.has_value())
+        LEKALO_CHECK(check_certificate(certificate, *part, *blank));
     }
     check_pose();
     check_derived();
@@ -87,21 +93,32 @@ class SolidCheck {
   }
   void note(std::string sentence) { report_.notes.push_back(std::move(sentence)); }
 
+  /// What the certificate proves, or nothing.
+  [[nodiscard]] const std::optional<Decimal>& bound() const {
+    return d_.demands ? d_.demands->bound : d_.upper_bound;
+  }
+
   Result<std::optional<SolidMesh>> read_input(const char* role, const Document& document,
                                               const WrittenSolid& written);
   [[nodiscard]] Result<Json> certificate_of() const;
   void check_scan(SolidMesh& blank);
   Result<void> check_points(const SolidMesh& blank);
+  Result<void> read_demands(const SolidReading& part);
   void check_clearance(const SolidPair& pair);
+  Result<void> check_margin(const SolidPair& pair, const SolidMesh& part, const SolidMesh& blank);
+  [[nodiscard]] std::optional<SolidDemand> demand_of(std::size_t feature) const;
+  [[nodiscard]] PartBounds bounds_of(const SolidMesh& part) const;
   void check_contacts(const SolidPair& pair, const SolidMesh& part, const SolidMesh& blank);
   Result<void> check_certificate(Json certificate, const SolidMesh& part, const SolidMesh& blank);
   void check_pose();
   void check_derived();
+  void check_derived_of_demands();
   void check_status(bool has_certificate);
   void check_nc();
 
   const LocateInputs& inputs_;
   SolidDocument d_;
+  std::optional<SolidDemands> demands_;
   bool open_ = false;
   LocateReport report_;
 };
@@ -119,8 +136,52 @@ Result<std::optional<SolidMesh>> SolidCheck::read_input(const char* role, const 
   if (reading.mesh.triangles.size() != written.triangles)
     find("the {} is said to have {} triangles, but {} has {}", role, written.triangles, document.name,
          reading.mesh.triangles.size());
+  if (d_.demands && &written == &d_.part) LEKALO_CHECK(read_demands(reading));
   LEKALO_TRY(SolidMesh made, closed(std::move(reading.mesh), document.name));
   return made;
+}
+
+/// Rebuilds the demands from the file of features, and holds what the result says of them against it.
+Result<void> SolidCheck::read_demands(const SolidReading& part) {
+  if (!inputs_.features) {
+    open_ = true;
+    note(
+        "the file of features is not there, so what the triangles demand, and the margin, were not "
+        "rechecked");
+    return {};
+  }
+  LEKALO_TRY(demands_, read_solid_features(*inputs_.features, part, d_.part.unit));
+  SolidDemands& is = *demands_;
+  is.minimum = std::max(is.minimum, approximate(d_.min_allowance));
+  const WrittenSolidDemands& said = *d_.demands;
+  if (approximate(said.minimum) != is.minimum)
+    find("demands.minimum is {}, but {} demands {}", approximate(said.minimum), inputs_.features->name,
+         is.minimum);
+  if (said.features.size() != is.features.size()) {
+    find("demands.features has {} features, but {} has {}", said.features.size(), inputs_.features->name,
+         is.features.size());
+    return {};
+  }
+  for (std::size_t k = 0; k < is.features.size(); ++k) {
+    const SolidFeature& feature = is.features[k];
+    const WrittenSolidDemands::Feature& one = said.features[k];
+    const auto same = [](const std::optional<Decimal>& written, std::optional<double> value) {
+      return written.has_value() == value.has_value() && (!value || approximate(*written) == *value);
+    };
+    std::optional<double> minimum, scale;
+    if (feature.demand) minimum = feature.demand->minimum, scale = feature.demand->scale;
+    if (one.name != feature.name || one.triangles != feature.triangles || !same(one.minimum, minimum) ||
+        !same(one.scale, scale) || one.as_cast == feature.demand.has_value())
+      find("demands.features[{}] is not what {} says: \"{}\" has {} triangles{}", k, inputs_.features->name,
+           feature.name, feature.triangles,
+           feature.demand ? fmt::format(", minimum {} and scale {}", *minimum, *scale) : " as cast");
+  }
+  return {};
+}
+
+/// The demand of triangles of a feature, counted from 1, or of none; nothing of what is as cast.
+std::optional<SolidDemand> SolidCheck::demand_of(std::size_t feature) const {
+  return feature == 0 ? SolidDemand{demands_->minimum, 1} : demands_->features[feature - 1].demand;
 }
 
 /// Returns null where there is none.
@@ -206,6 +267,89 @@ void SolidCheck::check_clearance(const SolidPair& pair) {
   if (answer.open) find("inside is true, but the part touches the blank's surface");
 }
 
+/// Returns the triangles of a part with one demand, as a mesh of their own, and the vertices that they have.
+SolidMesh part_of(const SolidMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  SolidMesh made;
+  std::vector<std::uint32_t> becomes(mesh.near.size(), 0xffffffff);
+  for (const std::uint32_t t : triangles) {
+    std::array<std::uint32_t, 3> corners = mesh.triangles[t];
+    for (std::uint32_t& v : corners) {
+      if (becomes[v] == 0xffffffff) {
+        becomes[v] = static_cast<std::uint32_t>(made.near.size());
+        made.near.push_back(mesh.near[v]);
+        if (!mesh.written.empty()) made.written.push_back(mesh.written[v]);
+      }
+      v = becomes[v];
+    }
+    made.triangles.push_back(corners);
+    made.numbers.push_back(mesh.numbers[t]);
+  }
+  return made;
+}
+
+/// The triangles of each demand are looked at for themselves.
+Result<void> SolidCheck::check_margin(const SolidPair& pair, const SolidMesh& part, const SolidMesh& blank) {
+  std::vector<std::vector<std::uint32_t>> of_feature(demands_->features.size() + 1);
+  for (std::uint32_t t = 0; t < part.triangles.size(); ++t)
+    of_feature[demands_->feature_of[part.numbers[t]]].push_back(t);
+  const Fraction clearance = d_.clearance ? to_fraction(*d_.clearance) : Fraction(0);
+  std::optional<std::string> fault = pair.swallowed();
+  Span least{kInfinity, kInfinity};
+  bool any = false;
+  for (std::size_t k = 0; k < of_feature.size(); ++k) {
+    const auto demand = demand_of(k);
+    if (!demand || of_feature[k].empty()) continue;
+    any = true;
+    Both needed{std::max(clearance, Fraction(0))};
+    if (d_.inside && d_.demands->margin) {
+      const Fraction margin = to_fraction(*d_.demands->margin);
+      needed.exact =
+          std::max(needed.exact, Fraction(Fraction(demand->minimum) + Fraction(demand->scale) * margin));
+    }
+    needed.near = enclosed(needed.exact);
+    const SolidMesh surface = part_of(part, of_feature[k]);
+    LEKALO_TRY(const SolidPair of_surface, SolidPair::make(surface, blank, d_.pose));
+    const SolidAnswer answer = of_surface.check_surface(needed);
+    least = {std::min(least.low, answer.least.low), std::min(least.high, answer.least.high)};
+    if (fault) continue;
+    const std::string whose = k == 0 ? "" : fmt::format("feature \"{}\": ", demands_->features[k - 1].name);
+    if (answer.fault)
+      fault = whose + *answer.fault;
+    else if (answer.open)
+      fault = whose + "it touches the blank's surface";
+  }
+  if (!any) find("all of the part is as cast, so that there is no margin");
+  if (!d_.inside) {
+    if (!fault) find("inside is false, but all of the part that is not as cast lies in the blank");
+    return {};
+  }
+  report_.clearance_low = fmt::format("{}", least.low);
+  report_.clearance_high = fmt::format("{}", least.high);
+  if (fault) find("{}", *fault);
+  return {};
+}
+
+PartBounds SolidCheck::bounds_of(const SolidMesh& part) const {
+  PartBounds made;
+  const Fraction bound = to_fraction(*d_.demands->bound);
+  for (std::size_t k = 0; k <= demands_->features.size(); ++k) {
+    const SolidDemand demand = demand_of(k).value_or(SolidDemand{});
+    Both one{Fraction(demand.minimum) + Fraction(demand.scale) * bound};
+    one.near = enclosed(one.exact);
+    made.bounds.push_back(std::move(one));
+  }
+  bool as_cast = false;
+  for (const std::uint32_t number : part.numbers) {
+    const std::uint32_t feature = demands_->feature_of[number];
+    made.of.push_back(demand_of(feature) ? feature : PartBounds::kAsCast);
+    as_cast = as_cast || made.of.back() == PartBounds::kAsCast;
+    if (as_cast) continue;
+    if (!made.least || made.bounds[feature].exact < made.bounds[*made.least].exact) made.least = feature;
+  }
+  if (as_cast) made.least.reset();
+  return made;
+}
+
 void SolidCheck::check_contacts(const SolidPair& pair, const SolidMesh& part, const SolidMesh& blank) {
   const double slack = kReadingTolerance * std::max(1.0, size_of(blank));
   for (std::size_t k = 0; k < d_.contacts.size(); ++k) {
@@ -223,10 +367,12 @@ void SolidCheck::check_contacts(const SolidPair& pair, const SolidMesh& part, co
 }
 
 Result<void> SolidCheck::check_certificate(Json certificate, const SolidMesh& part, const SolidMesh& blank) {
-  SolidCertificate proof(part, blank, d_.window, *d_.upper_bound, report_.findings);
+  PartBounds bounds;
+  if (demands_) bounds = bounds_of(part);
+  SolidCertificate proof(part, blank, d_.window, *bound(), demands_ ? &bounds : nullptr, report_.findings);
   LEKALO_CHECK(proof.check(certificate, d_.boxes_in_file ? inputs_.certificate->name : inputs_.result.name));
   report_.intervals = proof.leaves();
-  report_.bound_high = fmt::format("{}", enclosed(*d_.upper_bound).high);
+  report_.bound_high = fmt::format("{}", enclosed(*bound()).high);
   if (d_.boxes_in_file && *d_.boxes_in_file != proof.leaves())
     find("certificate_file.boxes is {}, but the certificate has {} leaves", *d_.boxes_in_file,
          proof.leaves());
@@ -237,11 +383,34 @@ void SolidCheck::check_pose() {
   if (const auto how = off_window(d_.window, d_.pose)) find("the placement is not in the window: {}", *how);
 }
 
+/// Nothing of these is rounded to the other side by more than a last digit.
+void SolidCheck::check_derived_of_demands() {
+  const WrittenSolidDemands& said = *d_.demands;
+  if (d_.upper_bound || d_.gap) find("there is an upper_bound or a gap, but demands have a margin_bound");
+  if (said.margin.has_value() != d_.inside)
+    find("inside is {}, but {} margin", d_.inside, said.margin ? "there is a" : "there is no");
+  if (said.gap.has_value() != (said.margin && said.bound))
+    find("{}",
+         said.gap ? "there is a margin_gap, but not both a margin and a margin_bound" : "margin_gap is null");
+  if (!said.margin) return;
+  const Fraction margin = to_fraction(*said.margin);
+  if (said.bound) {
+    const Fraction bound = to_fraction(*said.bound);
+    if (bound < margin)
+      find("margin_bound {} is below margin {}", approximate(*said.bound), approximate(*said.margin));
+    if (said.gap && !is_near(*said.gap, bound - margin, abs(bound) + abs(margin)))
+      find("margin_gap is not margin_bound less margin");
+  }
+  if (d_.shortfall && to_fraction(*d_.shortfall) != std::max(Fraction(0), Fraction(-margin)))
+    find("shortfall is not what is missing of a margin of 0");
+}
+
 void SolidCheck::check_derived() {
   if (d_.inside != d_.clearance.has_value())
     find("inside is {}, but {} clearance", d_.inside, d_.clearance ? "there is a" : "there is no");
   if (d_.clearance && sgn(d_.clearance->digits) < 0)
     find("clearance {} is below 0, which no part in its blank has", approximate(*d_.clearance));
+  if (d_.demands) check_derived_of_demands();
   if (d_.gap.has_value() != (d_.clearance && d_.upper_bound))
     find("{}", d_.gap ? "there is a gap, but not both a clearance and an upper_bound" : "gap is null");
   if (d_.shortfall.has_value() != d_.clearance.has_value())
@@ -255,6 +424,7 @@ void SolidCheck::check_derived() {
     if (d_.gap && !is_near(*d_.gap, bound - clearance, abs(bound) + clearance))
       find("gap is not upper_bound less clearance");
   }
+  if (d_.demands) return;
   const Fraction missing = demand - clearance;
   if (d_.shortfall && (sgn(missing) <= 0 ? sgn(d_.shortfall->digits) != 0
                                          : !is_near(*d_.shortfall, missing, abs(demand) + clearance)))
@@ -262,21 +432,23 @@ void SolidCheck::check_derived() {
 }
 
 void SolidCheck::check_status(bool has_certificate) {
-  if (has_certificate && !d_.upper_bound)
-    find("there is a certificate, but no upper_bound that it is to prove");
-  if (!has_certificate && d_.upper_bound)
-    note(fmt::format("there is no certificate, so that upper_bound {} was not rechecked",
-                     approximate(*d_.upper_bound)));
+  const char* const name = d_.demands ? "margin_bound" : "upper_bound";
+  if (has_certificate && !bound()) find("there is a certificate, but no {} that it is to prove", name);
+  if (!has_certificate && bound())
+    note(
+        fmt::format("there is no certificate, so that {} {} was not rechecked", name, approximate(*bound())));
   if (d_.status == "stopped") return;
   if (d_.status == "unproved") {
     if (has_certificate) find("status is unproved, but there is a certificate");
     return;
   }
-  if (!d_.upper_bound) return find("status is {}, but there is no upper_bound", d_.status);
-  const bool out_of_reach = compare(*d_.upper_bound, d_.min_allowance) < 0;
+  if (!bound()) return find("status is {}, but there is no {}", d_.status, name);
+  const Decimal demand = d_.demands ? Decimal{} : d_.min_allowance;
+  const bool out_of_reach = compare(*bound(), demand) < 0;
   if (out_of_reach != (d_.status == "infeasible"))
-    find("status is {}, but upper_bound {} is {} min_allowance {}", d_.status, approximate(*d_.upper_bound),
-         out_of_reach ? "below" : "not below", approximate(d_.min_allowance));
+    find("status is {}, but {} {} is {} {}", d_.status, name, approximate(*bound()),
+         out_of_reach ? "below" : "not below",
+         d_.demands ? "0" : fmt::format("min_allowance {}", approximate(demand)));
   if (d_.status == "optimal" && !d_.inside) find("status is optimal, but the part is not in the blank");
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lekalo/base/limits.hpp"
-#include "solid_number.hpp"
+#include "lekalo/base/stop.hpp"
 #include "triangle_distance.hpp"
 
 namespace lekalo::verify {
@@ -17,6 +17,11 @@ std::string place(const Vec3& p) {
 }
 std::string place(const PlacedSolid& body, std::uint32_t triangle) {
   return place(body.at(body.mesh().triangles[triangle][0]));
+}
+
+/// The number of a triangle in its file, from 1.
+std::size_t number(const PlacedSolid& body, std::uint32_t triangle) {
+  return std::size_t{body.mesh().numbers[triangle]} + 1;
 }
 
 bool is_zero(const Decimal& value) { return sgn(value.digits) == 0; }
@@ -62,10 +67,21 @@ SolidPair::Nearest SolidPair::nearest() const {
 }
 
 SolidAnswer SolidPair::check(const Decimal& clearance) const {
+  SolidAnswer answer = check_surface(both(clearance));
+  if (answer.fault || answer.open) return answer;
+  for (const std::uint32_t vertex : blank_.one_of_each_component()) {
+    if (!part_.holds(blank_.at(vertex), blank_.exactly_at(vertex))) continue;
+    answer.fault = fmt::format("the blank's surface at {} lies within the part", place(blank_.at(vertex)));
+    break;
+  }
+  return answer;
+}
+
+SolidAnswer SolidPair::check_surface(const Both& clearance) const {
   const Nearest near = nearest();
   SolidAnswer answer{near.least, std::nullopt, std::nullopt};
-  const Span claimed = enclosed(clearance);
-  if (sgn(clearance.digits) < 0) {
+  const Span claimed = clearance.near;
+  if (sgn(clearance.exact) < 0) {
     answer.open =
         fmt::format("the clearance {} is below 0: how far a part sticks out is not rechecked", claimed.low);
     return answer;
@@ -75,18 +91,26 @@ SolidAnswer SolidPair::check(const Decimal& clearance) const {
         "the clearance {} mm is above {} mm: so near is triangle {} of the part, placed at {}, to triangle "
         "{} "
         "of the blank, at {}{}",
-        approximate(clearance), near.least.high, near.part + 1, place(part_, near.part), near.blank + 1,
-        place(blank_, near.blank), blank_.mesh().widths.empty() ? "" : ", less its width");
+        verify::nearest(clearance.exact), near.least.high, number(part_, near.part), place(part_, near.part),
+        number(blank_, near.blank), place(blank_, near.blank),
+        blank_.mesh().widths.empty() ? "" : ", less its width");
     return answer;
   }
   if (!(near.least.low > 0 && near.least.low >= claimed.high)) check_exactly(clearance, answer);
-  if (!answer.fault && !answer.open) check_inside(answer);
+  if (answer.fault || answer.open) return answer;
+  // The surfaces have no point in common, so one vertex says where all that hangs together lies.
+  for (const std::uint32_t vertex : part_.one_of_each_component()) {
+    if (blank_.holds(part_.at(vertex), part_.exactly_at(vertex))) continue;
+    answer.fault =
+        fmt::format("the part is not in the blank: its surface at {} lies outside", place(part_.at(vertex)));
+    break;
+  }
   return answer;
 }
 
-void SolidPair::check_exactly(const Decimal& clearance, SolidAnswer& answer) const {
-  const double claimed = enclosed(clearance).high;
-  const Fraction exact = to_fraction(clearance);
+void SolidPair::check_exactly(const Both& clearance, SolidAnswer& answer) const {
+  const double claimed = clearance.near.high;
+  const Fraction& exact = clearance.exact;
   // It is below 0 once there is a fault, which ends the walk.
   double limit = blank_.mesh().widths.empty() ? claimed : plus(just(claimed), blank_.widest()).high;
   part_.tree().visit_pairs(blank_.tree(), limit, [&](std::uint32_t a, std::uint32_t b) {
@@ -96,8 +120,8 @@ void SolidPair::check_exactly(const Decimal& clearance, SolidAnswer& answer) con
     const Fraction most = exact + Fraction(width.high), least = exact + Fraction(width.low);
     const ExactDistance found = exact_distance(part_.exact_triangle(a), blank_.exact_triangle(b));
     const auto say = [&](const char* how) {
-      return fmt::format("triangle {} of the part, placed at {}, {} triangle {} of the blank, at {}", a + 1,
-                         place(part_, a), how, b + 1, place(blank_, b));
+      return fmt::format("triangle {} of the part, placed at {}, {} triangle {} of the blank, at {}",
+                         number(part_, a), place(part_, a), how, number(blank_, b), place(blank_, b));
     };
     if (found.pierces) {
       answer.fault = say("passes through");
@@ -114,18 +138,18 @@ void SolidPair::check_exactly(const Decimal& clearance, SolidAnswer& answer) con
   });
 }
 
-void SolidPair::check_inside(SolidAnswer& answer) const {
-  for (const std::uint32_t vertex : part_.one_of_each_component()) {
-    if (blank_.holds(part_.at(vertex), part_.exactly_at(vertex))) continue;
-    answer.fault =
-        fmt::format("the part is not in the blank: its surface at {} lies outside", place(part_.at(vertex)));
-    return;
+std::optional<std::string> SolidPair::swallowed() const {
+  for (const auto& component : blank_.components()) {
+    const auto is_outside = [&](std::uint32_t vertex) {
+      ask();
+      const Exact3 exact = blank_.exactly_at(vertex);
+      return !part_.touches(blank_.at(vertex), exact) && !part_.holds(blank_.at(vertex), exact);
+    };
+    if (std::ranges::none_of(component, is_outside))
+      return fmt::format("all of the blank's surface that hangs together at {} lies within the part",
+                         place(blank_.at(component.front())));
   }
-  for (const std::uint32_t vertex : blank_.one_of_each_component()) {
-    if (!part_.holds(blank_.at(vertex), blank_.exactly_at(vertex))) continue;
-    answer.fault = fmt::format("the blank's surface at {} lies within the part", place(blank_.at(vertex)));
-    return;
-  }
+  return std::nullopt;
 }
 
 Result<double> SolidPair::bound_of(const SolidContact& contact, double slack, Span width) const {

@@ -5,6 +5,7 @@
 
 #include "lekalo/base/error.hpp"
 #include "placed_solid.hpp"
+#include "solid_number.hpp"
 
 namespace lekalo::verify {
 
@@ -32,6 +33,13 @@ class SolidPair {
 
   [[nodiscard]] SolidAnswer check(const Decimal& clearance) const;
 
+  /// The claim about the part's surface alone, which may have a rim: it lies in the blank, and is nowhere
+  /// nearer to the blank's surface.
+  [[nodiscard]] SolidAnswer check_surface(const Both& clearance) const;
+  /// Says why something of the blank's surface that hangs together may lie in the part, or nothing: each has
+  /// to have a vertex outside.
+  [[nodiscard]] std::optional<std::string> swallowed() const;
+
   /// Returns a bound above the least distance of the surfaces, mm, which is the clearance of a part in the
   /// blank: the distance of the two points and what they are off the surfaces. Refuted where a point is off
   /// its surface, or their distance less the width of the blank's triangle is not the one that is said, by
@@ -48,9 +56,7 @@ class SolidPair {
   };
   [[nodiscard]] Nearest nearest() const;
   /// Decides exactly what enclosures leave open.
-  void check_exactly(const Decimal& clearance, SolidAnswer& answer) const;
-  /// \pre the surfaces have no point in common
-  void check_inside(SolidAnswer& answer) const;
+  void check_exactly(const Both& clearance, SolidAnswer& answer) const;
 
   SolidMotion motion_;
   PlacedSolid part_, blank_;

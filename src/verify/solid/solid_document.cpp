@@ -14,7 +14,8 @@ namespace lekalo::verify {
 namespace {
 
 constexpr std::array<std::string_view, 4> kStatuses{"optimal", "stopped", "infeasible", "unproved"};
-constexpr std::array<std::string_view, 6> kRoles{"part", "blank", "start", "points", "nc", "allow"};
+constexpr std::array<std::string_view, 7> kRoles{"part",     "blank", "start", "points",
+                                                 "features", "nc",    "allow"};
 /// In the order of SolidUnit and of SolidFreedom.
 constexpr std::array<std::string_view, 3> kUnits{"mm", "inch", "m"}, kFreedoms{"xyz", "c-xyz", "six"};
 
@@ -64,6 +65,7 @@ class Reader {
     fields_.each("contacts", [&](Json item, const std::string& path) { read_contact(item, path); });
     fields_.require({"warnings", "seed", "work", "version", "method", "scan", "certificate",
                      "certificate_file", "nc", "run"});
+    read_demands();
     read_scan();
     read_proof();
     if (const Json nc = fields_.get("nc"); !nc.is_null()) d_.nc = read_written_nc(nc, complaint_);
@@ -97,7 +99,7 @@ class Reader {
   }
 
   void read_inputs() {
-    std::size_t parts = 0, blanks = 0;
+    std::size_t parts = 0, blanks = 0, features = 0;
     fields_.each("inputs", [&](Json item, const std::string& path) {
       Fields input(item, path, complaint_);
       const std::string_view role = kRoles[word_of(input, "role", kRoles)];
@@ -106,6 +108,7 @@ class Reader {
             std::pair("triangles", role == "part" || role == "blank"), std::pair("points", role == "points")})
         if (!is_said && !input.get(key).text.empty())
           input.complain(fmt::format("field {} is said of the file of the role {}", input.name(key), role));
+      features += role == "features" ? 1 : 0;
       if (role == "points") {
         if (d_.points) fields_.complain("inputs name two files of points");
         d_.points = {static_cast<SolidUnit>(word_of(input, "units", kUnits)), input.index("points")};
@@ -118,6 +121,9 @@ class Reader {
     });
     if (parts != 1 || blanks != 1)
       fields_.complain(fmt::format("inputs name {} part and {} blank, not one each", parts, blanks));
+    if (features != (fields_.get("demands").is_object() ? 1U : 0U))
+      fields_.complain(fmt::format("inputs name {} files of features, and there are {}demands", features,
+                                   fields_.get("demands").is_object() ? "" : "no "));
   }
 
   void read_window() {
@@ -140,6 +146,27 @@ class Reader {
          contact.index("part_triangle"),
          contact.index("blank_triangle")});
     (void)contact.number("multiplier");
+  }
+
+  /// A result without them may leave the word out.
+  void read_demands() {
+    const Json written = fields_.get("demands");
+    if (written.text.empty() || written.is_null() || !complaint_.empty()) return;
+    Fields fields(written, "demands", complaint_);
+    WrittenSolidDemands& demands = d_.demands.emplace();
+    demands.minimum = length(fields, "minimum");
+    fields.each("features", [&](Json item, const std::string& path) {
+      Fields of(item, path, complaint_);
+      of.require({"minimum", "scale"});
+      demands.features.push_back({of.text("name"), of.index("triangles"), of.number_or_null("minimum"),
+                                  of.number_or_null("scale"), truth(of, "as_cast")});
+    });
+    fields.require({"margin", "margin_bound", "margin_gap"});
+    demands.margin = fields.number_or_null("margin");
+    demands.bound = fields.number_or_null("margin_bound");
+    demands.gap = fields.number_or_null("margin_gap");
+    for (const auto& value : {demands.margin, demands.bound, demands.gap})
+      if (value && is_beyond_all_sizes(*value)) fields.complain("a margin is beyond all sizes");
   }
 
   void read_scan() {

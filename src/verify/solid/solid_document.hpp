@@ -57,6 +57,19 @@ struct WrittenSolidScan {
   std::vector<std::size_t> left_out;
 };
 
+/// The statements of the result about a file of features.
+struct WrittenSolidDemands {
+  struct Feature {
+    std::string name;
+    std::size_t triangles = 0;
+    std::optional<Decimal> minimum, scale;  ///< of what is not as cast
+    bool as_cast = false;
+  };
+  Decimal minimum;
+  std::vector<Feature> features;
+  std::optional<Decimal> margin, bound, gap;
+};
+
 struct SolidDocument {
   std::string status;
   WrittenSolid part, blank;
@@ -68,6 +81,7 @@ struct SolidDocument {
   Decimal min_allowance, unknown_area;
   std::vector<WrittenSolidContact> contacts;
   std::optional<WrittenSolidScan> scan;
+  std::optional<WrittenSolidDemands> demands;
   /// The certificate where the result itself holds it, else null.
   Json certificate;
   /// The number of boxes that the result states of the certificate's file.

@@ -63,7 +63,12 @@ class TextStl {
   Result<void> read() {
     while (const auto word = next()) {
       if (!is_word(*word, "solid")) return complain(*word, "'solid'");
-      at_ = words_.size();  // what follows is a name
+      // What follows is a name, up to the end of the line.
+      made_.begin_group(at_ == words_.size() ? std::string_view()
+                                             : std::string_view(words_[at_].data(), words_.back().data() +
+                                                                                        words_.back().size() -
+                                                                                        words_[at_].data()));
+      at_ = words_.size();
       LEKALO_CHECK(read_solid());
     }
     return {};
@@ -147,6 +152,8 @@ class ObjReader {
         LEKALO_CHECK(read_vertex());
       } else if (word == "f" || word == "fo") {
         LEKALO_CHECK(read_face());
+      } else if (word == "g" || word == "o") {
+        made_.begin_group(trimmed(line->substr(1)));
       } else if (word == "surf" || word == "bzp" || word == "bsp" || word == "cdp") {
         made_.leave_open(fmt::format("line {} begins a curved surface", lines_.number()));
       }
@@ -285,9 +292,22 @@ std::optional<std::string> SolidMaker::add_near(const std::array<double, 3>& mil
   return std::nullopt;
 }
 
+void SolidMaker::begin_group(std::string_view name) {
+  const auto number_of = [&](std::string_view wanted) {
+    const auto [at, added] = numbers_.try_emplace(std::string(wanted), reading_.groups.size());
+    if (added) reading_.groups.emplace_back(wanted);
+    return static_cast<std::uint32_t>(at->second);
+  };
+  // Those before have none.
+  if (reading_.groups.empty() && !reading_.mesh.triangles.empty())
+    reading_.group_of.assign(reading_.mesh.triangles.size(), number_of(""));
+  group_ = number_of(name);
+}
+
 std::optional<std::string> SolidMaker::add_triangle(const std::array<std::uint32_t, 3>& corners) {
   if (reading_.mesh.triangles.size() == limits::kMostSolidItems)
     return fmt::format("more than {} triangles", limits::kMostSolidItems);
+  if (!reading_.groups.empty()) reading_.group_of.push_back(group_);
   reading_.mesh.numbers.push_back(static_cast<std::uint32_t>(reading_.mesh.triangles.size()));
   reading_.mesh.triangles.push_back(corners);
   return std::nullopt;

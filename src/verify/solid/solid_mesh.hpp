@@ -49,6 +49,10 @@ enum class SolidUnit : std::uint8_t { millimetre, inch, metre };
 
 struct SolidReading {
   SolidMesh mesh;
+  /// The names that a text STL or an OBJ gives its triangles, and of each triangle which one; both are empty
+  /// where there are none.
+  std::vector<std::string> groups;
+  std::vector<std::uint32_t> group_of;
   /// Says what is not read here, and so not rechecked; the mesh is of no use then.
   std::optional<std::string> open;
 };

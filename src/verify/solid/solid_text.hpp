@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,6 +25,8 @@ class SolidMaker {
     return add(std::move(numbers));
   }
   [[nodiscard]] std::optional<std::string> add_triangle(const std::array<std::uint32_t, 3>& corners);
+  /// The triangles that follow have this name.
+  void begin_group(std::string_view name);
   /// Gives the file up: it is not read any further.
   void leave_open(std::string sentence) { reading_.open = std::move(sentence); }
   [[nodiscard]] bool is_open() const { return reading_.open.has_value(); }
@@ -36,6 +40,8 @@ class SolidMaker {
   const Document& document_;
   SolidUnit unit_;
   SolidReading reading_;
+  std::map<std::string, std::size_t> numbers_;  ///< of groups
+  std::uint32_t group_ = 0;
 };
 
 /// Cuts a line at blanks.

@@ -9,9 +9,10 @@
 
 namespace lekalo::io {
 
-/// The numbers of triangles in their files, as solid::ClosedMesh has them.
+/// The numbers of triangles in their files, and which of them are turned, as solid::ClosedMesh has them.
 struct SolidNumbers {
   const std::vector<std::uint32_t>&part, &blank;
+  const std::vector<bool>&part_turned, &blank_turned;
 };
 
 /// Writes a certificate of solids as results have it (docs/formats.md), where a value is due. Numbers stand

@@ -1,0 +1,359 @@
+#include "solid_features.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <numeric>
+#include <string_view>
+#include <utility>
+
+#include "lekalo/base/limits.hpp"
+#include "lekalo/base/stop.hpp"
+#include "solid_document.hpp"
+#include "solid_number.hpp"
+#include "triangle_distance.hpp"
+#include "verify/read/fields.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+constexpr std::array<std::string_view, 5> kWays{"triangles", "label", "patch", "box", "plane"};
+
+/// Says whether a number is at most 0: an enclosure tells it nearly always.
+template <class Exact>
+bool is_at_most_zero(Span quick, const Exact& exact) {
+  return quick.high <= 0 || (!(quick.low > 0) && sgn(exact()) <= 0);
+}
+
+/// Finds triangles of the part's file.
+class TriangleFinder {
+ public:
+  explicit TriangleFinder(const SolidReading& part) : part_(part), mesh_(part.mesh) {}
+
+  [[nodiscard]] std::size_t count() const { return mesh_.triangles.size(); }
+
+  [[nodiscard]] std::vector<std::uint32_t> labelled(const std::string& label) const {
+    const auto group = std::ranges::find(part_.groups, label);
+    return all([&](std::uint32_t t) {
+      return group != part_.groups.end() &&
+             part_.group_of[t] == static_cast<std::uint32_t>(group - part_.groups.begin());
+    });
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> in_box(const Both3& low, const Both3& high) const {
+    return with_corners([&](std::uint32_t v) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Span at = mesh_.enclosed(v, axis);
+        const auto exact = [&] { return mesh_.exact(v, axis); };
+        if (!is_at_most_zero(low[axis].near - at, [&] { return Fraction(low[axis].exact - exact()); }) ||
+            !is_at_most_zero(at - high[axis].near, [&] { return Fraction(exact() - high[axis].exact); }))
+          return false;
+      }
+      return true;
+    });
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> along_plane(const Both3& normal, const Both& at,
+                                                       const Both& within) const {
+    const Vec3 n = as<Span>(normal);
+    const Exact3 exact_n = as<Fraction>(normal);
+    const Fraction square = dot(exact_n, exact_n);
+    /// Says whether sign n . p is at most so many lengths of n.
+    const auto reaches = [&](std::uint32_t v, int sign, const Fraction& most) {
+      const Span along = dot(n, enclosed_at(v)), limit = enclosed(most) * length(n);
+      const Span rest = sign > 0 ? along - limit : -along - limit;
+      return is_at_most_zero(rest, [&] {
+        const Fraction exact = sign * dot(exact_n, exact_at(v));
+        // Of two numbers of one sign the squares tell which is larger.
+        if (sgn(exact) != sgn(most)) return Fraction(sgn(exact) - sgn(most));
+        return Fraction(sgn(most) * (exact * exact - most * most * square));
+      });
+    };
+    const Fraction most = at.exact + within.exact, least = at.exact - within.exact;
+    return with_corners([&](std::uint32_t v) { return reaches(v, 1, most) && reaches(v, -1, -least); });
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> patch_at(const Both3& place) {
+    join_patches();
+    const std::uint32_t wanted = root(nearest_to(place));
+    return all([&](std::uint32_t t) { return root(t) == wanted; });
+  }
+
+ private:
+  template <class Holds>
+  [[nodiscard]] std::vector<std::uint32_t> all(const Holds& holds) const {
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t t = 0; t < count(); ++t) {
+      ask();
+      if (holds(t)) found.push_back(t);
+    }
+    return found;
+  }
+  template <class Holds>
+  [[nodiscard]] std::vector<std::uint32_t> with_corners(const Holds& holds) const {
+    return all([&](std::uint32_t t) { return std::ranges::all_of(mesh_.triangles[t], holds); });
+  }
+  [[nodiscard]] Vec3 enclosed_at(std::uint32_t v) const {
+    return {mesh_.enclosed(v, 0), mesh_.enclosed(v, 1), mesh_.enclosed(v, 2)};
+  }
+  [[nodiscard]] Exact3 exact_at(std::uint32_t v) const {
+    return {mesh_.exact(v, 0), mesh_.exact(v, 1), mesh_.exact(v, 2)};
+  }
+  [[nodiscard]] Triangle3 enclosed_triangle(std::uint32_t t) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    return {enclosed_at(a), enclosed_at(b), enclosed_at(c)};
+  }
+  [[nodiscard]] ExactTriangle exact_triangle(std::uint32_t t) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    return {exact_at(a), exact_at(b), exact_at(c)};
+  }
+
+  /// Returns the first of the nearest triangles.
+  [[nodiscard]] std::uint32_t nearest_to(const Both3& place) const {
+    const Vec3 p = as<Span>(place);
+    double least = kInfinity;
+    std::vector<double> low;
+    for (std::uint32_t t = 0; t < count(); ++t) {
+      ask();
+      const Span found = distance({p, p, p}, enclosed_triangle(t), least);
+      low.push_back(found.low);
+      least = std::min(least, found.high);
+    }
+    std::optional<Fraction> best;
+    std::uint32_t nearest = 0;
+    for (std::uint32_t t = 0; t < count(); ++t) {
+      if (low[t] > least) continue;
+      ask(100);
+      const Fraction found = exact_squared_distance(as<Fraction>(place), exact_triangle(t));
+      if (!best || found < *best) best = found, nearest = t;
+    }
+    return nearest;
+  }
+
+  /// Says whether two triangles turn by less than 30 degrees against each other.
+  [[nodiscard]] bool go_on(std::uint32_t s, std::uint32_t t) const {
+    const auto bend = [](const auto& m, const auto& n) { return dot(m, n); };
+    const auto normal = [](const auto& at) { return cross(at[1] - at[0], at[2] - at[0]); };
+    const Vec3 m = normal(enclosed_triangle(s)), n = normal(enclosed_triangle(t));
+    const Span along = bend(m, n), rest = just(3) * bend(m, m) * bend(n, n) - just(4) * squared(along);
+    if (along.high <= 0 || rest.low >= 0) return false;
+    if (along.low > 0 && rest.high < 0) return true;
+    const Exact3 exact_m = normal(exact_triangle(s)), exact_n = normal(exact_triangle(t));
+    const Fraction exact = bend(exact_m, exact_n);
+    return sgn(exact) > 0 && 4 * exact * exact > 3 * bend(exact_m, exact_m) * bend(exact_n, exact_n);
+  }
+
+  /// Joins triangles through edges; corners at one place are one.
+  void join_patches() {
+    if (!parent_.empty()) return;
+    parent_.resize(count());
+    std::iota(parent_.begin(), parent_.end(), 0U);
+    std::vector<std::uint32_t> order(mesh_.near.size()), place(mesh_.near.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::sort(order, {}, [&](std::uint32_t v) { return mesh_.near[v]; });
+    for (std::size_t k = 0; k < order.size(); ++k)
+      place[order[k]] =
+          k > 0 && mesh_.near[order[k]] == mesh_.near[order[k - 1]] ? place[order[k - 1]] : order[k];
+    std::vector<std::array<std::uint32_t, 3>> edges;  // two places, and the triangle
+    for (std::uint32_t t = 0; t < count(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = place[mesh_.triangles[t][k]], b = place[mesh_.triangles[t][(k + 1) % 3]];
+        if (a != b) edges.push_back({std::min(a, b), std::max(a, b), t});
+      }
+    ask(edges.size());
+    std::ranges::sort(edges);
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      for (std::size_t j = i + 1;
+           j < edges.size() && edges[j][0] == edges[i][0] && edges[j][1] == edges[i][1]; ++j) {
+        ask();
+        const std::uint32_t s = root(edges[i][2]), t = root(edges[j][2]);
+        if (s != t && go_on(edges[i][2], edges[j][2])) parent_[std::max(s, t)] = std::min(s, t);
+      }
+  }
+  std::uint32_t root(std::uint32_t t) {
+    while (parent_[t] != t) t = parent_[t] = parent_[parent_[t]];
+    return t;
+  }
+
+  const SolidReading& part_;
+  const SolidMesh& mesh_;
+  std::vector<std::uint32_t> parent_;
+};
+
+class FeatureReader {
+ public:
+  FeatureReader(const SolidReading& part, SolidUnit unit, std::string& complaint)
+      : finder_(part), unit_(unit), complaint_(complaint) {}
+
+  SolidDemands read(Json root) {
+    SolidDemands demands;
+    demands.feature_of.assign(finder_.count(), 0);
+    Fields file(root, "", complaint_);
+    refuse_other_words(file, {"units", "minimum", "features"});
+    if (has(file, "units")) {
+      constexpr std::array<std::string_view, 3> kUnits{"mm", "inch", "m"};
+      const auto unit = std::ranges::find(kUnits, file.text("units"));
+      if (unit == kUnits.end())
+        file.complain("field units is none of \"mm\", \"inch\" and \"m\"");
+      else
+        unit_ = static_cast<SolidUnit>(unit - kUnits.begin());
+    }
+    demands.minimum = length(file, "minimum");
+    if (has(file, "features"))
+      file.each("features", [&](Json item, const std::string& path) {
+        if (complaint_.empty()) add(item, path, demands);
+      });
+    return demands;
+  }
+
+ private:
+  static bool has(const Fields& fields, std::string_view key) { return !fields.get(key).text.empty(); }
+
+  /// Complains of words that would be demands if somebody knew them.
+  static void refuse_other_words(Fields& fields, std::initializer_list<std::string_view> known) {
+    fields.each_key([&](std::string_view key) {
+      if (std::find(known.begin(), known.end(), key) == known.end())
+        fields.complain(fmt::format("field {} is no word of a file of features", fields.name(key)));
+    });
+  }
+
+  void add(Json item, const std::string& path, SolidDemands& demands) {
+    Fields fields(item, path, complaint_);
+    refuse_other_words(
+        fields, {"name", "triangles", "label", "patch", "box", "plane", "minimum", "scale", "as_cast"});
+    SolidFeature feature{fields.text("name"), demand(fields), 0};
+    std::vector<std::uint32_t> triangles = triangles_of(fields);
+    if (!complaint_.empty()) return;
+    std::ranges::sort(triangles);
+    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+    feature.triangles = triangles.size();
+    if (triangles.empty()) fields.complain(path + " has no triangle of the part");
+    demands.features.push_back(std::move(feature));
+    for (const std::uint32_t t : triangles) {
+      if (demands.feature_of[t] != 0)
+        fields.complain(fmt::format("triangle {} is of two features, {} and features[{}]", t, path,
+                                    demands.feature_of[t] - 1));
+      demands.feature_of[t] = static_cast<std::uint32_t>(demands.features.size());
+    }
+  }
+
+  std::optional<SolidDemand> demand(Fields& fields) {
+    if (has(fields, "as_cast")) {
+      const Json as_cast = fields.get("as_cast");
+      if (!as_cast.is_bool())
+        fields.complain(fmt::format("field {} is neither true nor false", fields.name("as_cast")));
+      if (as_cast.is_true()) {
+        for (const char* other : {"minimum", "scale"})
+          if (has(fields, other))
+            fields.complain(fmt::format("field {} is a demand on what is as cast", fields.name(other)));
+        return std::nullopt;
+      }
+    }
+    SolidDemand made{length(fields, "minimum"), 1};
+    if (has(fields, "scale")) made.scale = approximate(fields.number("scale"));
+    if (!(made.scale > 0 && made.scale <= std::numeric_limits<double>::max()))
+      fields.complain(fmt::format("field {} is not above 0", fields.name("scale")));
+    return made;
+  }
+
+  std::vector<std::uint32_t> triangles_of(Fields& fields) {
+    std::string_view way;
+    for (const std::string_view one : kWays) {
+      if (!has(fields, one)) continue;
+      if (!way.empty()) fields.complain(fields.name(one) + " is a second way to say which triangles it has");
+      way = one;
+    }
+    if (way.empty()) fields.complain(fields.name("name") + " is of a feature that says of no triangle");
+    if (!complaint_.empty()) return {};
+    if (way == "triangles") return numbered(fields);
+    if (way == "label") return finder_.labelled(fields.text("label"));
+    if (way == "patch") {
+      const Both3 place = point(fields.get("patch"), fields.name("patch"));
+      return complaint_.empty() ? finder_.patch_at(place) : std::vector<std::uint32_t>{};
+    }
+    return way == "box" ? boxed(fields) : flat(fields);
+  }
+
+  std::vector<std::uint32_t> numbered(Fields& fields) {
+    std::vector<std::uint32_t> found;
+    fields.each("triangles", [&](Json item, const std::string& path) {
+      const std::size_t number = fields.index_of(item, path);
+      if (number >= finder_.count())
+        fields.complain(
+            fmt::format("field {} is {}, but the part has {} triangles", path, number, finder_.count()));
+      found.push_back(static_cast<std::uint32_t>(number));
+    });
+    return found;
+  }
+
+  std::vector<std::uint32_t> boxed(Fields& fields) {
+    std::vector<Both3> ends;
+    fields.each("box", [&](Json item, const std::string& path) { ends.push_back(point(item, path)); });
+    if (ends.size() != 2)
+      fields.complain(fmt::format("field {} is not a low and a high corner", fields.name("box")));
+    if (!complaint_.empty()) return {};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (ends[0][axis].exact > ends[1][axis].exact)
+        fields.complain(fmt::format("field {} has a low corner above its high one", fields.name("box")));
+    return finder_.in_box(ends[0], ends[1]);
+  }
+
+  std::vector<std::uint32_t> flat(Fields& fields) {
+    Fields plane(fields.get("plane"), fields.name("plane"), complaint_);
+    refuse_other_words(plane, {"normal", "at", "within"});
+    const auto normal =
+        numbers_of<3>(plane.get("normal"), complaint_, [&] { return "field " + plane.name("normal"); });
+    const Both at = in_mm(plane.number("at")), within = in_mm(plane.number("within"));
+    if (sgn(within.exact) < 0) plane.complain(fmt::format("field {} is below 0", plane.name("within")));
+    if (!complaint_.empty()) return {};
+    const Both3 n{both((*normal)[0]), both((*normal)[1]), both((*normal)[2])};
+    if (std::ranges::all_of(n, [](const Both& one) { return sgn(one.exact) == 0; }))
+      plane.complain(fmt::format("field {} is 0, which is no direction", plane.name("normal")));
+    return finder_.along_plane(n, at, within);
+  }
+
+  Both in_mm(const Decimal& number) {
+    const Fraction unit =
+        unit_ == SolidUnit::inch ? Fraction(127, 5) : Fraction(unit_ == SolidUnit::metre ? 1000 : 1);
+    Both made{to_fraction(number) * unit};
+    made.near = enclosed(made.exact);
+    return made;
+  }
+  Both3 point(Json list, const std::string& path) {
+    const auto numbers = numbers_of<3>(list, complaint_, [&] { return "field " + path; });
+    if (!numbers) return {};
+    return {in_mm((*numbers)[0]), in_mm((*numbers)[1]), in_mm((*numbers)[2])};
+  }
+  /// Returns a length in mm; 0 where there is none, or null.
+  double length(Fields& fields, std::string_view key) {
+    if (!has(fields, key)) return 0;
+    const std::optional<Decimal> number = fields.number_or_null(key);
+    constexpr std::array kMillimetres{1.0, 25.4, 1000.0};
+    const double mm = number ? kMillimetres[static_cast<std::size_t>(unit_)] * approximate(*number) : 0;
+    if (!(mm >= 0 && mm <= limits::kLargestCoordinate))
+      fields.complain(fmt::format("field {} is no length from 0 to {:g} mm", fields.name(key),
+                                  limits::kLargestCoordinate));
+    return mm;
+  }
+
+  TriangleFinder finder_;
+  SolidUnit unit_;
+  std::string& complaint_;
+};
+
+}  // namespace
+
+Result<SolidDemands> read_solid_features(const Document& document, const SolidReading& part, SolidUnit unit) {
+  LEKALO_TRY(const Json root, parse_json(document.bytes, document.name));
+  std::string complaint;
+  SolidDemands demands = FeatureReader(part, unit, complaint).read(root);
+  if (!complaint.empty())
+    return failure(ErrorCode::bad_input, fmt::format("{}: {}", document.name, complaint));
+  return demands;
+}
+
+}  // namespace lekalo::verify

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solid_mesh.hpp"
+
+namespace lekalo::verify {
+
+/// The demand of a triangle in the doubles nearest to the decimals: a part is placed by these.
+struct SolidDemand {
+  double minimum = 0;  ///< mm
+  double scale = 1;
+};
+
+struct SolidFeature {
+  std::string name;
+  std::optional<SolidDemand> demand;  ///< none: as cast
+  std::size_t triangles = 0;          ///< of the file
+};
+
+struct SolidDemands {
+  double minimum = 0;  ///< of triangles of no feature, mm
+  std::vector<SolidFeature> features;
+  /// The feature of each triangle of the part's file, counted from 1, or 0.
+  std::vector<std::uint32_t> feature_of;
+};
+
+/// Reads a file of features (docs/formats.md, "Features of solids") and finds its triangles in the part,
+/// exactly. `unit` holds where the file does not say one. bad_input for a word that is none of such a file, a
+/// number out of range, a feature without triangles, and a triangle of two.
+[[nodiscard]] Result<SolidDemands> read_solid_features(const Document& document, const SolidReading& part,
+                                                       SolidUnit unit);
+
+}  // namespace lekalo::verify
