@@ -43,6 +43,9 @@ struct Span {
   return outwards(cut, cut);
 }
 
+/// Encloses a decimal, by itself where a double is that.
+[[nodiscard]] Span enclosed(const Decimal& value);
+
 [[nodiscard]] inline Span operator+(Span a, Span b) { return outwards(a.low + b.low, a.high + b.high); }
 [[nodiscard]] inline Span plus(Span a, double by) { return a + just(by); }
 [[nodiscard]] inline Span operator-(Span a, Span b) { return outwards(a.low - b.high, a.high - b.low); }

@@ -13,8 +13,6 @@ namespace lekalo::verify {
 
 /// Regions of lines and arcs as they are written, with every number enclosed in doubles. Lengths are in mm.
 
-[[nodiscard]] Span enclosed(const Decimal& value);
-
 struct Vec {
   Span x, y;
 };

@@ -13,12 +13,10 @@ constexpr std::uint32_t kLeaf = 4;
 double gap(const Box3& a, const Box3& b) {
   double sum = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double between = std::max(a.low[axis] - b.high[axis], b.low[axis] - a.high[axis]);
-    if (!(between > 0)) continue;
-    const double least = step_down(between);
+    const double least = step_down(std::max({0.0, a.low[axis] - b.high[axis], b.low[axis] - a.high[axis]}));
     sum = step_down(sum + step_down(least * least));
   }
-  return sum > 0 ? step_down(std::sqrt(sum)) : 0;
+  return std::max(0.0, step_down(std::sqrt(sum)));  // 0 as well where rounding leaves no root
 }
 
 BoxTree::BoxTree(std::vector<Box3> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
@@ -39,11 +37,9 @@ std::uint32_t BoxTree::build(std::uint32_t begin, std::uint32_t end) {
     if (box.high[axis] - box.low[axis] > box.high[longest] - box.low[longest]) longest = axis;
   const std::uint32_t half = begin + (end - begin) / 2;
   const auto middle = [&](std::uint32_t number) {
-    return boxes_[number].low[longest] + boxes_[number].high[longest];
+    return std::pair(boxes_[number].low[longest] + boxes_[number].high[longest], number);
   };
-  std::nth_element(
-      order_.begin() + begin, order_.begin() + half, order_.begin() + end,
-      [&](std::uint32_t a, std::uint32_t b) { return std::pair(middle(a), a) < std::pair(middle(b), b); });
+  std::ranges::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end, {}, middle);
   build(begin, half);
   const std::uint32_t second = build(half, end);
   nodes_[at].second = second;

@@ -84,9 +84,8 @@ class BoxTree {
             visit(order_[k], other.order_[l]);
       return;
     }
-    // The node of more triangles is opened.
-    const bool open_mine =
-        its.second == 0 || (mine.second != 0 && mine.end - mine.begin >= its.end - its.begin);
+    // The node of more boxes is opened; it is no leaf, because one of the two is none.
+    const bool open_mine = mine.end - mine.begin >= its.end - its.begin;
     std::uint32_t near = (open_mine ? at : there) + 1, far = open_mine ? mine.second : its.second;
     const auto to = [&](std::uint32_t child) {
       return open_mine ? gap(nodes_[child].box, its.box) : gap(mine.box, other.nodes_[child].box);

@@ -57,7 +57,7 @@ class TreeCheck {
     JsonItems items(list);
     for (std::size_t i = 0; const auto item = items.next(); ++i) {
       at_ = i;
-      if (++nodes > limits::kMostCertificateNodes)
+      if (nodes++ == limits::kMostCertificateNodes)
         return complain(
             fmt::format("{} is beyond the most nodes, {}", name(), limits::kMostCertificateNodes));
       if (open.empty()) return complain(name() + " is one more than the subdivision needs");
@@ -103,12 +103,12 @@ class TreeCheck {
     const std::string word = json_text(*items.next());
     const auto axis = static_cast<std::size_t>(std::ranges::find(kAxes, word) - kAxes.begin());
     const auto at = items.next();
-    const auto place = at && at->is_number() ? parse_decimal(at->text) : std::nullopt;
+    const auto place = at ? parse_decimal(at->text) : std::nullopt;
     if (axis == kAxes.size() || !place || items.next())
       return complain(name() + " is neither a split nor a leaf");
     const std::uint32_t end = end_at(both(*place));
     Cell low = cell, high = cell;
-    if (less(ends_[end], ends_[cell.low[axis]]) || less(ends_[cell.high[axis]], ends_[end]))
+    if (ends_[end].exact < ends_[cell.low[axis]].exact || ends_[cell.high[axis]].exact < ends_[end].exact)
       return complain(fmt::format("{} splits {} outside of its box", name(), kAxes[axis]));
     low.high[axis] = high.low[axis] = end;
     open.push_back(high);
@@ -122,13 +122,14 @@ class TreeCheck {
     std::size_t count = 0;
     JsonItems items(leaf);
     while (const auto item = items.next()) {
-      if (++count > limits::kMostCertificateTerms)
+      if (count++ == limits::kMostCertificateTerms)
         return complain(fmt::format("{} has more than {} terms", name(), limits::kMostCertificateTerms));
       if (!read_term(*item, look)) return complain(name() + " has a term that is none");
     }
     if (!any_) return complain(name() + " has no multiplier above 0");
     any_ = false;
-    if (!look || findings_.size() > before) return;
+    if (!look) return;
+    if (findings_.size() > before) return;
     PoseBox box;
     for (std::size_t k = 0; k < 6; ++k) box.low[k] = ends_[cell.low[k]], box.high[k] = ends_[cell.high[k]];
     if (proves(terms_, box, frame_)) return;

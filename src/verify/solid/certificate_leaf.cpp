@@ -13,7 +13,7 @@ namespace {
 enum class Answer : std::uint8_t { no, open, yes };
 
 Answer at_most_zero(Span value) {
-  return value.high <= 0 ? Answer::yes : (value.low > 0 ? Answer::no : Answer::open);
+  return value.high <= 0 ? Answer::yes : (sure_sign(value) > 0 ? Answer::no : Answer::open);
 }
 Answer at_most_zero(const Fraction& value) { return sgn(value) <= 0 ? Answer::yes : Answer::no; }
 Answer below_zero(Span value) {
@@ -23,16 +23,16 @@ Answer below_zero(const Fraction& value) { return sgn(value) < 0 ? Answer::yes :
 
 // ---- the arithmetic of spans and of fractions -------------------------------------------------------------
 
-/// Returns 1 / |n|, whose error is on the side of the sign that is given: of a fraction a positive sign makes
-/// it no less. \pre n is not 0
-Span inverse_length(const Vec3& n, int /*side*/) { return just(1) / length(n); }
-Fraction inverse_length(const Exact3& n, int side) {
+/// Returns 1 / |n|, whose error as a fraction makes it no more where it is to be `below`, and else no less.
+/// \pre n is not 0
+Span inverse_length(const Vec3& n, bool /*below*/) { return just(1) / length(n); }
+Fraction inverse_length(const Exact3& n, bool below) {
   // |n| = sqrt(p / q) = sqrt(p q) / q; where that is no fraction, it is cut at 2^-128 of itself, or finer.
   const Fraction squared = dot(n, n);
   const Integer product = squared.get_num() * squared.get_den();
   constexpr unsigned long kPlaces = 128;
   Integer root = whole_root(product << (2 * kPlaces));
-  if (side < 0 && root * root != product << (2 * kPlaces)) root += 1;
+  if (below && root * root != product << (2 * kPlaces)) root += 1;
   Fraction inverse(squared.get_den() << kPlaces, root);
   inverse.canonicalize();
   return inverse;
@@ -249,8 +249,8 @@ class LeafProof {
     const Number bound = as<Number>(bound_of(term));
     const Ball &a = *term.part_ball, &c = *term.blank_ball;
     const double apart = std::sqrt(squared_length(middle_.place(a.centre) - near(as<Span>(c.centre))));
-    const Number l = number<Number>(apart > 0 && std::isfinite(apart) ? apart : 1),
-                 inverse = number<Number>(1) / l, half = number<Number>(0.5);
+    const Number l = number<Number>(apart > 0 ? apart : 1), inverse = number<Number>(1) / l,
+                 half = number<Number>(0.5);
     const Point way = as<Number>(a.centre) - pivot_;
     Form<Number> form{turned(way), as<Number>(c.centre) * Number(number<Number>(0) - inverse)};
     form.turn = inverse;
@@ -265,7 +265,7 @@ class LeafProof {
     const Ball& a = *term.part_ball;
     const Point n = as<Number>(term.plane->normal);
     const bool sticks_out = sgn(Fraction(a.radius.exact + bound_of(term).exact)) < 0;
-    const Number inverse = inverse_length(n, sticks_out ? -1 : 1);
+    const Number inverse = inverse_length(n, sticks_out);
     Form<Number> form{turned(as<Number>(a.centre) - pivot_), n * inverse};
     form.slope = form.from;
     form.level = number<Number>(0) - as<Number>(term.plane->level) * inverse - as<Number>(a.radius) - bound;
@@ -280,7 +280,7 @@ class LeafProof {
     const Facet<Span> seen(frame_.blank, term.blank);
     if (!has_area(face)) return add_nothing(forms);
     const bool above = dot(near(seen.normal), middle_.place(a.centre) - near(seen.at[0])) >= 0;
-    const Number inverse = inverse_length(face.normal, 1);
+    const Number inverse = inverse_length(face.normal, false);
     const Point n = (above ? face.normal : negative(face.normal)) * inverse,
                 p = turned(as<Number>(a.centre) - pivot_);
     /// Holds the ball's centre against a half-space.
@@ -307,7 +307,7 @@ class LeafProof {
     if (!has_area(face)) return add_nothing(forms);
     const bool above =
         dot(middle_.turned(seen.normal), near(as<Span>(c.centre)) - middle_.place(seen.at[0])) >= 0;
-    const Number inverse = inverse_length(face.normal, 1);
+    const Number inverse = inverse_length(face.normal, false);
     const Point n = (above ? face.normal : negative(face.normal)) * inverse;
     /// Holds the ball's centre, as the part sees it, against a half-space: n . (T^-1 c - pivot) is
     /// (R turn n) . (c - t).

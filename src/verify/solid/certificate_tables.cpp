@@ -24,9 +24,8 @@ bool any_within(const PlacedSolid& body, const Ball& ball, double most, const Ra
   bool found = false;
   body.tree().visit([&](const Box3& box) { return !found && !(gap(place, box) > most); },
                     [&](std::uint32_t triangle) {
-                      const double within = found ? -1 : radius(triangle);
-                      if (within < 0 || distance({p, p, p}, body.triangle(triangle), within).low > within)
-                        return;
+                      const double within = radius(triangle);
+                      if (distance({p, p, p}, body.triangle(triangle), within).low > within) return;
                       found = visit(triangle, exact_squared_distance(as<Fraction>(ball.centre),
                                                                      body.exact_triangle(triangle)));
                     });
@@ -34,8 +33,8 @@ bool any_within(const PlacedSolid& body, const Ball& ball, double most, const Ra
 }
 
 /// Says what of the surface comes nearer to the ball's centre than its radius, less the triangle's width.
+/// \pre the ball does not lie in the width of a triangle
 std::optional<std::string> nearer(const PlacedSolid& body, const Ball& ball) {
-  if (sgn(ball.radius.exact) == 0) return std::nullopt;
   const auto width = [&](std::uint32_t triangle) { return body.mesh().width(triangle).low; };
   std::optional<std::string> fault;
   any_within(
@@ -43,7 +42,7 @@ std::optional<std::string> nearer(const PlacedSolid& body, const Ball& ball) {
       [&](std::uint32_t triangle) { return step_up(ball.radius.near.high - width(triangle)); },
       [&](std::uint32_t triangle, const Fraction& distance) {
         const Fraction rest = ball.radius.exact - Fraction(width(triangle));
-        if (sgn(rest) <= 0 || distance >= rest * rest) return false;
+        if (distance >= rest * rest) return false;
         fault =
             fmt::format("triangle {} comes nearer to its centre than its radius{}",
                         body.mesh().numbers[triangle], body.mesh().widths.empty() ? "" : " less its width");
@@ -78,7 +77,7 @@ bool holds(const PlacedSolid& body, const Ball& ball) {
 
 std::optional<std::string> fault_of_part_ball(const PlacedSolid& part, const Ball& ball) {
   if (auto fault = nearer(part, ball)) return fault;
-  if (sgn(ball.radius.exact) == 0 && lies_on_surface(part, ball)) return std::nullopt;
+  if (lies_on_surface(part, ball)) return std::nullopt;
   if (!holds(part, ball)) return "its centre is not in the part";
   return std::nullopt;
 }
@@ -86,7 +85,7 @@ std::optional<std::string> fault_of_part_ball(const PlacedSolid& part, const Bal
 std::optional<std::string> fault_of_blank_ball(const PlacedSolid& blank, const Ball& ball) {
   if (lies_in_width(blank, ball)) return std::nullopt;
   if (auto fault = nearer(blank, ball)) return fault;
-  if (sgn(ball.radius.exact) == 0 && lies_on_surface(blank, ball)) return std::nullopt;
+  if (lies_on_surface(blank, ball)) return std::nullopt;
   if (holds(blank, ball)) return "its centre is in the blank";
   return std::nullopt;
 }
@@ -103,14 +102,12 @@ std::optional<std::string> fault_of_plane(const PlacedSolid& blank, const HalfSp
   const auto reaches_below = [&](const Box3& box) {
     const Span along = dot(
         n, Vec3{Span{box.low[0], box.high[0]}, Span{box.low[1], box.high[1]}, Span{box.low[2], box.high[2]}});
-    return !fault && !(along.low >= plane.level.near.high) &&
-           !(lifted(along, blank.narrowest()) >= plane.level.near.high);
+    return !fault && !(lifted(along, blank.narrowest()) >= plane.level.near.high);
   };
   blank.tree().visit(reaches_below, [&](std::uint32_t triangle) {
     const double width = mesh.width(triangle).low;
     for (const std::uint32_t v : mesh.triangles[triangle])
-      if (!(lifted(dot(n, blank.at(v)), width) >= plane.level.near.high) &&
-          dot(exact_n, blank.exactly_at(v)) + Fraction(stretch) * Fraction(width) < plane.level.exact)
+      if (dot(exact_n, blank.exactly_at(v)) + Fraction(stretch) * Fraction(width) < plane.level.exact)
         fault = fmt::format("a corner of the blank's triangle {} is not in it", mesh.numbers[triangle]);
   });
   return fault;

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <compare>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -13,16 +14,16 @@ namespace lekalo::verify {
 namespace {
 
 /// Orders the places of two vertices exactly: nearest doubles that differ are in the order of their numbers.
-int compare_places(const SolidMesh& mesh, std::uint32_t a, std::uint32_t b) {
+std::partial_ordering compare_places(const SolidMesh& mesh, std::uint32_t a, std::uint32_t b) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double x = mesh.near[a][axis], y = mesh.near[b][axis];
-    if (x != y) return x < y ? -1 : 1;
+    const auto order = mesh.near[a][axis] <=> mesh.near[b][axis];
+    if (std::is_neq(order)) return order;
     if (mesh.written.empty()) continue;
     const Decimal &u = mesh.written[a][axis], &v = mesh.written[b][axis];
-    if (u.exponent == v.exponent && u.digits == v.digits) continue;
-    if (const int order = compare(u, v); order != 0) return order;
+    const auto exact = (u.exponent == v.exponent ? cmp(u.digits, v.digits) : compare(u, v)) <=> 0;
+    if (std::is_neq(exact)) return exact;
   }
-  return 0;
+  return std::partial_ordering::equivalent;
 }
 
 /// Triangles by their corners, with the numbers that they have in the file.
@@ -41,11 +42,11 @@ std::vector<std::uint32_t> weld(SolidMesh& mesh) {
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     ask();
-    return compare_places(mesh, a, b) < 0;
+    return std::is_lt(compare_places(mesh, a, b));
   });
   SolidMesh kept;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    if (k == 0 || compare_places(mesh, order[k - 1], order[k]) != 0) {
+    if (k == 0 || std::is_neq(compare_places(mesh, order[k - 1], order[k]))) {
       kept.near.push_back(mesh.near[order[k]]);
       if (!mesh.written.empty()) kept.written.push_back(mesh.written[order[k]]);
     }
@@ -73,17 +74,21 @@ std::optional<Edge> open_edge(const std::vector<std::array<std::uint32_t, 3>>& t
   return std::nullopt;
 }
 
+template <class Number>
+Of3<Number> normal_of(const SolidMesh& mesh, const std::array<std::uint32_t, 3>& triangle,
+                      Number (SolidMesh::*coordinate)(std::uint32_t, std::size_t) const) {
+  std::array<Of3<Number>, 3> at{};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis) at[k][axis] = (mesh.*coordinate)(triangle[k], axis);
+  return cross(at[1] - at[0], at[2] - at[0]);
+}
+
 /// Says whether the corners lie exactly on one line.
 bool is_flat(const SolidMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
-  std::array<Vec3, 3> at{};
-  for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t axis = 0; axis < 3; ++axis) at[k][axis] = mesh.enclosed(triangle[k], axis);
-  const Vec3 n = cross(at[1] - at[0], at[2] - at[0]);
-  if (std::ranges::any_of(n, [](Span s) { return s.low > 0 || s.high < 0; })) return false;
-  std::array<Exact3, 3> exact;
-  for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t axis = 0; axis < 3; ++axis) exact[k][axis] = mesh.exact(triangle[k], axis);
-  return std::ranges::all_of(cross(exact[1] - exact[0], exact[2] - exact[0]),
+  if (std::ranges::any_of(normal_of(mesh, triangle, &SolidMesh::enclosed),
+                          [](Span s) { return sure_sign(s) != 0; }))
+    return false;
+  return std::ranges::all_of(normal_of(mesh, triangle, &SolidMesh::exact),
                              [](const Fraction& f) { return sgn(f) == 0; });
 }
 

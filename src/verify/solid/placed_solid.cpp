@@ -55,8 +55,8 @@ class WayUp {
     if (const int sure = sure_sign(turn(t_[from], t_[to], p_)); sure != 0) return sure;
     const Exact3 &a = exact()[from], &b = exact()[to];
     if (const int sign = sgn(turn(a, b, exact_p_)); sign != 0) return sign;
-    const int along_x = cmp(b[0], a[0]);
-    return along_x != 0 ? (along_x > 0 ? 1 : -1) : -sgn(Fraction(b[1] - a[1]));
+    const int along_x = sgn(Fraction(b[0] - a[0]));
+    return along_x != 0 ? along_x : -sgn(Fraction(b[1] - a[1]));
   }
 
   const PlacedSolid& body_;
@@ -126,15 +126,12 @@ ExactTriangle PlacedSolid::exact_triangle(std::uint32_t number) const {
 
 bool PlacedSolid::holds(const Vec3& enclosed, const Exact3& point) const {
   bool odd = false;
-  const Box3 place = box_of(enclosed);
-  tree_.visit(
-      [&](const Box3& box) {
-        return box.low[0] <= place.high[0] && place.low[0] <= box.high[0] && box.low[1] <= place.high[1] &&
-               place.low[1] <= box.high[1] && place.low[2] <= box.high[2];
-      },
-      [&](std::uint32_t number) {
-        if (WayUp(*this, number, enclosed, point).crosses()) odd = !odd;
-      });
+  Box3 way = box_of(enclosed);
+  way.high[2] = kInfinity;
+  tree_.visit([&](const Box3& box) { return !(gap(way, box) > 0); },
+              [&](std::uint32_t number) {
+                if (WayUp(*this, number, enclosed, point).crosses()) odd = !odd;
+              });
   return odd;
 }
 

@@ -22,12 +22,12 @@ struct PlyNumber {
 };
 
 std::optional<PlyNumber> number_named(std::string_view name) {
-  constexpr std::pair<std::string_view, PlyNumber> kNames[] = {
+  const std::pair<std::string_view, PlyNumber> names[] = {
       {"char", {1, 's'}},  {"int8", {1, 's'}},    {"uchar", {1, 'u'}},  {"uint8", {1, 'u'}},
       {"short", {2, 's'}}, {"int16", {2, 's'}},   {"ushort", {2, 'u'}}, {"uint16", {2, 'u'}},
       {"int", {4, 's'}},   {"int32", {4, 's'}},   {"uint", {4, 'u'}},   {"uint32", {4, 'u'}},
       {"float", {4, 'f'}}, {"float32", {4, 'f'}}, {"double", {8, 'f'}}, {"float64", {8, 'f'}}};
-  for (const auto& [word, number] : kNames)
+  for (const auto& [word, number] : names)
     if (word == name) return number;
   return std::nullopt;
 }

@@ -11,54 +11,40 @@
 namespace lekalo::verify {
 namespace {
 
-/// Enclosures of squared radii wider than this part of them come from fractions, and so do the widths of
-/// triangles that leave less than this part of the squared radius.
-constexpr double kLoose = 0x1p-36, kNearlyUnknown = 0.01;
+/// What is left of a squared radius comes from fractions where its enclosure is wider than this part of it.
+constexpr double kLoose = 0x1p-36;
 
 template <class Number>
 using Corners = std::array<Of3<Number>, 3>;
 
-/// A triangle as its smallest circle needs it: the squares of its longest side and of the two others, their
-/// product across it, and the square of twice the area.
 template <class Number>
-struct Sides {
-  Number longest, one, other, along, area;
+using AtCorners = std::array<Number, 3>;
 
-  Sides(const Corners<Number>& p, std::size_t across) {
-    const Of3<Number> a = p[(across + 1) % 3] - p[across], b = p[(across + 2) % 3] - p[across], c = b - a,
-                      n = cross(a, b);
-    longest = dot(c, c), one = dot(a, a), other = dot(b, b), along = dot(a, b), area = dot(n, n);
-  }
-};
+double size_of(Span value) { return value.low + value.high; }
+const Fraction& size_of(const Fraction& value) { return value; }
 
-/// Returns the corner across the longest side.
-template <class Number, class Less>
-std::size_t across_longest(const Corners<Number>& p, const Less& less) {
-  std::array<Number, 3> squares;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Of3<Number> side = p[(k + 2) % 3] - p[(k + 1) % 3];
-    squares[k] = dot(side, side);
-  }
-  std::size_t at = 0;
-  for (const std::size_t k : {1U, 2U})
-    if (less(squares[at], squares[k])) at = k;
-  return at;
+/// Returns the product of the two sides at the largest angle, or 0 where it is no acute one. Of spans the low
+/// end is the least of all corners', because the largest angle may be another one than it seems to be.
+Span acute(const AtCorners<Span>& products, std::size_t at) {
+  const double least = std::ranges::min(products, {}, &Span::low).low;
+  return {std::max(0.0, least), std::max(0.0, products[at].high)};
+}
+Fraction acute(const AtCorners<Fraction>& products, std::size_t at) {
+  return std::max(Fraction(), products[at]);
 }
 
-/// Returns the squared radius of the smallest circle around a triangle.
-Fraction squared_circle(const Corners<Fraction>& p) {
-  const Sides<Fraction> s(p, across_longest(p, [](const Fraction& a, const Fraction& b) { return a < b; }));
-  if (sgn(s.along) <= 0) return s.longest / 4;
-  return s.longest * s.one * s.other / (4 * s.area);
-}
-/// The circle through the corners is not smaller than it, and the one about the longest side not larger, so
-/// that both together enclose it where the angle is not told from a right one.
-Span squared_circle(const Corners<Span>& p) {
-  const Sides<Span> s(p, across_longest(p, [](Span a, Span b) { return a.low + a.high < b.low + b.high; }));
-  const Span about_side = s.longest * just(0.25);
-  if (s.along.high <= 0) return about_side;
-  const Span through = s.longest * s.one * s.other / (just(4) * s.area);
-  return {s.along.low > 0 ? std::max(about_side.low, through.low) : about_side.low, through.high};
+/// Returns the squared diameter of the smallest circle around a triangle: the square of the longest side,
+/// over 1 - c^2 where the angle across it is an acute one, of the cosine c.
+template <class Number>
+Number squared_diameter(const Corners<Number>& p) {
+  AtCorners<Number> products;
+  for (std::size_t k = 0; k < 3; ++k) products[k] = dot(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
+  const auto least = std::ranges::min_element(
+      products, {}, [](const Number& product) -> decltype(auto) { return size_of(product); });
+  const auto at = static_cast<std::size_t>(least - products.begin());
+  const Of3<Number> a = p[(at + 1) % 3] - p[at], b = p[(at + 2) % 3] - p[at], longest = b - a;
+  const Number along = acute(products, at), sides = dot(a, a) * dot(b, b);
+  return Number(dot(longest, longest) * sides) / Number(sides - along * along);
 }
 
 class Widths {
@@ -105,12 +91,11 @@ class Widths {
     const Fraction guard = guard_of(triangle);
     if (!radius) return enclosed(Fraction(guard + to_fraction(*scan_.max_dip)));
     const Fraction reach = to_fraction(*scan_.min_radius);
-    const Span whole = enclosed(reach), circle = squared_circle(corners(triangle));
-    const Span left = squared(whole - enclosed(guard)) - circle;
-    if (circle.high - circle.low <= kLoose * circle.high &&
-        left.low > kNearlyUnknown * whole.high * whole.high)
-      return whole - square_root(left);
-    const Fraction inner = reach - guard, exact = inner * inner - squared_circle(exact_corners(triangle));
+    const Span whole = enclosed(reach);
+    const Span left = squared(whole - enclosed(guard)) - squared_diameter(corners(triangle)) * just(0.25);
+    if (left.high - left.low <= kLoose * left.low) return whole - square_root(left);
+    const Fraction inner = reach - guard,
+                   exact = inner * inner - squared_diameter(exact_corners(triangle)) / 4;
     if (sgn(exact) <= 0) return std::nullopt;
     return whole - square_root(enclosed(exact));
   }

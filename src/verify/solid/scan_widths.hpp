@@ -17,7 +17,7 @@ struct ScanWidths {
   Span unknown_area{};      ///< mm2
 };
 
-/// Cost: O(n); fractions decide only of triangles nearly as wide as the radius, and of needles.
+/// Cost: O(n); fractions decide only of triangles nearly as wide as the radius, and of small ones.
 [[nodiscard]] ScanWidths scan_widths(const SolidMesh& mesh, const WrittenSolidScan& scan);
 
 }  // namespace lekalo::verify

@@ -29,13 +29,12 @@ bool is_zero(const Decimal& value) { return sgn(value.digits) == 0; }
 /// Returns a distance less a width; it is itself where there is none.
 Span beyond(Span distance, Span width) { return width.high > 0 ? distance - width : distance; }
 
-/// Returns the enclosed distance of a point from a surface.
-Span distance_from(const Vec3& p, const PlacedSolid& body) {
+/// Returns a bound above the distance of a point from a surface.
+double distance_from(const Vec3& p, const PlacedSolid& body) {
   const BoxTree point({box_of(p)});
-  Span least{kInfinity, kInfinity};
-  point.visit_pairs(body.tree(), least.high, [&](std::uint32_t, std::uint32_t number) {
-    const Span found = distance({p, p, p}, body.triangle(number), least.high);
-    least = {std::min(least.low, found.low), std::min(least.high, found.high)};
+  double least = kInfinity;
+  point.visit_pairs(body.tree(), least, [&](std::uint32_t, std::uint32_t number) {
+    least = std::min(least, distance({p, p, p}, body.triangle(number), least).high);
   });
   return least;
 }
@@ -96,7 +95,7 @@ SolidAnswer SolidPair::check_surface(const Both& clearance) const {
         blank_.mesh().widths.empty() ? "" : ", less its width");
     return answer;
   }
-  if (!(near.least.low > 0 && near.least.low >= claimed.high)) check_exactly(clearance, answer);
+  if (!(near.least.low > claimed.high)) check_exactly(clearance, answer);
   if (answer.fault || answer.open) return answer;
   // The surfaces have no point in common, so one vertex says where all that hangs together lies.
   for (const std::uint32_t vertex : part_.one_of_each_component()) {
@@ -114,9 +113,8 @@ void SolidPair::check_exactly(const Both& clearance, SolidAnswer& answer) const 
   // It is below 0 once there is a fault, which ends the walk.
   double limit = blank_.mesh().widths.empty() ? claimed : plus(just(claimed), blank_.widest()).high;
   part_.tree().visit_pairs(blank_.tree(), limit, [&](std::uint32_t a, std::uint32_t b) {
-    if (answer.fault) return;
     const Span width = blank_.mesh().width(b), apart = distance(part_.triangle(a), blank_.triangle(b), limit);
-    if (apart.low > 0 && beyond(apart, width).low >= claimed) return;
+    if (beyond(apart, width).low > claimed) return;
     const Fraction most = exact + Fraction(width.high), least = exact + Fraction(width.low);
     const ExactDistance found = exact_distance(part_.exact_triangle(a), blank_.exact_triangle(b));
     const auto say = [&](const char* how) {
@@ -134,7 +132,7 @@ void SolidPair::check_exactly(const Both& clearance, SolidAnswer& answer) const 
       answer.open =
           say("touches") + ": that the part does not pass through the blank's surface was not rechecked";
     }
-    if (answer.fault) limit = -1;
+    if (answer.fault) limit = -kInfinity;
   });
 }
 
@@ -159,8 +157,7 @@ Result<double> SolidPair::bound_of(const SolidContact& contact, double slack, Sp
     near_blank[axis] = enclosed(contact.blank_point[axis]);
   }
   near_part = motion_(near_part);
-  const double off_part = distance_from(near_part, part_).high,
-               off_blank = distance_from(near_blank, blank_).high;
+  const double off_part = distance_from(near_part, part_), off_blank = distance_from(near_blank, blank_);
   const Span between = length(near_part - near_blank), apart = beyond(between, width),
              said = enclosed(contact.distance);
   const auto refuse = [](std::string sentence) { return failure(ErrorCode::refuted, std::move(sentence)); };

@@ -171,7 +171,7 @@ class Reader {
 
   void read_scan() {
     const Json written = fields_.get("scan");
-    if (written.is_null() || !complaint_.empty()) return;
+    if (written.is_null()) return;
     Fields fields(written, "scan", complaint_);
     WrittenSolidScan& scan = d_.scan.emplace();
     const auto size = [&](Fields& of, std::string_view key, bool positive) {

@@ -49,9 +49,10 @@ Result<void> read_binary_stl(SolidMaker& made) {
   return {};
 }
 
+/// Says whether a text is this word of small letters, in either case.
 bool is_word(std::string_view text, std::string_view word) {
   return text.size() == word.size() && std::equal(text.begin(), text.end(), word.begin(), [](char a, char b) {
-           return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b;
+           return (a | 0x20) == b;  // the cases of a letter differ by this bit
          });
 }
 
@@ -186,15 +187,16 @@ class ObjReader {
     for (std::size_t k = 1; k < words_.size(); ++k) {
       const std::string_view word = words_[k];
       const std::size_t length = std::min(word.find('/'), word.size());
-      std::int64_t number = 0;
-      const auto [end, error] = std::from_chars(word.data(), word.data() + length, number);
-      const auto count = static_cast<std::int64_t>(made_.vertices());
-      if (error != std::errc() || end != word.data() + length ||
-          word.substr(length).find_first_not_of("/-0123456789") != std::string_view::npos || number == 0 ||
-          number > count || number < -count)
+      std::int64_t number = 0;  // as it stays where the word is none
+      const char* const end = std::from_chars(word.data(), word.data() + length, number).ptr;
+      const auto count = static_cast<std::int64_t>(made_.vertices()),
+                 corner = number < 0 ? count + number : number - 1;
+      if (end != word.data() + length ||
+          word.substr(length).find_first_not_of("/-0123456789") != std::string_view::npos || corner < 0 ||
+          corner >= count)
         return complain(
             fmt::format("\"{}\" is not the number of a vertex that stands before this line", excerpt(word)));
-      if (k <= 3) corners[k - 1] = static_cast<std::uint32_t>(number > 0 ? number - 1 : count + number);
+      if (k <= 3) corners[k - 1] = static_cast<std::uint32_t>(corner);
     }
     const std::size_t count = words_.size() - 1;
     if (count < 3) return complain(fmt::format("a face has three corners or more, not {}", count));

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -9,12 +11,6 @@
 #include "verify/number/exact.hpp"
 
 namespace lekalo::verify {
-
-/// Returns an enclosure of a decimal.
-[[nodiscard]] inline Span enclosed(const Decimal& value) {
-  const double near = approximate(value);
-  return sgn(value.digits) == 0 ? just(0) : outwards(near, near);
-}
 
 /// A number as it is, and an enclosure of it, which decides nearly always.
 struct Both {
@@ -42,17 +38,12 @@ template <class Number>
   return {as<Number>(p[0]), as<Number>(p[1]), as<Number>(p[2])};
 }
 
-/// Returns the nearest double, for messages.
+/// Returns the nearest double, for messages; of what is beyond them the largest.
 [[nodiscard]] inline double nearest(const Fraction& value) {
-  const double cut = cut_to_double(value), away = sgn(value) < 0 ? step_down(cut) : step_up(cut);
-  return abs(value - Fraction(cut)) <= abs(Fraction(away) - value) ? cut : away;
-}
-
-/// Says whether a < b, exactly.
-[[nodiscard]] inline bool less(const Both& a, const Both& b) {
-  if (a.near.high < b.near.low) return true;
-  if (a.near.low >= b.near.high) return false;
-  return a.exact < b.exact;
+  constexpr double kMost = std::numeric_limits<double>::max();
+  const double cut = std::clamp(cut_to_double(value), -kMost, kMost);
+  const auto off = [&](double at) { return Fraction(abs(value - Fraction(at))); };
+  return std::ranges::min({cut, std::max(-kMost, step_down(cut)), std::min(kMost, step_up(cut))}, {}, off);
 }
 
 }  // namespace lekalo::verify

@@ -78,7 +78,7 @@ std::optional<std::string> off_window(const SolidWindow& window, const SolidPose
   const Exact3 turns = most_turns(window);
   for (std::size_t k = 0; k < 3; ++k) {
     const Fraction allowed = window.freedom == SolidFreedom::xyz ? Fraction() : Fraction(turns[k] + slack);
-    if (abs(turn[k + 1]) <= allowed * abs(turn[0]) && sgn(turn[0]) != 0) continue;
+    if (abs(turn[k + 1]) <= allowed * abs(turn[0])) continue;
     return fmt::format("its rotation from the start's has the {} {}, beyond {}", kNames[k + 3],
                        sgn(turn[0]) == 0 ? kInfinity : nearest(turn[k + 1] / turn[0]), nearest(turns[k]));
   }

@@ -65,12 +65,10 @@ class Proposer {
   void edges(std::size_t i, std::size_t j) {
     const Near3 u = a_[(i + 1) % 3] - a_[i], v = b_[(j + 1) % 3] - b_[j], w = b_[j] - a_[i];
     const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w);
+    // Of edges that are parallel or without length any place is one to begin at, so 0 may divide.
     const auto within = [](double x) { return x > 0 ? std::min(x, 1.0) : 0.0; };
-    const double det = uu * vv - uv * uv;
-    double s = det > 0 ? within((uw * vv - vw * uv) / det) : 0;
-    const double t = vv > 0 ? within((s * uv - vw) / vv) : 0;
-    s = uu > 0 ? within((t * uv + uw) / uu) : 0;
-    take(on_edge(i, s), on_edge(j, t));
+    const double from = within((uw * vv - vw * uv) / (uu * vv - uv * uv)), t = within((from * uv - vw) / vv);
+    take(on_edge(i, within((t * uv + uw) / uu)), on_edge(j, t));
   }
 
   /// Takes the foot of a point on the inside of a triangle.
@@ -81,9 +79,9 @@ class Proposer {
     for (std::size_t k = 0; k < 3; ++k) {
       const Near3& from = t[(k + 1) % 3];
       shares[k] = dot(n, cross(t[(k + 2) % 3] - from, p - from));
-      if (!(shares[k] >= 0)) return;
+      if (!(shares[k] > 0)) return;
     }
-    if (const double sum = shares[0] + shares[1] + shares[2]; sum > 0) take(shares * (1 / sum));
+    take(shares * (1 / (shares[0] + shares[1] + shares[2])));
   }
 
   /// Takes the point where edge k of one triangle passes through the other.
@@ -112,9 +110,7 @@ double gap_along(const Near3& direction, const Triangle3& a, const Triangle3& b)
     of_b = {std::min(of_b.low, y.low), std::max(of_b.high, y.high)};
   }
   const double between = std::max(step_down(of_b.low - of_a.high), step_down(of_a.low - of_b.high));
-  if (!(between > 0)) return 0;
-  const double low = (just(between) / length(n)).low;
-  return low > 0 ? low : 0;
+  return std::max(0.0, (just(between) / length(n)).low);
 }
 
 Vec3 point_at(const Triangle3& t, const Shares& shares) {
@@ -149,10 +145,8 @@ std::array<Whole3, Count> whole(const std::array<Exact3, Count>& points, const I
 class Least {
  public:
   void take(const Integer& numerator, const Integer& denominator) {
-    if (some_ && numerator * denominator_ >= numerator_ * denominator) return;
-    some_ = true;
-    numerator_ = numerator;
-    denominator_ = denominator;
+    if (numerator * denominator_ < numerator_ * denominator)
+      numerator_ = numerator, denominator_ = denominator;
   }
   [[nodiscard]] Fraction value() const {
     Fraction value(numerator_, denominator_);
@@ -161,40 +155,38 @@ class Least {
   }
 
  private:
-  bool some_ = false;
-  Integer numerator_, denominator_ = 1;
+  Integer numerator_ = 1, denominator_ = 0;
 };
 
+/// Says whether a share of a length is of its inside; nothing is of a length of 0.
+bool is_within(const Integer& share, const Integer& all) { return share > 0 && share < all; }
+
+/// Takes the first end of an edge and its inside; its other end is the first one of the next.
 void to_edge(const Whole3& p, const Whole3& from, const Whole3& to, Least& least) {
   const Whole3 along = to - from, way = p - from;
-  const Integer share = dot(way, along), all = dot(along, along);
-  if (share <= 0 || all == 0) return least.take(dot(way, way), 1);
-  if (share >= all) {
-    const Whole3 rest = p - to;
-    return least.take(dot(rest, rest), 1);
-  }
+  least.take(dot(way, way), 1);
+  const Integer all = dot(along, along);
+  if (!is_within(dot(way, along), all)) return;
   const Whole3 across = cross(way, along);
   least.take(dot(across, across), all);
 }
 
+/// Takes the insides of two edges.
 void between_edges(const Whole3& a, const Whole3& b, const Whole3& c, const Whole3& d, Least& least) {
   const Whole3 u = b - a, v = d - c, w = c - a, n = cross(u, v);
-  const Integer all = dot(n, n);
-  if (all == 0) return;  // parallel: an end is as near
-  const Integer on_u = dot(cross(w, v), n), on_v = dot(cross(w, u), n);
-  if (on_u < 0 || on_u > all || on_v < 0 || on_v > all) return;
+  const Integer all = dot(n, n);  // 0 where they are parallel
+  if (!is_within(dot(cross(w, v), n), all) || !is_within(dot(cross(w, u), n), all)) return;
   const Integer height = dot(w, n);
   least.take(height * height, all);
 }
 
+/// Takes the inside of a triangle.
 void to_face(const Whole3& p, const WholeTriangle& t, Least& least) {
   const Whole3 n = cross(t[1] - t[0], t[2] - t[0]);
-  const Integer all = dot(n, n);
-  if (all == 0) return;
   for (std::size_t k = 0; k < 3; ++k)
-    if (dot(n, cross(t[(k + 1) % 3] - t[k], p - t[k])) < 0) return;
+    if (dot(n, cross(t[(k + 1) % 3] - t[k], p - t[k])) <= 0) return;
   const Integer height = dot(n, p - t[0]);
-  least.take(height * height, all);
+  least.take(height * height, dot(n, n));
 }
 
 /// Returns nothing where the edge does not pass from one side of the triangle's plane to the other within the
@@ -225,7 +217,7 @@ Span distance(const Triangle3& a, const Triangle3& b, double limit) {
     low = std::max(low, gap_along(cross((*t)[1] - (*t)[0], (*t)[2] - (*t)[0]), a, b));
   if (low > limit) return {low, kInfinity};
   const double high = length(point_at(b, best.b) - point_at(a, best.a)).high;
-  return {low, high >= low ? high : kInfinity};  // NaN says nothing
+  return {low, std::isnan(high) ? kInfinity : high};
 }
 
 ExactDistance exact_distance(const ExactTriangle& a, const ExactTriangle& b) {
