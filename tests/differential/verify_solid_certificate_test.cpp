@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <fstream>
 #include <string>
@@ -30,9 +32,10 @@ std::string written(const std::string& name, const std::string& text) {
 std::vector<std::string> opinions(const std::vector<SolidResultFiles>& all) {
   std::string list;
   for (std::size_t k = 0; k < all.size(); ++k)
-    list += fmt::format("{} {} {} -\n", written(fmt::format("part{}.stl", k), all[k].part),
+    list += fmt::format("{} {} {} - {}\n", written(fmt::format("part{}.stl", k), all[k].part),
                         written(fmt::format("blank{}.stl", k), all[k].blank),
-                        written(fmt::format("result{}.json", k), all[k].result.dump()));
+                        written(fmt::format("result{}.json", k), all[k].result.dump()),
+                        all[k].features ? written(fmt::format("features{}.json", k), *all[k].features) : "-");
   FILE* pipe = popen(fmt::format("python3 {}/tests/support/check_solid_certificate.py {}",
                                  cases::source_dir(), written("list", list))
                          .c_str(),
@@ -48,6 +51,71 @@ std::vector<std::string> opinions(const std::vector<SolidResultFiles>& all) {
   pclose(pipe);
   lines.pop_back();
   return lines;
+}
+
+/// The cube in the cube: each face has a demand of its own, but for one that is as cast at times, and two
+/// that lie opposite to each other bound the margin.
+SolidResultFiles with_demands(Random& random) {
+  constexpr std::array kSides{-1.0, 1.0};
+  const std::size_t bounded = 2 * random.below(2), rough = random.below(2) == 0 ? 5 : 6;
+  Json features = Json::array(), of_result = Json::array(), terms = Json::array(), points = Json::array(),
+       balls = Json::array(), planes = Json::array();
+  double margin = 1e9, minima = 0, scales = 0;
+  for (std::size_t k = 0; k < 6; ++k) {
+    // The faces of cases::block are those of z, y and x, two triangles each.
+    const std::size_t axis = 2 - k / 2;
+    const double side = kSides[k % 2];
+    const std::array<double, 3> n{axis == 0 ? side : 0, axis == 1 ? side : 0, axis == 2 ? side : 0};
+    Json feature{{"name", fmt::format("face {}", k)}};
+    switch (random.below(4)) {
+      case 0:
+        feature["triangles"] = {2 * k, 2 * k + 1};
+        break;
+      case 1:
+        feature["patch"] = {40 * n[0], 40 * n[1] + 0.25, 40 * n[2] - 0.5};
+        if (axis == 1) feature["patch"][0] = 0.125;
+        break;
+      case 2: {
+        Json low = Json::array(), high = Json::array();
+        for (const double c : n) low.push_back(c > 0 ? 4.5 : -6), high.push_back(c < 0 ? -5 : 5);
+        feature["box"] = Json::array({low, high});
+        break;
+      }
+      default:
+        feature["plane"] = {{"normal", {-3 * n[0], -3 * n[1], -3 * n[2]}}, {"at", -5.25}, {"within", 0.25}};
+    }
+    if (k == rough) {
+      feature["as_cast"] = true;
+      of_result.push_back(cases::demand_of_result(feature["name"], 2, nullptr, nullptr));
+    } else {
+      const double minimum = random.uniform(0, 0.9), scale = random.uniform(0.5, 2);
+      feature["minimum"] = minimum, feature["scale"] = scale;
+      of_result.push_back(cases::demand_of_result(feature["name"], 2, minimum, scale));
+      margin = std::min(margin, (1 - minimum) / scale);
+      if (k / 2 == bounded / 2) {
+        minima += minimum, scales += scale;
+        const int at = static_cast<int>(points.size());
+        points.push_back({2 * k, 0.3, 0.3});
+        std::array<double, 3> centre{-2, -2, -2};
+        centre[axis] = side * 1006;
+        balls.push_back({centre[0], centre[1], centre[2], 1000});
+        planes.push_back({-2 * n[0], -2 * n[1], -2 * n[2], -12});
+        const Json kinds[]{{"point", at, at, 1},
+                           {"point_plane", at, at, 1},
+                           {"point_face", at, 2 * k, 1},
+                           {"part_face", 2 * k, at, 1}};
+        terms.push_back(kinds[random.below(4)]);
+      }
+    }
+    features.push_back(feature);
+  }
+  const double bound = (2 - minima) / scales + 1e-3;
+  Json certificate = cases::one_leaf(terms, Json::array(), balls, planes, 0.3);
+  certificate["part_points"] = points;
+  SolidResultFiles files = cases::with_demands(Json{{"minimum", 0.25}, {"features", features}}, of_result,
+                                               certificate, margin * (1 - 1e-12), bound);
+  files.result["window"]["shift"] = 0.3;
+  return files;
 }
 
 TEST(SolidCertificate, AStrangerSaysTheSame) {
@@ -81,6 +149,25 @@ TEST(SolidCertificate, AStrangerSaysTheSame) {
       // A row, a node or a term that is none is refused; what the stranger would make of it does not matter.
       if (other.report()) all.push_back(other);
     }
+  }
+  for (std::uint64_t k = 0; k < cases::case_count(8); ++k) {
+    const SolidResultFiles honest = with_demands(random);
+    EXPECT_EQ(honest.told(), "confirmed") << *honest.features;
+    all.push_back(honest);
+    SolidResultFiles other = honest;
+    Json& certificate = other.result["certificate"];
+    const char* const tables[]{"part_points", "blank_balls", "planes"};
+    const std::size_t which = random.below(4);
+    if (which < 3)
+      certificate[tables[which]] = changed(certificate[tables[which]], random);
+    else
+      certificate["trees"][0]["nodes"] = changed(certificate["trees"][0]["nodes"], random);
+    if (other.report()) all.push_back(other);
+    other = honest;
+    const double bound = other.result["demands"]["margin_bound"], margin = other.result["demands"]["margin"];
+    other.result["demands"]["margin_bound"] = bound - 2e-3;
+    other.result["demands"]["margin_gap"] = bound - 2e-3 - margin;
+    if (bound - 2e-3 > margin) all.push_back(other);
   }
   const std::vector<std::string> said = opinions(all);
   ASSERT_EQ(said.size(), all.size()) << "check_solid_certificate.py ended early; is python3 there?";

@@ -420,7 +420,7 @@ class Solids:
         key = part, blank, str(used), str(cell), str(tree["quaternion"]), str(certificate["pivot"]), bound
         if key not in self.leaves:
             self.leaves[key] = any(m > 0 for *_, m in leaf) and proof.wrong_with(
-                leaf, cell, tree["quaternion"], certificate, bound, part.all, blank.all,
+                leaf, cell, tree["quaternion"], certificate, [bound] * len(part.all), part.all, blank.all,
                 holds=lambda ball, _, wanted: (part if wanted else blank).ball_holds(ball, wanted)) is None
         return self.leaves[key]
 

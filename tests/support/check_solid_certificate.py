@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Rechecks the leaves of a certificate for solids, written from docs/formats.md alone, for binary STL in mm:
-    check_solid_certificate.py LIST     with four names a line: PART BLANK RESULT CERTIFICATE_FILE (or - for none)
+    check_solid_certificate.py LIST     with five names a line: PART BLANK RESULT CERTIFICATE_FILE FEATURES (or -)
 Prints for each "proved", or what does not hold. Fractions throughout: every answer is exact, and slow."""
 import json, math, sys
 from exact_solids import F, ball_holds, cross, dot, normal, plus, root, stl, sub, times, turned
+from solid_demands import demands
 
 def read(path): return json.load(open(path), parse_float=F, parse_int=F)
 AXES = ("x", "y", "z", "turn_x", "turn_y", "turn_z")
@@ -28,19 +29,28 @@ def largest(forms, cell):  # the largest Bernstein coefficient of their sum
             values.append(c + dot(linear, x) + dot(square, xx) + dot(mixed, [x[k - 2] * x[k - 1] for k in range(3)]))
     return max(values)
 
-def wrong_with(leaf, cell, q, c, beta, part, blank, holds=ball_holds):
+def wrong_with(leaf, cell, q, c, bounds, part, blank, holds=ball_holds):  # with a bound for each triangle of the part
     forms, middle = [], [(lo + hi) / 2 for lo, hi in cell]
     def from_pivot(v): return turned(q, sub(v, c["pivot"]))
     def turn_there(v): return turned([F(1)] + middle[3:], turned(q, v))
     def place_there(v): return plus(turn_there(sub(v, c["pivot"])), middle)
     for kind, i, j, m in ((kind, int(i), int(j), m) for kind, i, j, m in leaf if m > 0):
         a = c["part_balls"][i] if kind in ("ball", "plane", "face") else None
-        b = c["blank_balls"][j] if kind in ("ball", "part_face") else None
+        b = c["blank_balls"][j] if kind in ("ball", "part_face", "point") else None
         if a and not holds(a, part, True): return f"part ball {i}"
         if b and not holds(b, blank, False): return f"blank ball {j}"
-        if beta < (-b[3] if kind == "ball" else beta if kind == "plane" else 0): return "a bound that is too low"
+        f = {"part_face": i, "edges": i // 3}.get(kind)
+        if kind.startswith("point"):
+            f, x, y = c["part_points"][i]
+            if f != int(f) or not 0 <= f < len(part) or x < 0 or y < 0 or x + y > 1: return f"part point {i}"
+            t = part[int(f)]
+            a = plus(t[0], plus(times(sub(t[1], t[0]), x), times(sub(t[2], t[0]), y))) + [F(0)]
+        if None in (bounds if f is None else [bounds[int(f)]]): return "something that is as cast"
+        beta = min(bounds) if f is None else bounds[int(f)]
+        kind = kind.removeprefix("point_")
+        if beta < (-b[3] if kind == "ball" else beta if kind in ("plane", "point") else 0): return "a bound that is too low"
         p = a and from_pivot(a[:3])
-        if kind == "ball":
+        if kind in ("ball", "point"):
             l = F(math.dist(place_there(a[:3]), b[:3])) or F(1)
             level = (dot(p, p) / l + l) / 2 - a[3] - b[3] - beta
             forms.append(form(m, p, times(b[:3], -1 / l), 1 / l, level, bend=l / 2))
@@ -77,9 +87,13 @@ def wrong_with(leaf, cell, q, c, beta, part, blank, holds=ball_holds):
             if any(largest([one], cell) > 0 for one in conditions): return "a face that it may leave"
     return None if largest(forms, cell) <= 0 else "a leaf proves too little"
 
-def check(part, blank, result, certificate):
+def check(part, blank, result, certificate, features):
     part, blank, r = stl(part), stl(blank), read(result)
     c = r["certificate"] or read(certificate)["certificate"]
+    bounds = [r["upper_bound"]] * len(part)
+    if r.get("demands"):
+        of = demands(read(features), part, r["min_allowance"])
+        bounds = [one and one[0] + one[1] * r["demands"]["margin_bound"] for one in of]
     for tree in c["trees"]:
         open_ = [[tree[k] for k in AXES]]
         for node in tree["nodes"]:
@@ -88,7 +102,7 @@ def check(part, blank, result, certificate):
                 k = AXES.index(node[0])
                 if not cell[k][0] <= node[1] <= cell[k][1]: return "a split beside its box"
                 open_ += [cell[:k] + [half] + cell[k + 1:] for half in ([node[1], cell[k][1]], [cell[k][0], node[1]])]
-            elif wrong := wrong_with(node, cell, tree["quaternion"], c, r["upper_bound"], part, blank): return wrong
+            elif wrong := wrong_with(node, cell, tree["quaternion"], c, bounds, part, blank): return wrong
         if open_: return "the tree ends early"
     return "proved"
 

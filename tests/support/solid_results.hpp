@@ -3,6 +3,7 @@
 // Results for solids as texts, which tests write by hand and change: a cube in a cube, whose best clearance
 // is known by argument.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -118,6 +119,32 @@ inline SolidResultFiles cube_in_cube(Json certificate = nullptr, double bound = 
   return made;
 }
 
+/// A feature as results have it; what has no minimum is as cast.
+inline Json demand_of_result(const std::string& name, std::size_t triangles, Json minimum, Json scale) {
+  const bool as_cast = minimum.is_null();
+  return {{"name", name},
+          {"triangles", triangles},
+          {"minimum", std::move(minimum)},
+          {"scale", std::move(scale)},
+          {"as_cast", as_cast}};
+}
+
+/// The cube in the cube with a file of features. \pre its minimum is there
+inline SolidResultFiles with_demands(const Json& features, const Json& of_result, Json certificate,
+                                     double margin, double bound) {
+  SolidResultFiles files = cube_in_cube(std::move(certificate));
+  Json& result = files.result;
+  result["inputs"].push_back(Json{{"role", "features"}, {"path", "features"}, {"sha256", ""}});
+  result["upper_bound"] = result["gap"] = nullptr;
+  result["shortfall"] = std::max(0.0, -margin);
+  result["demands"] = {{"minimum", features["minimum"]},
+                       {"features", of_result},
+                       {"margin", margin},
+                       {"margin_bound", bound},
+                       {"margin_gap", bound - margin}};
+  files.features = features.dump();
+  return files;
+}
 /// Changes a number of a tree of values: by a digit, its sign, or to another one.
 inline Json changed(Json certificate, Random& random) {
   std::vector<Json*> numbers;

@@ -14,9 +14,11 @@
 namespace lekalo::verify::verify_solid_demands_test {
 namespace {
 
+using cases::demand_of_result;
 using cases::Json;
 using cases::one_leaf;
 using cases::SolidResultFiles;
+using cases::with_demands;
 
 bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
@@ -29,15 +31,6 @@ Json top_features() {
                                          {"minimum", 0.25},
                                          {"scale", 2}}})}};
 }
-Json feature(const std::string& name, std::size_t triangles, Json minimum, Json scale) {
-  const bool as_cast = minimum.is_null();
-  return {{"name", name},
-          {"triangles", triangles},
-          {"minimum", std::move(minimum)},
-          {"scale", std::move(scale)},
-          {"as_cast", as_cast}};
-}
-
 /// A point of the top and one of the bottom below half-spaces: with shifts by z they have 0.75 - z and 0.5 +
 /// z left, so that the best margin is 1.25 / 3, at z = -1 / 12.
 Json by_points() {
@@ -47,23 +40,9 @@ Json by_points() {
   return made;
 }
 
-SolidResultFiles with_demands(const Json& features, const Json& of_result, Json certificate, double margin,
-                              double bound) {
-  SolidResultFiles files = cases::cube_in_cube(std::move(certificate));
-  Json& result = files.result;
-  result["inputs"].push_back(Json{{"role", "features"}, {"path", "features"}, {"sha256", ""}});
-  result["upper_bound"] = result["gap"] = nullptr;
-  result["shortfall"] = std::max(0.0, -margin);
-  result["demands"] = {{"minimum", features["minimum"]},
-                       {"features", of_result},
-                       {"margin", margin},
-                       {"margin_bound", bound},
-                       {"margin_gap", bound - margin}};
-  files.features = features.dump();
-  return files;
-}
 SolidResultFiles top(double bound = 0.4166666666666667, double margin = 0.375) {
-  return with_demands(top_features(), Json::array({feature("top", 2, 0.25, 2)}), by_points(), margin, bound);
+  return with_demands(top_features(), Json::array({demand_of_result("top", 2, 0.25, 2)}), by_points(), margin,
+                      bound);
 }
 
 TEST(SolidDemands, PointsProveTheBestMarginToTheLastDigits) {
@@ -87,8 +66,8 @@ TEST(SolidDemands, EachTermCountsWithTheDemandOfItsTriangle) {
     Json certificate = one_leaf(Json::array({term}), none, balls, Json::array({{0, 0, -1, -6}}), 0.5);
     certificate["part_points"] = Json::array({{2, 0.3, 0.3}});
     const auto with = [&](double bound) {
-      SolidResultFiles files =
-          with_demands(top_features(), Json::array({feature("top", 2, 0.25, 2)}), certificate, exact, bound);
+      SolidResultFiles files = with_demands(
+          top_features(), Json::array({demand_of_result("top", 2, 0.25, 2)}), certificate, exact, bound);
       // One pose is looked at, and shifts along x and y.
       files.result["window"]["shift"] = 0;
       Json& tree = files.result["certificate"]["trees"][0];
@@ -116,7 +95,7 @@ TEST(SolidDemands, BallsOfThePartNeedThatNothingIsAsCast) {
   Json features = top_features();
   features["features"].push_back(Json{{"name", "rough"}, {"triangles", {10, 11}}, {"as_cast", true}});
   files.features = features.dump();
-  files.result["demands"]["features"].push_back(feature("rough", 2, nullptr, nullptr));
+  files.result["demands"]["features"].push_back(demand_of_result("rough", 2, nullptr, nullptr));
   EXPECT_TRUE(says(files.told(), "nodes[0] has a part ball, but something of the part is as cast"));
   files.result["certificate"] = by_points();
   files.result["demands"]["margin_bound"] = 0.4166666666666667;
@@ -196,8 +175,8 @@ TEST(SolidDemands, WhatIsAsCastMayStickOut) {
   Json certificate = one_leaf(Json::array({{"point_plane", 0, 0, 1}}), Json::array(), Json::array(),
                               Json::array({{1, 0, 0, -6}}));
   certificate["part_points"] = Json::array({{8, 0.25, 0.5}});
-  SolidResultFiles files =
-      with_demands(features, Json::array({feature("rough", 10, nullptr, nullptr)}), certificate, 0.5, 1);
+  SolidResultFiles files = with_demands(
+      features, Json::array({demand_of_result("rough", 10, nullptr, nullptr)}), certificate, 0.5, 1);
   files.result["contacts"] = Json::array();
   const auto in = [&](const solid::Mesh& blank) {
     files.blank = solid_files::stl_binary(blank);

@@ -93,7 +93,7 @@ class SolidCheck {
   }
   void note(std::string sentence) { report_.notes.push_back(std::move(sentence)); }
 
-  /// What the certificate proves, or nothing.
+  /// The bound that the certificate proves, or nothing.
   [[nodiscard]] const std::optional<Decimal>& bound() const {
     return d_.demands ? d_.demands->bound : d_.upper_bound;
   }

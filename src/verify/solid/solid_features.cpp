@@ -68,7 +68,7 @@ class TriangleFinder {
       const Span rest = sign > 0 ? along - limit : -along - limit;
       return is_at_most_zero(rest, [&] {
         const Fraction exact = sign * dot(exact_n, exact_at(v));
-        // Of two numbers of one sign the squares tell which is larger.
+        // The squares of two numbers of one sign tell which is larger.
         if (sgn(exact) != sgn(most)) return Fraction(sgn(exact) - sgn(most));
         return Fraction(sgn(most) * (exact * exact - most * most * square));
       });

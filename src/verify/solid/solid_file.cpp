@@ -64,7 +64,7 @@ class TextStl {
   Result<void> read() {
     while (const auto word = next()) {
       if (!is_word(*word, "solid")) return complain(*word, "'solid'");
-      // What follows is a name, up to the end of the line.
+      // A name follows, up to the end of the line.
       made_.begin_group(at_ == words_.size() ? std::string_view()
                                              : std::string_view(words_[at_].data(), words_.back().data() +
                                                                                         words_.back().size() -

@@ -68,7 +68,7 @@ struct SolidDocument {
   locate::SolidProof proof;
   /// The numbers of these triangles in their files.
   std::vector<std::uint32_t> part_numbers, blank_numbers;
-  /// Which of them are turned round.
+  /// They say which of them are turned round.
   std::vector<bool> part_turned, blank_turned;
   std::optional<FileRecord> certificate_file;
   /// The boxes of the certificate, wherever it is.

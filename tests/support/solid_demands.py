@@ -1,0 +1,40 @@
+"""The triangles of a file of features for solids, and what they demand, written from docs/formats.md alone."""
+from exact_solids import F, dot, normal, squared_distance
+
+UNITS = {"mm": F(1), "inch": F(254, 10), "m": F(1000)}
+
+def patch(point, mesh):
+    def turn_less(a, b):  # than 30 degrees
+        m, n = normal(a), normal(b)
+        return dot(m, n) > 0 and 4 * dot(m, n) ** 2 > 3 * dot(m, m) * dot(n, n)
+    def edges(t): return {frozenset((tuple(t[k - 1]), tuple(t[k]))) for k in range(3)}
+    far = [squared_distance(point, t) for t in mesh]
+    found, open_ = set(), [far.index(min(far))]
+    while open_:
+        f = open_.pop()
+        if f in found: continue
+        found.add(f)
+        open_ += [g for g in range(len(mesh)) if edges(mesh[f]) & edges(mesh[g]) and turn_less(mesh[f], mesh[g])]
+    return found
+
+def triangles_of(feature, unit, mesh):
+    def all_corners(holds): return {f for f, t in enumerate(mesh) if all(holds(p) for p in t)}
+    def at_most(x, y, square):  # x <= y root(square)
+        return (x <= 0 or x * x <= y * y * square) if y >= 0 else x < 0 and x * x >= y * y * square
+    if "triangles" in feature: return {int(f) for f in feature["triangles"]}
+    if "patch" in feature: return patch([x * unit for x in feature["patch"]], mesh)
+    if "box" in feature:
+        low, high = ([x * unit for x in corner] for corner in feature["box"])
+        return all_corners(lambda p: all(a <= x <= b for a, x, b in zip(low, p, high)))
+    n, at, off = feature["plane"]["normal"], feature["plane"]["at"] * unit, feature["plane"]["within"] * unit
+    return all_corners(lambda p: at_most(dot(n, p), at + off, dot(n, n)) and at_most(-dot(n, p), off - at, dot(n, n)))
+
+def demands(file, mesh, least):
+    """Of each triangle (minimum, scale), or None; a demand is the double nearest to it."""
+    unit = UNITS[file.get("units", "mm")]
+    def mm(x): return F(float(unit) * float(x))
+    of = [(max(mm(file.get("minimum", 0)), F(float(least))), F(1))] * len(mesh)
+    for feature in file.get("features", []):
+        one = None if feature.get("as_cast") else (mm(feature.get("minimum", 0)), F(float(feature.get("scale", 1))))
+        for f in triangles_of(feature, unit, mesh): of[f] = one
+    return of
