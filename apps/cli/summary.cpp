@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -189,6 +190,9 @@ std::string program_lines(const std::optional<io::NcRecord>& nc) {
 }
 
 std::string headline(const io::SolidDocument& d) {
+  if (d.status == "infeasible" && d.demands)
+    return std::string("No placement in the window meets the demands; this is proved.") +
+           (d.inside() ? " The one that misses least:" : "");
   if (d.status == "infeasible")
     return d.min_allowance > 0
                ? fmt::format(
@@ -236,9 +240,44 @@ std::string bound_line(const io::SolidDocument& d) {
                      mm_up(*d.upper_bound));
 }
 
+/// The place where most is missing, and the feature there.
+std::string missing_place(const io::SolidDocument& d) {
+  const locate::SolidTouch* worst = nullptr;
+  double least = 0;
+  std::string name;
+  for (const locate::SolidTouch& touch : d.contacts) {
+    locate::SolidDemand demand{d.demands->minimum, 1};
+    std::string of = "the triangles of no feature";
+    for (const io::SolidFeature& feature : d.demands->features)
+      if (feature.demand &&
+          std::binary_search(feature.triangles.begin(), feature.triangles.end(), touch.part_triangle))
+        demand = *feature.demand, of = fmt::format("\"{}\"", feature.name);
+    const double margin = (touch.distance - demand.minimum) / demand.scale;
+    if (worst == nullptr || margin < least) worst = &touch, least = margin, name = of;
+  }
+  if (worst == nullptr) return "";
+  return fmt::format(" on {}, at the part's ({:.3f}, {:.3f}, {:.3f}), triangle {}", name, worst->part.x,
+                     worst->part.y, worst->part.z, worst->part_triangle);
+}
+
+std::string demands_line(const io::SolidDocument& d) {
+  const io::SolidDemandRecord& r = *d.demands;
+  const std::string bound = !r.margin_bound ? ""
+                                            : fmt::format("; no placement {} has a margin above {}",
+                                                          window_text(d), mm_up(*r.margin_bound));
+  if (!r.margin) return fmt::format("  demands            not met{}\n", bound);
+  if (*r.margin >= 0)
+    return fmt::format("  demands            met, with a margin of {}{}\n", mm_down(*r.margin), bound);
+  return fmt::format("  demands            {} are missing{}{}\n", mm_up(*d.shortfall()), missing_place(d),
+                     bound);
+}
+
 std::string demand_line(const io::SolidDocument& d) {
+  const std::string demands = d.demands ? demands_line(d) : "";
   if (!d.inside())
-    return "  to be tried        a wider window (--shift, --tilt), another start (--start), other --units\n";
+    return demands +
+           "  to be tried        a wider window (--shift, --tilt), another start (--start), other --units\n";
+  if (d.demands) return demands;
   if (!(*d.shortfall() > 0))
     return d.min_allowance > 0 ? fmt::format("  demanded           {} mm: met\n", d.min_allowance) : "";
   const bool open = !d.upper_bound || *d.upper_bound >= d.min_allowance;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lekalo/base/disjoint_sets.hpp"
 #include "lekalo/base/stop.hpp"
@@ -56,28 +57,35 @@ std::vector<Vector> surface_points(const Mesh& mesh) {
   return points;
 }
 
-MeshClearance::MeshClearance(const Mesh& part, const Mesh& blank, const std::vector<double>& widths)
+MeshClearance::Blank::Blank(const Mesh& blank, const std::vector<double>& widths)
+    : tree(blank, 1), boxes(oriented_boxes(tree)), points(surface_points(blank)) {
+  if (widths.empty()) return;
+  for (std::uint32_t k = 0; k < widths.size(); ++k) width.push_back(widths[tree.triangle(k)]);
+  const auto& nodes = tree.nodes();
+  widest.resize(nodes.size());
+  for (std::size_t at = nodes.size(); at-- > 0;)
+    widest[at] =
+        nodes[at].right == 0 ? width[nodes[at].begin] : std::max(widest[at + 1], widest[nodes[at].right]);
+}
+
+MeshClearance::MeshClearance(const Mesh& part, std::shared_ptr<const Blank> blank)
     : part_(part, 1),
-      blank_(blank, 1),
       part_boxes_(oriented_boxes(part_)),
-      blank_boxes_(oriented_boxes(blank_)),
       pieces_(cut_in_pieces(part_, kPieces)),
       of_part_(surface_points(part)),
-      of_blank_(surface_points(blank)) {
-  if (widths.empty()) return;
-  for (std::uint32_t k = 0; k < widths.size(); ++k) width_.push_back(widths[blank_.triangle(k)]);
-  const auto& nodes = blank_.nodes();
-  widest_.resize(nodes.size());
-  for (std::size_t at = nodes.size(); at-- > 0;)
-    widest_[at] =
-        nodes[at].right == 0 ? width_[nodes[at].begin] : std::max(widest_[at + 1], widest_[nodes[at].right]);
-}
+      blank_(std::move(blank)) {}
+
+MeshClearance::MeshClearance(const Mesh& part, const Mesh& blank, const std::vector<double>& widths)
+    : MeshClearance(part, std::make_shared<const Blank>(blank, widths)) {}
+
+MeshClearance::MeshClearance(const Mesh& part, const MeshClearance& other)
+    : MeshClearance(part, other.blank_) {}
 
 /// Walks both trees at one pose.
 struct MeshClearance::Walk {
-  Walk(const MeshClearance& from, const Motion& pose) : meter(from), motion(pose) {
+  Walk(const MeshClearance& from, const Motion& pose) : meter(from), blank(*from.blank_), motion(pose) {
     const double far = std::sqrt(3.0) * meter.part_.largest() + largest_coordinate(motion.shift);
-    rounding = kPairRounding * (far + meter.blank_.largest());
+    rounding = kPairRounding * (far + blank.tree.largest());
   }
 
   void start(double most) {
@@ -89,8 +97,8 @@ struct MeshClearance::Walk {
 
   void look(std::uint32_t of_part, std::uint32_t of_blank) {
     const Corners& t = meter.part_.corners(of_part);
-    const Corners a{motion(t[0]), motion(t[1]), motion(t[2])}, &b = meter.blank_.corners(of_blank);
-    const double width = meter.width_.empty() ? 0 : meter.width_[of_blank];
+    const Corners a{motion(t[0]), motion(t[1]), motion(t[2])}, &b = blank.tree.corners(of_blank);
+    const double width = blank.width.empty() ? 0 : blank.width[of_blank];
     const double most = limit + width - rounding;
     if (clearly_apart(a, b, most)) return;
     const PairFound here = nearest_points(a, b, most, rounding);
@@ -101,33 +109,33 @@ struct MeshClearance::Walk {
     limit = best.high = distance - width;
     cross = distance <= rounding;
     best.part_triangle = meter.part_.triangle(of_part);
-    best.blank_triangle = meter.blank_.triangle(of_blank);
+    best.blank_triangle = blank.tree.triangle(of_blank);
     best.part = here.a, best.blank = here.b;
     found = true;
   }
 
   /// Says if two boxes are so far apart that no pair in them is nearer than what is known, but for rounding.
   [[nodiscard]] bool apart(double gap, std::uint32_t of_blank) const {
-    const double most = limit - rounding + (meter.widest_.empty() ? 0 : meter.widest_[of_blank]);
+    const double most = limit - rounding + (blank.widest.empty() ? 0 : blank.widest[of_blank]);
     return !(most > 0) || gap >= most * most;
   }
 
-  [[nodiscard]] double widest() const { return meter.widest_.empty() ? 0 : meter.widest_[0]; }
+  [[nodiscard]] double widest() const { return blank.widest.empty() ? 0 : blank.widest[0]; }
 
   void walk(std::uint32_t of_part, std::uint32_t of_blank) {
     struct Open {
       double gap;
-      std::uint32_t part, blank;
+      std::uint32_t part, at_blank;
     };
     // Each step leaves one pair behind and takes one, so there are as many as both trees are high.
     std::array<Open, 128> stack;
     std::size_t count = 0;
     const auto& of_parts = meter.part_.nodes();
-    const auto& of_blanks = meter.blank_.nodes();
+    const auto& of_blanks = blank.tree.nodes();
     const auto& part_boxes = meter.part_boxes_;
-    const auto& blank_boxes = meter.blank_boxes_;
+    const auto& blank_boxes = blank.boxes;
     const auto push = [&](const Open& open) {
-      if (!apart(open.gap, open.blank)) stack[count++] = open;
+      if (!apart(open.gap, open.at_blank)) stack[count++] = open;
     };
     push({squared_gap(moved(motion, part_boxes[of_part]), blank_boxes[of_blank]), of_part, of_blank});
     while (count > 0) {
@@ -137,18 +145,18 @@ struct MeshClearance::Walk {
         return;
       }
       const Open open = stack[--count];
-      const std::uint32_t part = open.part, blank = open.blank;
-      if (apart(open.gap, blank)) continue;
+      const std::uint32_t part = open.part, at_blank = open.at_blank;
+      if (apart(open.gap, at_blank)) continue;
       ask();
-      const TriangleTree::Node &p = of_parts[part], &b = of_blanks[blank];
+      const TriangleTree::Node &p = of_parts[part], &b = of_blanks[at_blank];
       if (p.right == 0 && b.right == 0) {
         look(p.begin, b.begin);
         continue;
       }
       Open one, other;
-      if (b.right == 0 || (p.right != 0 && part_boxes[part].size() > blank_boxes[blank].size())) {
+      if (b.right == 0 || (p.right != 0 && part_boxes[part].size() > blank_boxes[at_blank].size())) {
         const auto child = [&](std::uint32_t at) {
-          return Open{squared_gap(moved(motion, part_boxes[at]), blank_boxes[blank]), at, blank};
+          return Open{squared_gap(moved(motion, part_boxes[at]), blank_boxes[at_blank]), at, at_blank};
         };
         one = child(part + 1), other = child(p.right);
       } else {
@@ -156,7 +164,7 @@ struct MeshClearance::Walk {
         const auto child = [&](std::uint32_t at) {
           return Open{squared_gap(box, blank_boxes[at]), part, at};
         };
-        one = child(blank + 1), other = child(b.right);
+        one = child(at_blank + 1), other = child(b.right);
       }
       if (other.gap < one.gap) std::swap(one, other);
       push(other);
@@ -173,6 +181,7 @@ struct MeshClearance::Walk {
   }
 
   const MeshClearance& meter;
+  const Blank& blank;
   const Motion& motion;
   double rounding, limit = 0;
   NearPair best;
@@ -184,8 +193,8 @@ std::optional<NearPair> MeshClearance::nearest(const Motion& blank_from_part, do
   Walk walk(*this, blank_from_part);
   walk.start(most);
   if (near != nullptr)
-    walk.look(part_.place_in_order(near->part_triangle), blank_.place_in_order(near->blank_triangle));
-  if (!part_.nodes().empty() && !blank_.nodes().empty()) walk.walk(0, 0);
+    walk.look(part_.place_in_order(near->part_triangle), blank_->tree.place_in_order(near->blank_triangle));
+  if (!part_.nodes().empty() && !blank_->tree.nodes().empty()) walk.walk(0, 0);
   if (!walk.found) return std::nullopt;
   return walk.pair();
 }
@@ -194,7 +203,7 @@ NearPair MeshClearance::pair(const Motion& blank_from_part, std::uint32_t part_t
                              std::uint32_t blank_triangle) const {
   Walk walk(*this, blank_from_part);
   walk.start(std::numeric_limits<double>::infinity());
-  walk.look(part_.place_in_order(part_triangle), blank_.place_in_order(blank_triangle));
+  walk.look(part_.place_in_order(part_triangle), blank_->tree.place_in_order(blank_triangle));
   return walk.pair();
 }
 
@@ -218,10 +227,14 @@ void MeshClearance::nearest_by_piece(const Motion& blank_from_part, double most,
   std::sort_heap(found.begin(), found.end(), nearer);
 }
 
-bool MeshClearance::inside(const Motion& blank_from_part) const {
+bool MeshClearance::part_in_blank(const Motion& blank_from_part) const {
   return std::all_of(of_part_.begin(), of_part_.end(),
-                     [&](Vector p) { return blank_.holds(blank_from_part(p)); }) &&
-         std::none_of(of_blank_.begin(), of_blank_.end(),
+                     [&](Vector p) { return blank_->tree.holds(blank_from_part(p)); });
+}
+
+bool MeshClearance::inside(const Motion& blank_from_part) const {
+  return part_in_blank(blank_from_part) &&
+         std::none_of(blank_->points.begin(), blank_->points.end(),
                       [&](Vector q) { return part_.holds(blank_from_part.back(q)); });
 }
 

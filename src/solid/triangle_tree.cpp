@@ -72,6 +72,11 @@ bool is_above(const std::array<Vector, 3>& t, Vector p) {
 
 }  // namespace
 
+double distance(const Corners& t, Vector p) noexcept {
+  const Vector to_inside = p - nearest_point(t, p), to_edges = p - nearest_on_edges(t, p);
+  return std::sqrt(std::min(dot(to_inside, to_inside), dot(to_edges, to_edges)));
+}
+
 TriangleTree::TriangleTree(const Mesh& mesh, std::uint32_t leaf) {
   std::vector<Corners> all;
   all.reserve(mesh.triangles.size());

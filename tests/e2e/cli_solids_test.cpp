@@ -105,6 +105,47 @@ TEST_F(Solids, MethodsKeptForComparisonAreVerifiedAsUnproved) {
   }
 }
 
+TEST_F(Solids, FacesHaveTheirOwnDemands) {
+  const auto features = [&](const char* minimum) {
+    write_bytes(folder_ / "f.json",
+                std::string(R"({"minimum": 0.5, "features": [{"name": "end", "minimum": )") + minimum +
+                    R"(, "plane": {"normal": [1, 0, 0], "at": -20, "within": 0.01}}]})");
+  };
+  const Words words{"--features", "f.json", "--gap", "0.05", "-o", "r.json", "--json"};
+  features("1");
+  const Ran ran = locate(words);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(ran.json()["status"], "optimal");
+  EXPECT_EQ(ran.json()["demands"]["features"][0]["triangles"], 2);
+  EXPECT_NE(ran.err.find("demands            met, with a margin of 0.9"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("no placement within 5 mm and 5 degrees of the start has a margin above 1.0"),
+            std::string::npos)
+      << ran.err;
+  EXPECT_EQ(verify("r.json").status, 0);
+  features("0.9");
+  EXPECT_EQ(verify("r.json").status, 4);
+  features("2.5");
+  const Ran missed = locate(words);
+  EXPECT_EQ(missed.status, 1) << missed.err;
+  EXPECT_NE(missed.err.find("No placement in the window meets the demands; this is proved."),
+            std::string::npos)
+      << missed.err;
+  EXPECT_NE(missed.err.find("mm are missing on \"end\", at the part's (-20.000, "), std::string::npos)
+      << missed.err;
+  EXPECT_EQ(verify("r.json").status, 0);
+}
+
+TEST_F(Solids, TheExampleOfDemandsIsMet) {
+  const fs::path solids = fs::path(cases::source_dir()) / "examples" / "solid";
+  const Ran ran =
+      run(folder_.path(), {"locate", "--part", solids / "part.stl", "--blank", solids / "casting.stl",
+                           "--features", solids / "features.json", "--gap", "0.2", "-o", "r.json", "--json"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(ran.json()["status"], "optimal");
+  EXPECT_GT(ran.json()["demands"]["margin"], 0.0);
+  EXPECT_EQ(verify("r.json").status, 0);
+}
+
 TEST_F(Solids, ADemandThatIsMissedIsExitStatusOne) {
   const Ran ran = locate({"--min-allowance", "3", "--method", "climb", "-o", "r.json"});
   EXPECT_EQ(ran.status, 1);

@@ -68,6 +68,7 @@ verify::Verdict verdict(const SolidLocateJob& job, const LocatedSolid& located) 
                if (role == "blank" && !located.mesh.empty()) return File{job.outputs.mesh, located.mesh};
                if (role == "nc") return job.program;
                if (role == "NC program") return File{"o.nc", located.program};
+               if (role == "features") return job.features;
                return role == "blank" ? std::optional(job.blank) : std::nullopt;
              });
   EXPECT_TRUE(done.has_value()) << (done ? "" : done.error().message);
@@ -204,6 +205,71 @@ TEST(JobsLocateSolid, TheCertificateMayBeAFileOfItsOwn) {
   EXPECT_EQ(json["certificate_file"]["sha256"], io::sha256(located.certificate));
   EXPECT_EQ(json["certificate_file"]["boxes"], located.document.certificate_boxes);
   EXPECT_EQ(verdict(job, located), verify::Verdict::confirmed);
+}
+
+/// Corners at low x, where the part has 2 mm at the sides, demand more than others; the top is as cast.
+File features_of_block(double at_low_x, const std::string& more = "") {
+  return {"features.json",
+          R"({"units": "mm", "minimum": 0.5, "features": [
+            {"name": "end", "plane": {"normal": [1, 0, 0], "at": -20, "within": 0.01}, "minimum": )" +
+              std::to_string(at_low_x) + R"(},
+            {"name": "top", "box": [[-20, -15, 10], [20, 15, 10]], "as_cast": true})" +
+              more + "]}"};
+}
+
+TEST(JobsLocateSolid, FacesHaveTheirOwnDemands) {
+  SolidLocateJob job = block_job();
+  job.options.method = SolidMethod::certified;
+  job.features = features_of_block(1);
+  const LocatedSolid located = made(job);
+  const auto json = cases::Json::parse(located.result);
+  EXPECT_EQ(json["status"], "optimal");
+  EXPECT_EQ(json["inputs"][2]["role"], "features");
+  EXPECT_TRUE(json["upper_bound"].is_null());
+  EXPECT_TRUE(json["gap"].is_null());
+  const auto& demands = json["demands"];
+  EXPECT_EQ(demands["minimum"], 0.5);
+  EXPECT_EQ(demands["features"][0]["triangles"], 2);
+  EXPECT_EQ(demands["features"][0]["minimum"], 1);
+  EXPECT_EQ(demands["features"][1]["as_cast"], true);
+  EXPECT_TRUE(demands["features"][1]["scale"].is_null());
+  // The corners at the end have 2 mm to the sides at best, and 4 mm less the bottom's to the top.
+  EXPECT_NEAR(demands["margin"], 1, 0.01);
+  EXPECT_GE(demands["margin_bound"], 1.0);
+  EXPECT_LE(demands["margin_gap"], 0.01);
+  EXPECT_EQ(json["shortfall"], 0);
+  EXPECT_TRUE(located.holds());
+  EXPECT_EQ(verdict(job, located), verify::Verdict::confirmed);
+}
+
+TEST(JobsLocateSolid, DemandsThatCannotBeMetAreProvedToBe) {
+  SolidLocateJob job = block_job();
+  job.options.method = SolidMethod::certified;
+  job.features = features_of_block(2.5);
+  const LocatedSolid located = made(job);
+  EXPECT_EQ(located.document.status, "infeasible");
+  EXPECT_TRUE(located.document.inside());
+  EXPECT_NEAR(*located.document.shortfall(), 0.5, 0.05);
+  EXPECT_LT(*located.document.demands->margin_bound, 0);
+  EXPECT_FALSE(located.holds());
+  EXPECT_EQ(verdict(job, located), verify::Verdict::confirmed);
+  job.options.method = SolidMethod::climb;
+  const LocatedSolid climbed = made(job);
+  EXPECT_EQ(climbed.document.status, "unproved");
+  EXPECT_FALSE(climbed.document.demands->margin_bound);
+  EXPECT_EQ(verdict(job, climbed), verify::Verdict::unproved);
+}
+
+TEST(JobsLocateSolid, FilesOfFeaturesThatMakeNoSenseAreRefused) {
+  SolidLocateJob job = block_job();
+  job.features = features_of_block(1, R"(, {"name": "all", "box": [[-99, -99, -99], [99, 99, 99]]})");
+  EXPECT_TRUE(says(refusal(job).message, "is also of the feature \"end\"; it can be of one"));
+  job.features = File{"features.json", R"({"features": [{"name": "all", "as_cast": true,
+    "box": [[-99, -99, -99], [99, 99, 99]]}]})"};
+  EXPECT_EQ(
+      refusal(job).message,
+      "features.json: all of the part is as cast, so no placement is better than another; leave triangles "
+      "that demand an allowance");
 }
 
 TEST(JobsLocateSolid, ASearchThatIsStoppedHasItsBoundProved) {

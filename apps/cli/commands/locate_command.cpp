@@ -35,8 +35,9 @@ Result<jobs::LocateJob> read_files(const LocateOptions& o, jobs::File part, jobs
 }
 
 Result<jobs::SolidLocateJob> read_solids(const LocateOptions& o, jobs::File part, jobs::File blank) {
-  jobs::SolidLocateJob job{std::move(part), std::move(blank), {}, {}, {}, o.solid, {}, o.warnings};
+  jobs::SolidLocateJob job{std::move(part), std::move(blank), {}, {}, {}, {}, o.solid, {}, o.warnings};
   LEKALO_CHECK(read_if_named(o.start, job.start));
+  LEKALO_CHECK(read_if_named(o.features, job.features));
   LEKALO_CHECK(read_if_named(o.nc, job.program));
   LEKALO_CHECK(read_if_named(o.allow, job.allow));
   job.outputs.certificate = o.outputs.certificate, job.outputs.mesh = o.mesh;

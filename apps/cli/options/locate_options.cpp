@@ -291,7 +291,7 @@ void check_method(const LocateWords& words, WordReader& read, LocateOptions& o) 
 }
 
 /// The options that solids have, too, and those that they alone have; all others are for outlines.
-constexpr std::array<std::string_view, 29> kOfBoth{
+constexpr std::array<std::string_view, 30> kOfBoth{
     "--part",        "--blank",           "--units",         "--window",
     "--gap",         "--method",          "--work",          "--time",
     "--json",        "--output",          "--picture",       "--report",
@@ -299,7 +299,7 @@ constexpr std::array<std::string_view, 29> kOfBoth{
     "--coverage",    "--min-radius",      "--max-dip",       "--drop-outliers",
     "--nc",          "--nc-out",          "--nc-mode",       "--control",
     "--allow",       "--chord-tolerance", "--wcs",           "--nc-angle-decimals",
-    "--scan-frame"};
+    "--scan-frame",  "--features"};
 constexpr std::array<std::string_view, 8> kOfSolids{"--freedom",   "--tilt", "--shift", "--start",
                                                     "--underside", "--flat", "--mesh",  "--mesh-step"};
 
@@ -470,7 +470,8 @@ void add_search_options(Form& form, LocateWords& w) {
   add("--lock-x", w.lock_x, "MM", "x of the placement is given");
   add("--lock-y", w.lock_y, "MM", "y of the placement is given");
   add("--features", w.features, "FILE",
-      "Demands by feature: minimum, target, maximum, scale, finished (JSON)");
+      "Demands by feature: minimum, target, maximum, scale, finished; of solids minimum, scale, as cast "
+      "(JSON)");
   add("--criterion", w.criterion, locate::criterion_names("|"),
       fmt::format("After the largest smallest allowance: {} [{}]",
                   later_criteria(&locate::Criterion::favours, ", or "), locate::criteria().front().name)

@@ -80,6 +80,8 @@ struct SolidLocateJob {
   /// An earlier result for solids, whose pose is the start. Without one the part begins where its file has
   /// it.
   std::optional<File> start = {};
+  /// Demands by face (io/locate/solid_feature_file.hpp).
+  std::optional<File> features = {};
   /// See LocateJob.
   std::optional<File> program = {}, allow = {};
   SolidLocateOptions options = {};
@@ -119,10 +121,10 @@ struct LocatedSolid {
 /// search: its unit of work is a box bounded, a program solved or a pose measured.
 ///
 /// Errors: bad_input as of io::parse_solid, solid::closed_mesh and solid::surface_through, for points that
-/// nobody says how to mesh or that contradict what is said of them, and for a start that is no result for
-/// solids; program_refused as of nc::rewrite_program; usage as of locate::locate_solid and
-/// locate::guaranteed_solid; environment where a drawing library fails; refuted where the checker does not
-/// confirm the result, which is a mistake of ours.
+/// nobody says how to mesh or that contradict what is said of them, for a start that is no result for solids,
+/// and as of io::parse_solid_features and io::find_solid_features; program_refused as of nc::rewrite_program;
+/// usage as of locate::locate_solid and locate::guaranteed_solid; environment where a drawing library fails;
+/// refuted where the checker does not confirm the result, which is a mistake of ours.
 [[nodiscard]] Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& run = {},
                                                 const Stopwatch& stopwatch = {});
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "lekalo/base/error.hpp"
@@ -30,6 +31,14 @@ struct SolidPose {
 /// The freedoms of the part: its place; also its turn about the z axis of the blank's frame; or all six.
 enum class SolidFreedom { xyz, c_xyz, six };
 
+/// The demand of a triangle of the part: what its points have more than the minimum is their margin, in units
+/// of the scale.
+struct SolidDemand {
+  double minimum = 0;  ///< mm, >= 0
+  double scale = 1;    ///< > 0
+  friend bool operator==(const SolidDemand&, const SolidDemand&) = default;
+};
+
 struct SolidProblem {
   solid::Mesh part, blank;  ///< closed (solid::closed_mesh)
   SolidPose start;
@@ -47,12 +56,15 @@ struct SolidProblem {
   /// empty for a blank taken as drawn. None is below the true one, or above it by more than the error.
   std::vector<double> blank_widths = {};
   double blank_width_error = 0;
+  /// The demand of each triangle of the part; one that is as cast has none and may stick out of the blank.
+  /// Then the least margin is maximised. Empty: the allowance counts, everywhere alike.
+  std::vector<std::optional<SolidDemand>> demands = {};
 };
 
 struct SolidOptions {
-  /// The search stops when upper bound - clearance is this small, mm, > 0.
+  /// The search stops when upper bound - margin is this small, mm, > 0.
   double gap = 1e-2;
-  /// The status is infeasible when this is provably not reachable, mm.
+  /// The status is infeasible when this margin is provably not reachable, mm.
   double min_allowance = 0;
   /// They change the time and nothing else.
   unsigned threads = kUsualThreads;
@@ -71,19 +83,23 @@ struct SolidTouch {
 
 struct SolidPlacement {
   SolidPose pose;
-  /// True if the part lies inside the blank there; else there is no clearance.
+  /// True if the part lies inside the blank there; else there is no clearance. With demands it is true if the
+  /// triangles that have one do so, and no surface of the blank lies in the part as a whole.
   bool inside = false;
-  /// The least allowance at that very pose, mm, never above the exact one; above 0 where it is inside.
+  /// The least allowance at that very pose, of triangles that have a demand, mm, never above the exact one;
+  /// above 0 where it is inside.
   double clearance = 0;
   std::vector<SolidTouch> contacts;
   std::uint64_t work = 0;
+  /// The least margin there, mm, never above the exact one; the clearance, where there are no demands.
+  double margin = 0;
 };
 
 struct SolidResult {
   /// It is `stopped`, too, where no pose was found inside and none has more than the gap.
   Status status = Status::stopped;
   SolidPlacement best;
-  /// No placement of the window has more clearance; rounded up.
+  /// No placement of the window has more margin, which is the clearance without demands; rounded up.
   double upper_bound = 0;
   /// The reason why, also of a search that was stopped. Triangles are numbered as in the problem.
   SolidProof proof;

@@ -10,7 +10,8 @@ namespace lekalo::locate {
 
 /// The reason why no pose of a window has more clearance than a bound: a subdivision of the window into
 /// boxes, each with terms whose weighted sum is not above 0 anywhere in it, though each of them would be
-/// where the clearance is above the bound. docs/formats.md ("Certificate of solids") has the terms.
+/// where the clearance, or with demands the margin, is above the bound. docs/formats.md ("Certificate of
+/// solids") has the terms.
 
 /// A ball in the part's material (part coordinates), or one whose inside has none of the blank's (blank
 /// coordinates).
@@ -25,13 +26,22 @@ struct SolidPlane {
   double least = 0;      ///< mm
 };
 
+/// A point of the part: v0 + u (v1 - v0) + v (v2 - v0) of a triangle, with u, v >= 0 and u + v <= 1.
+struct SolidPoint {
+  std::uint32_t triangle = 0;
+  double u = 0, v = 0;
+};
+
 struct SolidTerm {
   enum class Kind : std::uint8_t {
-    ball,       ///< a part ball and a blank ball
-    plane,      ///< a part ball and a plane
-    face,       ///< a part ball over a triangle of the blank
-    part_face,  ///< a triangle of the part and a blank ball over it
-    edges       ///< an edge of the part and one of the blank
+    ball,         ///< a part ball and a blank ball
+    plane,        ///< a part ball and a plane
+    face,         ///< a part ball over a triangle of the blank
+    part_face,    ///< a triangle of the part and a blank ball over it
+    edges,        ///< an edge of the part and one of the blank
+    point,        ///< a point of the part and a blank ball
+    point_plane,  ///< a point of the part and a plane
+    point_face    ///< a point of the part over a triangle of the blank
   };
   Kind kind = Kind::ball;
   /// The numbers of what the term is made of, in the tables of the proof or among the triangles of a mesh.
@@ -63,6 +73,7 @@ struct SolidTree {
 struct SolidProof {
   solid::Vector pivot;  ///< part coordinates
   std::vector<SolidBall> part_balls, blank_balls;
+  std::vector<SolidPoint> part_points;
   std::vector<SolidPlane> planes;
   /// They cover the window. Empty when nothing is proved.
   std::vector<SolidTree> trees;

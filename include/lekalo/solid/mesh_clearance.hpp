@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -28,9 +29,11 @@ class MeshClearance {
  public:
   /// \param widths  of the blank's triangles, mm, >= 0; or none, of a blank taken as drawn
   MeshClearance(const Mesh& part, const Mesh& blank, const std::vector<double>& widths = {});
+  /// Some triangles of a part, which need not be closed, in the blank of another.
+  MeshClearance(const Mesh& part, const MeshClearance& other);
 
   [[nodiscard]] const TriangleTree& part() const noexcept { return part_; }
-  [[nodiscard]] const TriangleTree& blank() const noexcept { return blank_; }
+  [[nodiscard]] const TriangleTree& blank() const noexcept { return blank_->tree; }
 
   /// The nearest pair, or none if all are `most` apart or more; rounding may let one of these be given. `low`
   /// holds for all pairs. It is within 2^-41 of the largest coordinate of `high` unless a triangle is very
@@ -54,20 +57,29 @@ class MeshClearance {
   /// part is in the blank, and a point of each of the blank is not in the part. Where they cross it may say
   /// either.
   [[nodiscard]] bool inside(const Motion& blank_from_part) const;
+  /// The first half of that.
+  [[nodiscard]] bool part_in_blank(const Motion& blank_from_part) const;
 
  private:
   struct Walk;
+  struct Blank {
+    Blank(const Mesh& blank, const std::vector<double>& widths);
 
-  TriangleTree part_, blank_;
-  /// The boxes of the trees' nodes.
-  std::vector<OrientedBox> part_boxes_, blank_boxes_;
-  /// The widths of the blank's triangles in leaf order, and the widest of each of its nodes; both empty
-  /// without widths.
-  std::vector<double> width_, widest_;
+    TriangleTree tree;
+    std::vector<OrientedBox> boxes;  ///< of the tree's nodes
+    /// The widths of its triangles in leaf order, and the widest of each node; both empty without widths.
+    std::vector<double> width, widest;
+    /// A vertex of each surface that hangs together.
+    std::vector<Vector> points;
+  };
+  MeshClearance(const Mesh& part, std::shared_ptr<const Blank> blank);
+
+  TriangleTree part_;
+  std::vector<OrientedBox> part_boxes_;
   /// The roots of the pieces.
   std::vector<std::uint32_t> pieces_;
-  /// A vertex of each surface that hangs together.
-  std::vector<Vector> of_part_, of_blank_;
+  std::vector<Vector> of_part_;
+  std::shared_ptr<const Blank> blank_;
 };
 
 /// A vertex of each piece of the surface that hangs together by its vertices.

@@ -19,6 +19,8 @@ struct Nearest {
 
 /// The corners of a triangle by their places.
 using Corners = std::array<Vector, 3>;
+/// The distance of p from a triangle, within rounding, mm.
+[[nodiscard]] double distance(const Corners& triangle, Vector p) noexcept;
 
 /// A balanced tree over the triangles of a mesh. It asks for distances and for inside and outside; what it
 /// answers does not depend on anything but its arguments. Building: O(n log n); 150 bytes a triangle.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "feature_words.hpp"
 #include "io/shape/region_reader.hpp"
 #include "io/text/json_form.hpp"
 #include "lekalo/base/joined_text.hpp"
@@ -16,6 +17,8 @@
 namespace lekalo::io {
 namespace {
 
+using detail::is_index;
+using detail::is_word;
 using detail::JsonKind;
 using detail::JsonValue;
 using locate::Feature;
@@ -42,12 +45,7 @@ class FeatureReader {
     LEKALO_CHECK(length(json, "target", [&](double v) { spec.demand.target = v; }));
     LEKALO_CHECK(length(json, "maximum", [&](double v) { spec.demand.maximum = v; }));
     LEKALO_CHECK(length(json, "finished", [&](double v) { spec.demand.finished = v; }));
-    if (const auto scale = json.find("scale")) {
-      constexpr double kMost = limits::kLargestFactor;
-      if (!scale->is_number() || !(scale->number() >= 1 / kMost && scale->number() <= kMost))
-        return refuse(where_, fmt::format("\"scale\" must be a number from {:g} to {:g}", 1 / kMost, kMost));
-      spec.demand.scale = scale->number();
-    }
+    LEKALO_CHECK(detail::take_scale(json, where_, [&](double v) { spec.demand.scale = v; }));
     if (spec.demand.maximum && !(*spec.demand.maximum > spec.demand.minimum))
       return refuse(where_, fmt::format("\"maximum\" {} mm is not above the minimum of {} mm",
                                         *spec.demand.maximum, spec.demand.minimum));
@@ -62,23 +60,11 @@ class FeatureReader {
 
   template <class Take>
   Result<void> length(JsonValue json, const char* key, Take take) const {
-    const auto said = json.find(key);
-    if (!said || said->kind() == JsonKind::null) return {};
-    if (!said->is_number() || !(said->number() >= 0))
-      return refuse(where_, fmt::format("\"{}\" must be a length that is not negative", key));
-    const double mm = scale_ * said->number();
-    if (!(mm <= limits::kLargestCoordinate))
-      return refuse(where_, fmt::format("\"{}\" is {} mm; demands go up to {:g} mm", key, mm,
-                                        limits::kLargestCoordinate));
-    take(mm);
-    return {};
+    return detail::take_length(json, key, scale_, where_, take);
   }
   void at(std::string where) { where_ = std::move(where); }
 
  private:
-  static bool is_word(JsonValue value) { return value.kind() == JsonKind::text && !value.text().empty(); }
-  static bool is_index(JsonValue value) { return value.kind() == JsonKind::integer && value.integer() >= 0; }
-
   Result<void> select(JsonValue json, FeatureSpec& spec) const {
     const auto edges = json.find("edges"), contour = json.find("contour"), label = json.find("label");
     if (edges.has_value() + contour.has_value() + label.has_value() != 1)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 
 namespace lekalo::io {
 namespace {
@@ -23,6 +22,12 @@ const char* name_of(SolidTerm::Kind kind) {
       return "face";
     case SolidTerm::Kind::edges:
       return "edges";
+    case SolidTerm::Kind::point:
+      return "point";
+    case SolidTerm::Kind::point_plane:
+      return "point_plane";
+    case SolidTerm::Kind::point_face:
+      return "point_face";
     case SolidTerm::Kind::part_face:
       break;
   }
@@ -31,22 +36,23 @@ const char* name_of(SolidTerm::Kind kind) {
 
 void write(JsonWriter& json, Vector v, double number) { json.list({v.x, v.y, v.z, number}); }
 
-/// The number in the file of what a term is made of: of a triangle, or of an edge, which has another place in
-/// a triangle that is turned round.
-std::uint32_t number_in_file(SolidTerm::Kind kind, SolidTerm::Kind of_triangles, std::uint32_t number,
-                             std::span<const std::uint32_t> triangles, const std::vector<bool>& turned) {
-  if (kind == of_triangles) return triangles[number];
+/// The number in the file of what a term is made of: of a triangle, or of an edge.
+std::uint32_t number_in_file(SolidTerm::Kind kind, bool is_triangle, std::uint32_t number,
+                             const std::vector<std::uint32_t>& triangles, const std::vector<bool>& turned) {
+  if (is_triangle) return triangles[number];
   if (kind != SolidTerm::Kind::edges) return number;
-  const std::uint32_t triangle = number / 3, side = number % 3;
-  return 3 * triangles[triangle] + (turned[triangle] ? 2 - side : side);
+  // A triangle that was turned round has its last two corners the other way in its file.
+  const std::uint32_t triangle = number / 3, edge = number % 3;
+  return 3 * triangles[triangle] + (turned[triangle] ? 2 - edge : edge);
 }
 
 void write(JsonWriter& json, const SolidTerm& term, const SolidNumbers& numbers) {
+  const SolidTerm::Kind kind = term.kind;
+  const bool over_blank = kind == SolidTerm::Kind::face || kind == SolidTerm::Kind::point_face;
   json.list(
-      {name_of(term.kind),
-       number_in_file(term.kind, SolidTerm::Kind::part_face, term.part, numbers.part, numbers.part_turned),
-       number_in_file(term.kind, SolidTerm::Kind::face, term.blank, numbers.blank, numbers.blank_turned),
-       term.multiplier});
+      {name_of(kind),
+       number_in_file(kind, kind == SolidTerm::Kind::part_face, term.part, numbers.part, numbers.part_turned),
+       number_in_file(kind, over_blank, term.blank, numbers.blank, numbers.blank_turned), term.multiplier});
 }
 
 void write(JsonWriter& json, const SolidTree& tree, const SolidTree::Node& node,
@@ -77,6 +83,12 @@ void write_solid_certificate(JsonWriter& json, const locate::SolidProof& proof, 
                                 [&](const locate::SolidBall& b) { write(json, b.centre, b.radius); });
   };
   balls("part_balls", proof.part_balls);
+  // A file without demands has none, and not the word either.
+  if (!proof.part_points.empty())
+    json.key("part_points").list_of_lines(proof.part_points, 4, 2, [&](const locate::SolidPoint& p) {
+      const bool turned = numbers.part_turned[p.triangle];
+      json.list({numbers.part[p.triangle], turned ? p.v : p.u, turned ? p.u : p.v});
+    });
   balls("blank_balls", proof.blank_balls);
   json.key("planes").list_of_lines(proof.planes, 4, 2,
                                    [&](const locate::SolidPlane& p) { write(json, p.normal, p.least); });

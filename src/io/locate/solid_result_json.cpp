@@ -60,6 +60,26 @@ void write(JsonWriter& json, const SolidScanRecord& scan) {
   json.end();
 }
 
+void write(JsonWriter& json, const SolidFeature& feature) {
+  std::optional<double> minimum, scale;
+  if (feature.demand) minimum = feature.demand->minimum, scale = feature.demand->scale;
+  json.object({{"name", feature.name},
+               {"triangles", feature.triangles.size()},
+               {"minimum", minimum},
+               {"scale", scale},
+               {"as_cast", !feature.demand}});
+}
+
+void write(JsonWriter& json, const SolidDemandRecord& demands) {
+  std::optional<double> gap;
+  if (demands.margin && demands.margin_bound)
+    gap = difference_rounded_up(*demands.margin_bound, *demands.margin);
+  json.begin_object().field("minimum", demands.minimum);
+  list_of_lines(json.key("features"), demands.features, [&](const SolidFeature& one) { write(json, one); });
+  json.fields({{"margin", demands.margin}, {"margin_bound", demands.margin_bound}, {"margin_gap", gap}})
+      .end();
+}
+
 void write_head(JsonWriter& json, const SolidDocument& d) {
   line_of(json, "format").object({{"name", "lekalo-locate"}, {"version", 1}});
   lines(json, {{"status", d.status}, {"units", "mm"}});
@@ -84,6 +104,7 @@ void write_placement(JsonWriter& json, const SolidDocument& d) {
                {"gap", gap},
                {"min_allowance", d.min_allowance},
                {"shortfall", d.shortfall()}});
+  if (d.demands) write(line_of(json, "demands"), *d.demands);
   list_of_lines(line_of(json, "contacts"), d.contacts,
                 [&](const locate::SolidTouch& one) { write(json, one); });
   line_of(json, "scan");
@@ -113,6 +134,7 @@ void write_proof(JsonWriter& json, const SolidDocument& d) {
 
 std::optional<double> SolidDocument::shortfall() const noexcept {
   if (!clearance) return std::nullopt;
+  if (demands) return std::max(0.0, 0.0 - *demands->margin);
   return std::max(0.0, difference_rounded_up(min_allowance, *clearance));
 }
 

@@ -44,16 +44,19 @@ std::vector<io::SolidInputRecord> input_records(const SolidLocateJob& job, const
     record.unit = in.meshed->unit, record.points = in.meshed->points;
     records.push_back(std::move(record));
   }
-  for (const auto& [role, file] :
-       {std::pair{"start", &job.start}, {"nc", &job.program}, {"allow", &job.allow}})
+  for (const auto& [role, file] : {std::pair{"start", &job.start},
+                                   {"features", &job.features},
+                                   {"nc", &job.program},
+                                   {"allow", &job.allow}})
     if (*file) records.push_back(record_of(role, **file));
   return records;
 }
 
 void warn_of_names(const SolidLocateJob& job, std::vector<std::string>& warnings) {
   const auto name_of_file = [](const std::optional<File>& file) { return file ? file->name : std::string(); };
-  for (const std::string& name : {job.part.name, job.blank.name, name_of_file(job.start),
-                                  name_of_file(job.program), job.outputs.certificate, job.outputs.program})
+  for (const std::string& name :
+       {job.part.name, job.blank.name, name_of_file(job.start), name_of_file(job.features),
+        name_of_file(job.program), job.outputs.certificate, job.outputs.program})
     if (const auto warning = warning_of_name(name)) warnings.push_back(*warning);
 }
 
@@ -75,15 +78,27 @@ void warn_of_start(const SolidInputs& in, std::vector<std::string>& warnings) {
           out, axis, p.shift));
 }
 
-/// Takes off a clearance what the decimals of the pose lose: they are within half a last place of the doubles
-/// whose clearance this is, and so is what they do to any point of the part.
-std::optional<double> safe_clearance(const locate::SolidPlacement& found, const SolidInputs& in) {
-  if (!found.inside) return std::nullopt;
+/// The decimals of a pose are within half a last place of the doubles whose clearance is known, and so is
+/// what they do to any point of the part: mm.
+double decimals_lose(const locate::SolidPlacement& found, const SolidInputs& in) {
   double far = norm(found.pose.shift);
   for (const Vector p : in.problem.part.vertices) far = std::max(far, norm(p));
-  const double safe = difference_rounded_down(found.clearance, 0x1p-49 * far);
+  return 0x1p-49 * far;
+}
+
+std::optional<double> safe_clearance(const locate::SolidPlacement& found, const SolidInputs& in) {
+  if (!found.inside) return std::nullopt;
+  const double safe = difference_rounded_down(found.clearance, decimals_lose(found, in));
   if (!(safe > 0)) return std::nullopt;
   return safe;
+}
+
+/// A margin has lost as much as the smallest scale makes of it.
+double safe_margin(const locate::SolidPlacement& found, const SolidInputs& in) {
+  double least_scale = 1;
+  for (const auto& demand : in.problem.demands)
+    if (demand) least_scale = std::min(least_scale, demand->scale);
+  return difference_rounded_down(found.margin, (1 + 0x1p-50) * decimals_lose(found, in) / least_scale);
 }
 
 /// The findings of a method. One that proves nothing has neither bound nor proof.
@@ -95,7 +110,8 @@ struct Found {
 };
 
 Result<Found> found_by_method(const SolidInputs& in, const SolidLocateOptions& o, const RunControl& run) {
-  const locate::SolidOptions how{o.gap, o.min_allowance, o.threads, run};
+  // Margins are counted from what is demanded.
+  const locate::SolidOptions how{o.gap, in.demands ? 0 : o.min_allowance, o.threads, run};
   Found found;
   switch (o.method) {
     case SolidMethod::climb: {
@@ -163,6 +179,7 @@ Result<verify::LocateReport> rechecked(const SolidLocateJob& job, const SolidInp
   if (made.document.nc) inputs.written_program = verify::Document{job.outputs.program, made.program};
   std::string with_proof;
   if (!made.certificate.empty()) inputs.certificate = {"certificate", made.certificate};
+  if (job.features) inputs.features = {job.features->name, job.features->bytes};
   if (inputs.certificate && !made.document.certificate_file) {
     io::SolidDocument document = made.document;
     document.certificate_file = io::FileRecord{"certificate", io::sha256(made.certificate)};
@@ -182,8 +199,9 @@ Result<void> self_check(const SolidLocateJob& job, const SolidInputs& in, Locate
     made.result = io::result_json(made.document);
     report = rechecked(job, in, made);
   }
-  return held_against(report,
-                      made.document.upper_bound ? verify::Verdict::confirmed : verify::Verdict::unproved);
+  const bool proved = made.document.demands ? made.document.demands->margin_bound.has_value()
+                                            : made.document.upper_bound.has_value();
+  return held_against(report, proved ? verify::Verdict::confirmed : verify::Verdict::unproved);
 }
 
 Result<Found> searched(const SolidInputs& in, const SolidLocateOptions& o, const RunControl& run,
@@ -208,7 +226,14 @@ io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&
   d.work = found.best.work, d.freedom = job.options.freedom;
   d.window = {in.problem.start, in.pivot, job.options.shift, in.turn_deg};
   d.pose = found.best.pose, d.clearance = safe_clearance(found.best, in);
-  d.upper_bound = found.upper_bound, d.min_allowance = job.options.min_allowance;
+  d.min_allowance = job.options.min_allowance;
+  d.demands = std::move(in.demands);
+  if (d.demands) {
+    d.demands->margin_bound = found.upper_bound;
+    if (d.inside()) d.demands->margin = safe_margin(found.best, in);
+  } else {
+    d.upper_bound = found.upper_bound;
+  }
   d.scan = in.scan;
   d.status = found.status;
   if (d.status == io::name_of(locate::Status::optimal) && !d.inside())

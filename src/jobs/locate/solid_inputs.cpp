@@ -55,15 +55,6 @@ Result<void> close_solid(const File& file, io::SolidFile parsed, solid::Mesh& me
   return {};
 }
 
-Result<void> read_part(const SolidLocateJob& job, SolidInputs& in) {
-  LEKALO_TRY(io::SolidFile parsed, io::parse_solid(job.part.bytes, job.part.name, {job.options.units}));
-  if (parsed.mesh.triangles.empty() && !parsed.mesh.vertices.empty())
-    return refuse_points(job.part.name, "export the part as STL, PLY or OBJ with triangles");
-  in.notices.insert(in.notices.end(), parsed.notices.begin(), parsed.notices.end());
-  return close_solid(job.part, std::move(parsed), in.problem.part, in.problem.part_coordinate_error, in.part,
-                     in.notices);
-}
-
 /// A blank of points is meshed first; so is one whose mesh does not close, from its corners, if that has a
 /// name.
 Result<void> read_blank(const SolidLocateJob& job, SolidInputs& in) {
@@ -93,6 +84,33 @@ Result<void> read_blank(const SolidLocateJob& job, SolidInputs& in) {
                            in.problem.blank_coordinate_error, in.blank, unsaid));
   in.problem.blank_coordinate_error = parsed.coordinate_error;
   return {};
+}
+
+/// Finds the triangles of each feature in the part as its file has them.
+Result<void> read_features(const SolidLocateJob& job, const io::SolidFile& part, SolidInputs& in) {
+  if (!job.features) return {};
+  LEKALO_TRY(const io::SolidFeatureFile file,
+             io::parse_solid_features(job.features->bytes, job.features->name, job.options.units));
+  io::SolidDemandRecord& demands = in.demands.emplace();
+  demands.minimum = std::max(job.options.min_allowance, file.minimum.value_or(0));
+  LEKALO_TRY(demands.features, io::find_solid_features(file, part));
+  return {};
+}
+
+/// Gives the triangles that were placed the demands of their features.
+Result<void> set_demands(const SolidLocateJob& job, SolidInputs& in) {
+  if (!in.demands) return {};
+  std::vector<std::optional<locate::SolidDemand>> of_file(in.part.triangles,
+                                                          locate::SolidDemand{in.demands->minimum, 1});
+  for (const io::SolidFeature& feature : in.demands->features)
+    for (const std::uint32_t t : feature.triangles) of_file[t] = feature.demand;
+  for (const std::uint32_t number : in.part.numbers) in.problem.demands.push_back(of_file[number]);
+  const auto& demands = in.problem.demands;
+  if (std::any_of(demands.begin(), demands.end(), [](const auto& one) { return one.has_value(); })) return {};
+  return failure(ErrorCode::bad_input,
+                 fmt::format("{}: all of the part is as cast, so no placement is better than another; leave "
+                             "triangles that demand an allowance",
+                             job.features->name));
 }
 
 Result<void> read_start(const std::optional<File>& file, SolidPose& start) {
@@ -173,6 +191,17 @@ Result<void> read_scan(const SolidScanOptions& how, SolidInputs& in) {
   p.blank_widths = std::move(made.widths);
   p.blank_width_error = made.width_error;
   return {};
+}
+
+Result<void> read_part(const SolidLocateJob& job, SolidInputs& in) {
+  LEKALO_TRY(io::SolidFile parsed, io::parse_solid(job.part.bytes, job.part.name, {job.options.units}));
+  if (parsed.mesh.triangles.empty() && !parsed.mesh.vertices.empty())
+    return refuse_points(job.part.name, "export the part as STL, PLY or OBJ with triangles");
+  in.notices.insert(in.notices.end(), parsed.notices.begin(), parsed.notices.end());
+  LEKALO_CHECK(read_features(job, parsed, in));
+  LEKALO_CHECK(close_solid(job.part, std::move(parsed), in.problem.part, in.problem.part_coordinate_error,
+                           in.part, in.notices));
+  return set_demands(job, in);
 }
 
 }  // namespace

@@ -39,6 +39,8 @@ struct SolidInputs {
   std::vector<std::uint32_t> left_out;
   std::optional<io::SolidScanRecord> scan;
   std::vector<std::uint32_t> unknown;  ///< triangles of the scan that no assumption covers
+  /// The demands of a file of features, without what comes of them.
+  std::optional<io::SolidDemandRecord> demands;
   std::vector<std::string> notices;
 };
 

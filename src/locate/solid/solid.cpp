@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -24,6 +25,26 @@ constexpr double kClimbGain = 1e-5;
 bool finite(Vector v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 double first_trust(const SolidProblem& problem) { return 0.5 * std::max(problem.shift, 1e-3); }
+
+Result<void> check_demands(const SolidProblem& problem) {
+  const auto& demands = problem.demands;
+  if (demands.size() != problem.part.triangles.size())
+    return failure(ErrorCode::usage, fmt::format("there are {} demands for the part's {} triangles",
+                                                 demands.size(), problem.part.triangles.size()));
+  for (const auto& demand : demands)
+    if (demand &&
+        (!(demand->minimum >= 0) || !(demand->minimum <= limits::kLargestCoordinate) ||
+         !(demand->scale >= 1 / limits::kLargestFactor) || !(demand->scale <= limits::kLargestFactor)))
+      return failure(
+          ErrorCode::usage,
+          fmt::format("a demand of {} mm in units of {} makes no sense: the minimum must be a number "
+                      "from 0 to {:g}, the scale one from {:g} to {:g}",
+                      demand->minimum, demand->scale, limits::kLargestCoordinate, 1 / limits::kLargestFactor,
+                      limits::kLargestFactor));
+  if (std::none_of(demands.begin(), demands.end(), [](const auto& demand) { return demand.has_value(); }))
+    return failure(ErrorCode::usage, "all of the part is as cast, so nothing is to be maximised");
+  return {};
+}
 
 }  // namespace
 
@@ -59,6 +80,7 @@ Result<void> check(const SolidProblem& problem, const SolidOptions& options) {
     return failure(ErrorCode::usage,
                    fmt::format("widths that are off by {} mm must be off by a number from 0 to {:g}",
                                problem.blank_width_error, limits::kLargestCoordinate));
+  if (!problem.demands.empty()) LEKALO_CHECK(check_demands(problem));
   double square = 0;
   for (const double q : problem.start.quaternion) square += q * q;
   if (!(square > 1e-6) || !(square < 1e6) || !finite(problem.start.shift) ||
@@ -95,9 +117,9 @@ SolidPlacement placement(const SolidMeter& meter, const FramedPose& found) {
   const Motion turn = motion_of({made.pose.quaternion, {}});
   made.pose.shift = found.at - turn.turned(meter.frame().pivot);
   const Motion motion = motion_of(made.pose);
-  const double least = meter.clearance().nearest(motion)->low - meter.part_error() - meter.blank_error();
-  made.inside = least > 0 && meter.clearance().inside(motion);
-  made.clearance = made.inside ? least : 0;
+  const MeasuredPose there = meter.measure(motion);
+  made.inside = there.inside;
+  if (made.inside) made.clearance = there.clearance, made.margin = there.margin;
   return made;
 }
 
@@ -134,7 +156,7 @@ Result<SolidResult> locate_solid(const SolidProblem& problem, const SolidOptions
   result.boxes = search.boxes();
   result.upper_bound = search.upper();
   result.proof = search.proof();
-  const bool closed = result.best.inside && result.upper_bound - result.best.clearance <= options.gap;
+  const bool closed = result.best.inside && result.upper_bound - result.best.margin <= options.gap;
   result.status = search.finished() && closed ? Status::optimal : Status::stopped;
   if (result.upper_bound < options.min_allowance) result.status = Status::infeasible;
   return result;

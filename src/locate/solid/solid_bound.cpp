@@ -203,6 +203,53 @@ std::optional<SolidFace> SolidBounds::face(const Side& side, std::uint32_t trian
   return made;
 }
 
+/// Makes the part's point of contact known, as a certificate can name it.
+void SolidBounds::set_point(const SolidContact& contact, KnownSolid& made) const {
+  // Places on a triangle are whole numbers of this part of its sides, which decimals hold.
+  constexpr double kSteps = 1e9;
+  const auto& t = part_.mesh.triangles[contact.demanded_triangle];
+  const Vector from = part_.mesh.vertices[t[0]], a = part_.mesh.vertices[t[1]] - from,
+               b = part_.mesh.vertices[t[2]] - from, w = contact.part - from;
+  const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), whole = aa * bb - ab * ab;
+  const auto share = [&](double of) { return whole > 0 ? std::clamp(of / whole, 0.0, 1.0) : 0; };
+  const double u = std::round(kSteps * share(bb * dot(a, w) - ab * dot(b, w))),
+               v = std::min(std::round(kSteps * share(aa * dot(b, w) - ab * dot(a, w))), kSteps - u);
+  made.on_part = {contact.demanded_triangle, u / kSteps, v / kSteps};
+  made.demand = contact.demand;
+  const Vector place = from + made.on_part.u * a + made.on_part.v * b;
+  made.point = {{place, 0}, start_.turned(place - meter_.frame().pivot), off(part_, place)};
+}
+
+/// No bound of the margin is below this where a term holds only if the allowance is not below another.
+/// Without a demand it is that of any.
+double SolidBounds::least_margin(double allowance, const SolidDemand* demand) const {
+  const auto of = [allowance](const SolidDemand& d) {
+    // The rounding of the demand counts.
+    return (allowance - d.minimum + kRounding * d.minimum) / d.scale;
+  };
+  if (demand != nullptr) return of(*demand);
+  double least = -kInfinity;
+  for (const SolidDemand& one : meter_.demands()) least = std::max(least, of(one));
+  return least;
+}
+
+double SolidBounds::most(const PoseForm& sum, const PoseForm& open, const CellView& cell) const {
+  if (!(open.size > 0)) return sum.most(cell);
+  // The least demand asks for less than a straight line would, so each step is below the bound, or there.
+  SolidDemand least = meter_.least_demand(0);
+  double most = -kInfinity;
+  for (std::size_t step = 0; step <= meter_.demands().size(); ++step) {
+    PoseForm all = open;
+    all.take_off(least);
+    all.add(1, sum);
+    most = std::max(most, all.most(cell));
+    const SolidDemand& next = meter_.least_demand(most);
+    if (next == least) break;
+    least = next;
+  }
+  return most;
+}
+
 /// The two edges on which the points of a contact lie.
 std::optional<SolidEdges> SolidBounds::edges(const SolidContact& contact) const {
   if (contact.part_triangle == kNoTriangle) return std::nullopt;
@@ -237,15 +284,18 @@ std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const 
   const Vector n = contact.normal;
   KnownSolid made;
   const auto seen = [&](Vector p) { return start_.turned(p - meter_.frame().pivot); };
-  for (const SolidBall& one : balls(part_, contact.part, motion.turned_back(n)))
-    made.part.push_back({one, seen(one.centre)});
+  if (meter_.has_demands()) set_point(contact, made);
+  // Balls in the part count with the least demand, so where more is asked for they say little.
+  if (meter_.whole() && made.demand == meter_.least_demand(0))
+    for (const SolidBall& one : balls(part_, contact.part, motion.turned_back(n)))
+      made.part.push_back({one, seen(one.centre)});
   made.blank = balls(blank_, contact.blank, -n);
   if (contact.blank_triangle != kNoTriangle) {
     // The largest width of neighbours counts here, and beside the surface the smallest.
     const double within = meter_.width(contact.blank_triangle) - 4 * off(blank_, contact.blank);
     if (within > 0) made.blank.insert(made.blank.begin(), {contact.blank, within});
   }
-  if (made.part.empty() || made.blank.empty()) return std::nullopt;
+  if ((made.part.empty() && !made.point) || made.blank.empty()) return std::nullopt;
   made.part_face = face(part_, contact.part_triangle);
   made.blank_face = face(blank_, contact.blank_triangle);
   made.edges = edges(contact);
@@ -272,31 +322,53 @@ std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const 
 
 std::optional<SolidForm> SolidBounds::form(const KnownSolid& known, SolidChoice choice,
                                            const CellView& cell) const {
+  auto made = form_of_allowance(known, choice, cell);
+  if (!made) return std::nullopt;
+  const bool of_ball = choice.kind == SolidTerm::Kind::ball || choice.kind == SolidTerm::Kind::plane ||
+                       choice.kind == SolidTerm::Kind::face;
+  const SolidDemand* const demand = !of_ball                      ? &known.demand
+                                    : meter_.demands().size() > 1 ? nullptr
+                                                                  : &meter_.demands().front();
+  if (made->least > -kInfinity) made->least = least_margin(made->least, demand);
+  made->open = demand == nullptr;
+  if (demand != nullptr) made->form.take_off(*demand), made->scale = demand->scale;
+  return made;
+}
+
+/// The form bounds the allowance, unless that is below `least`.
+std::optional<SolidForm> SolidBounds::form_of_allowance(const KnownSolid& known, SolidChoice choice,
+                                                        const CellView& cell) const {
+  const bool of_point = choice.kind == SolidTerm::Kind::point ||
+                        choice.kind == SolidTerm::Kind::point_plane ||
+                        choice.kind == SolidTerm::Kind::point_face;
   switch (choice.kind) {
-    case SolidTerm::Kind::ball: {
-      const KnownSolid::PartBall& part = known.part[choice.part];
+    case SolidTerm::Kind::ball:
+    case SolidTerm::Kind::point: {
+      const KnownSolid::PartBall& part = of_point ? *known.point : known.part[choice.part];
       const SolidBall& blank = known.blank[choice.blank];
       const double l = norm(cell.turned.turned(part.seen) + cell.middle.at - blank.centre);
       if (!(l > kRounding * cell.far)) return std::nullopt;
-      return SolidForm{distance(part.seen, blank.centre, l, part.ball.radius + blank.radius, cell),
-                       -blank.radius};
+      return SolidForm{distance(part.seen, blank.centre, l, part.radius() + blank.radius, cell),
+                       of_point ? -kInfinity : -blank.radius};
     }
-    case SolidTerm::Kind::plane: {
-      const KnownSolid::PartBall& part = known.part[choice.part];
-      return SolidForm{height(known.plane.normal, part.seen, known.plane.least + part.ball.radius, cell),
+    case SolidTerm::Kind::plane:
+    case SolidTerm::Kind::point_plane: {
+      const KnownSolid::PartBall& part = of_point ? *known.point : known.part[choice.part];
+      return SolidForm{height(known.plane.normal, part.seen, known.plane.least + part.radius(), cell),
                        -kInfinity};
     }
-    case SolidTerm::Kind::face: {
-      const KnownSolid::PartBall& part = known.part[choice.part];
+    case SolidTerm::Kind::face:
+    case SolidTerm::Kind::point_face: {
+      const KnownSolid::PartBall& part = of_point ? *known.point : known.part[choice.part];
       const SolidFace& f = *known.blank_face;
       const Vector p = part.seen, w = cell.turned.turned(p) + cell.middle.at - f.corner[0];
       const Vector n = dot(f.normal, w) < 0 ? -f.normal : f.normal;
-      const double least = dot(n, f.corner[0]);
-      if (!height(n, p, least + f.loss, cell).never_negative(cell)) return std::nullopt;
+      const double least = dot(n, f.corner[0]), loss = f.loss + part.loss;
+      if (!height(n, p, least + loss, cell).never_negative(cell)) return std::nullopt;
       for (std::size_t k = 0; k < 3; ++k)
-        if (!height(f.inward[k], p, dot(f.inward[k], f.corner[k]) + f.loss, cell).never_negative(cell))
+        if (!height(f.inward[k], p, dot(f.inward[k], f.corner[k]) + loss, cell).never_negative(cell))
           return std::nullopt;
-      return SolidForm{height(n, p, least + part.ball.radius + f.width - f.loss, cell), 0};
+      return SolidForm{height(n, p, least + part.radius() + f.width - f.loss, cell), 0};
     }
     case SolidTerm::Kind::edges:
       return form_of(*known.edges, cell);
@@ -323,32 +395,39 @@ std::optional<SolidRow> SolidBounds::row(const KnownSolid& known, const CellView
     double level = kInfinity;
     SolidChoice choice;
   };
-  Best plain, face, part_face, edges;
+  Best plain, face, part_face, edges, point, point_face;
+  using Kind = SolidTerm::Kind;
   const auto take = [](Best& best, double level, SolidChoice choice) {
     if (level < best.level) best = {level, choice};
   };
-  for (std::uint16_t i = 0; i < known.part.size(); ++i) {
-    const double radius = known.part[i].ball.radius;
-    const Vector p = cell.turned.turned(known.part[i].seen), place = p + at;
+  const auto look = [&](const KnownSolid::PartBall& part, std::uint16_t i, std::array<Kind, 3> kinds,
+                        Best& free, Best& over_face) {
+    const double radius = part.radius();
+    const Vector p = cell.turned.turned(part.seen), place = p + at;
     const double far = norm(p), moves = slide + 2 * y * far;
     const double along = dot(known.plane.normal, p);
-    take(plain, along + dot(known.plane.normal, at) - radius - known.plane.least + y * y * (far - along),
-         {SolidTerm::Kind::plane, i, 0});
+    take(free, along + dot(known.plane.normal, at) - radius - known.plane.least + y * y * (far - along),
+         {kinds[1], i, 0});
     for (std::uint16_t j = 0; j < known.blank.size(); ++j) {
       const Vector w = place - known.blank[j].centre;
       const double distance = norm(w), bent = y * y * (far - dot(w, p) / std::max(distance, 1e-300));
-      take(plain,
+      take(free,
            distance - radius - known.blank[j].radius + std::min(moves, moves * moves / (2 * distance) + bent),
-           {SolidTerm::Kind::ball, i, j});
+           {kinds[0], i, j});
     }
-    if (!known.blank_face) continue;
+    if (!known.blank_face) return;
     const SolidFace& f = *known.blank_face;
     const auto over = [&](std::size_t k) { return dot(f.inward[k], place - f.corner[k]) > 0; };
-    if (!over(0) || !over(1) || !over(2)) continue;
+    if (!over(0) || !over(1) || !over(2)) return;
     const double above = dot(f.normal, place - f.corner[0]);
-    take(face, std::abs(above) - radius - f.width + y * y * (far - std::copysign(dot(f.normal, p), above)),
-         {SolidTerm::Kind::face, i, 0});
-  }
+    take(over_face,
+         std::abs(above) - radius - f.width + y * y * (far - std::copysign(dot(f.normal, p), above)),
+         {kinds[2], i, 0});
+  };
+  for (std::uint16_t i = 0; i < known.part.size(); ++i)
+    look(known.part[i], i, {Kind::ball, Kind::plane, Kind::face}, plain, face);
+  if (known.point)
+    look(*known.point, 0, {Kind::point, Kind::point_plane, Kind::point_face}, point, point_face);
   if (known.part_face) {
     const SolidFace& f = *known.part_face;
     for (std::uint16_t j = 0; j < known.blank.size(); ++j) {
@@ -364,12 +443,19 @@ std::optional<SolidRow> SolidBounds::row(const KnownSolid& known, const CellView
   }
   if (known.edges) edges = {0, {SolidTerm::Kind::edges, 0, 0}};
   std::optional<SolidRow> chosen;
-  for (const Best& best : {plain, face, part_face, edges}) {
+  for (const Best& best : {plain, face, part_face, edges, point, point_face}) {
     if (!(best.level < kInfinity)) continue;
-    const auto term = form(known, best.choice, cell);
+    auto term = form(known, best.choice, cell);
     if (!term) continue;
+    if (term->open) {
+      // The least demand at what is left of the least at 0 is good enough here.
+      PoseForm at_first = term->form;
+      at_first.take_off(meter_.least_demand(0));
+      const SolidDemand& demand = meter_.least_demand(at_first.tangent(cell).level);
+      term->form.take_off(demand), term->scale = demand.scale;
+    }
     const LinearBound<6> tangent = term->form.tangent(cell);
-    if (!chosen || tangent.level < chosen->bound.level) chosen = {tangent, best.choice};
+    if (!chosen || tangent.level < chosen->bound.level) chosen = {tangent, best.choice, term->scale};
   }
   return chosen;
 }

@@ -34,8 +34,15 @@ struct KnownSolid {
   struct PartBall {
     SolidBall ball;
     solid::Vector seen;  ///< its centre from the pivot, turned as at the start
+    double loss = 0;     ///< its centre may be off by this, mm
+    [[nodiscard]] double radius() const { return ball.radius - loss; }
   };
   std::vector<PartBall> part;
+  /// The part's point of contact itself, a ball of radius 0, where triangles have demands; and the demand
+  /// there.
+  std::optional<PartBall> point;
+  SolidPoint on_part;
+  SolidDemand demand;
   std::vector<SolidBall> blank;
   SolidPlane plane;
   std::optional<SolidFace> part_face, blank_face;
@@ -48,16 +55,21 @@ struct SolidChoice {
   std::uint16_t part = 0, blank = 0;
 };
 
-/// A term over a box. It bounds the clearance, and so does a sum of terms with multipliers, unless the bound
-/// is below `least` of one of them.
+/// A term over a box. It bounds the margin, and so does a sum of terms with multipliers, unless the bound is
+/// below `least` of one of them.
 struct SolidForm {
   PoseForm form;
   double least = 0;
+  /// True where there are several demands, and that of the term is the least at the bound: then the form is
+  /// one of the allowance, from which the demand is still to be taken.
+  bool open = false;
+  double scale = 1;  ///< of the demand
 };
 
 struct SolidRow {
-  LinearBound<6> bound;
+  LinearBound<6> bound;  ///< of the margin
   SolidChoice choice;
+  double scale = 1;  ///< of the demand
 };
 
 /// Makes contacts known, and terms of them for boxes of poses (docs/formats.md, "Certificate of solids"). Its
@@ -74,6 +86,8 @@ class SolidBounds {
   /// A term for a box, or none where it does not hold all over it.
   [[nodiscard]] std::optional<SolidForm> form(const KnownSolid& known, SolidChoice choice,
                                               const CellView& cell) const;
+  /// The bound of a sum of terms, of which some are open.
+  [[nodiscard]] double most(const PoseForm& sum, const PoseForm& open, const CellView& cell) const;
 
  private:
   /// A mesh and its balls.
@@ -90,6 +104,10 @@ class SolidBounds {
                                              solid::Vector direction) const;
   [[nodiscard]] std::optional<SolidFace> face(const Side& side, std::uint32_t triangle) const;
   [[nodiscard]] std::optional<SolidEdges> edges(const SolidContact& contact) const;
+  [[nodiscard]] std::optional<SolidForm> form_of_allowance(const KnownSolid& known, SolidChoice choice,
+                                                           const CellView& cell) const;
+  void set_point(const SolidContact& contact, KnownSolid& made) const;
+  [[nodiscard]] double least_margin(double allowance, const SolidDemand* demand) const;
 
   const SolidMeter& meter_;
   std::vector<double> none_;

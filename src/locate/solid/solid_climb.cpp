@@ -19,8 +19,9 @@ constexpr int kMostTries = 3;
 constexpr std::size_t kContacts = 64;
 
 LinearBound<6> row_of(const SolidFrame& frame, const Motion& motion, const SolidContact& contact) {
-  const Vector n = contact.normal, g = 1 / frame.reach * cross(motion.turned(contact.part - frame.pivot), n);
-  return {{n.x, n.y, n.z, g.x, g.y, g.z}, contact.distance};
+  const Vector n = 1 / contact.demand.scale * contact.normal,
+               g = 1 / frame.reach * cross(motion.turned(contact.part - frame.pivot), n);
+  return {{n.x, n.y, n.z, g.x, g.y, g.z}, contact.margin()};
 }
 
 /// The pairs of triangles that were near at some pose, in the order of their numbers.
@@ -65,11 +66,11 @@ MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trus
     if (rows.empty()) break;
     const LinearSolution<6> solution = solve_cell(rows, frame.trusted(trust));
     if (!(solution.bound > best.value + enough)) break;
-    MeasuredSolid next =
-        meter.measure(frame.moved(best.pose, solution.z), std::max(solution.bound, enough), kContacts, there);
+    MeasuredSolid next = meter.measure(frame.moved(best.pose, solution.z),
+                                       std::max(solution.bound, meter.floor() + enough), kContacts, there);
     work += 2;
     const bool added = add(pool, there);
-    if (next.value > best.value) {
+    if (next.better_than(best)) {
       const double gained = next.value - best.value, hoped = solution.bound - best.value;
       best = next;
       here = there;
@@ -88,7 +89,7 @@ std::vector<SolidTouch> holding_contacts(const SolidMeter& meter, const Measured
   const SolidFrame& frame = meter.frame();
   const Motion motion = frame.motion(at.pose);
   std::vector<SolidContact> contacts;
-  (void)meter.measure(at.pose, std::max(at.value, 0.0) + within, kContacts, contacts);
+  (void)meter.measure(at.pose, std::max(at.value, meter.floor()) + within, kContacts, contacts);
   std::vector<SolidTouch> touches;
   if (contacts.empty()) return touches;
   std::vector<LinearBound<6>> rows;

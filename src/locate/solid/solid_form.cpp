@@ -126,6 +126,18 @@ void PoseForm::add(double factor, const PoseForm& other) noexcept {
   size += factor * other.size;
 }
 
+void PoseForm::take_off(const SolidDemand& demand) noexcept {
+  if (demand == SolidDemand{}) return;
+  constant -= demand.minimum * whole;
+  size += demand.minimum * whole;
+  whole *= demand.scale;
+  for (std::size_t i = 0; i < 3; ++i) {
+    turned[i] = turned[i] - demand.minimum * whole_turned[i];
+    size += demand.minimum * norm(whole_turned[i]);
+    whole_turned[i] = demand.scale * whole_turned[i];
+  }
+}
+
 double PoseForm::most(const CellView& cell) const {
   double most = -kInfinity;
   coefficients(*this, cell, [&](double value, double scale, Vector, const auto&) {

@@ -50,6 +50,8 @@ struct PoseForm {
   double size = 0;
 
   void add(double factor, const PoseForm& other) noexcept;
+  /// Makes a term of the allowance one of the margin.
+  void take_off(const SolidDemand& demand) noexcept;
 
   /// The least bound for which the term is nowhere in the box above 0; infinite if there is none.
   [[nodiscard]] double most(const CellView& cell) const;

@@ -1,6 +1,10 @@
 #include "solid_meter.hpp"
 
 #include <limits>
+#include <map>
+#include <utility>
+
+#include "lekalo/base/disjoint_sets.hpp"
 
 namespace lekalo::locate {
 namespace {
@@ -18,20 +22,53 @@ constexpr double kNoDirection = 0x1p-40;
 /// The square root of 3, rounded up: how far a point is off at most for each of its coordinates.
 constexpr double kDiagonal = 1.7321;
 
-/// Vertices as far from each other as can be: each is the farthest from those before.
-std::vector<Vector> spread_vertices(const solid::Mesh& mesh) {
-  std::vector<Vector> chosen;
-  std::vector<double> apart(mesh.vertices.size(), std::numeric_limits<double>::infinity());
+/// Points as far from each other as can be: each is the farthest from those before. Returns their numbers.
+std::vector<std::size_t> spread(const std::vector<Vector>& points) {
+  std::vector<std::size_t> chosen;
+  std::vector<double> apart(points.size(), std::numeric_limits<double>::infinity());
   std::size_t next = 0;
-  while (chosen.size() < std::min(kSamples, mesh.vertices.size())) {
-    chosen.push_back(mesh.vertices[next]);
+  while (chosen.size() < std::min(kSamples, points.size())) {
+    chosen.push_back(next);
     for (std::size_t k = 0; k < apart.size(); ++k) {
-      const Vector way = mesh.vertices[k] - chosen.back();
+      const Vector way = points[k] - points[next];
       apart[k] = std::min(apart[k], dot(way, way));
     }
     next = static_cast<std::size_t>(std::max_element(apart.begin(), apart.end()) - apart.begin());
   }
   return chosen;
+}
+
+/// The triangles with these numbers, and the vertices that they have.
+solid::Mesh part_of(const solid::Mesh& mesh, const std::vector<std::uint32_t>& numbers) {
+  std::vector<std::uint32_t> becomes(mesh.vertices.size(), kNoTriangle);
+  solid::Mesh made;
+  for (const std::uint32_t number : numbers) {
+    solid::Triangle t = mesh.triangles[number];
+    for (std::uint32_t& v : t) {
+      if (becomes[v] == kNoTriangle) {
+        becomes[v] = static_cast<std::uint32_t>(made.vertices.size());
+        made.vertices.push_back(mesh.vertices[v]);
+      }
+      v = becomes[v];
+    }
+    made.triangles.push_back(t);
+  }
+  return made;
+}
+
+/// The vertices of each surface that hangs together by its vertices.
+std::vector<std::vector<Vector>> surfaces(const solid::Mesh& mesh) {
+  DisjointSets sets(mesh.vertices.size());
+  for (const solid::Triangle& t : mesh.triangles) sets.join(t[0], t[1]), sets.join(t[0], t[2]);
+  std::map<std::uint32_t, std::vector<Vector>> made;
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) made[sets.of(v)].push_back(mesh.vertices[v]);
+  std::vector<std::vector<Vector>> all;
+  for (auto& [first, vertices] : made) all.push_back(std::move(vertices));
+  return all;
+}
+
+SolidDemand demand_in(const std::vector<std::optional<SolidDemand>>& demands, std::uint32_t triangle) {
+  return demands.empty() ? SolidDemand{} : *demands[triangle];
 }
 
 }  // namespace
@@ -42,20 +79,71 @@ SolidMeter::SolidMeter(const SolidProblem& problem, const SolidFrame& frame)
       blank_(problem.blank),
       widths_(problem.blank_widths),
       clearance_(problem.part, problem.blank, problem.blank_widths),
-      of_part_(spread_vertices(problem.part)),
-      of_blank_(spread_vertices(problem.blank)),
+      demand_of_(problem.demands),
       part_error_(kDiagonal * problem.part_coordinate_error),
       blank_error_(kDiagonal * problem.blank_coordinate_error),
       width_error_(problem.blank_width_error) {
+  sort_by_demand();
+  of_part_ = samples_of_part();
+  for (const std::size_t v : spread(blank_.vertices)) of_blank_.push_back(blank_.vertices[v]);
   if (!widths_.empty()) narrowest_ = *std::min_element(widths_.begin(), widths_.end());
   far_ = 2 * (clearance_.part().largest() + clearance_.blank().largest()) + norm(frame.window.middle().at) +
          norm(frame.window.half().at);
+}
+
+void SolidMeter::sort_by_demand() {
+  if (!has_demands()) {
+    demands_.emplace_back();
+    return;
+  }
+  std::map<std::pair<double, double>, std::vector<std::uint32_t>> numbers;
+  for (std::uint32_t t = 0; t < demand_of_.size(); ++t) {
+    if (demand_of_[t])
+      numbers[{demand_of_[t]->minimum, demand_of_[t]->scale}].push_back(t);
+    else
+      whole_ = false;
+  }
+  floor_ = kInfinity;
+  demanded_at_.assign(part_.vertices.size(), kNoTriangle);
+  for (auto& [key, of_demand] : numbers) {
+    const SolidDemand demand{key.first, key.second};
+    demands_.push_back(demand);
+    floor_ = std::min(floor_, -demand.minimum / demand.scale);
+    for (const std::uint32_t t : of_demand)
+      for (const std::uint32_t v : part_.triangles[t]) demanded_at_[v] = t;
+    solid::MeshClearance clearance(part_of(part_, of_demand), clearance_);
+    demanded_.push_back({demand, std::move(of_demand), std::move(clearance)});
+  }
+  blank_surfaces_ = surfaces(blank_);
+}
+
+std::vector<SolidMeter::Sample> SolidMeter::samples_of_part() const {
+  std::vector<Sample> all;
+  for (std::uint32_t v = 0; v < part_.vertices.size(); ++v) {
+    const std::uint32_t triangle = has_demands() ? demanded_at_[v] : kNoTriangle;
+    if (!has_demands() || triangle != kNoTriangle) all.push_back({part_.vertices[v], triangle});
+  }
+  std::vector<Vector> places;
+  for (const Sample& sample : all) places.push_back(sample.place);
+  std::vector<Sample> chosen;
+  for (const std::size_t k : spread(places)) chosen.push_back(all[k]);
+  return chosen;
+}
+
+const SolidDemand& SolidMeter::least_demand(double margin) const {
+  const auto asks_less = [margin](const SolidDemand& a, const SolidDemand& b) {
+    return a.minimum + a.scale * margin < b.minimum + b.scale * margin;
+  };
+  return demands_.size() == 1 ? demands_.front()
+                              : *std::min_element(demands_.begin(), demands_.end(), asks_less);
 }
 
 SolidContact SolidMeter::contact(const Motion& motion, const NearPair& pair) const {
   const Vector out = pair.part - pair.blank;
   const double distance = norm(out);
   SolidContact made{motion.back(pair.part), pair.blank, {}, 0, pair.part_triangle, pair.blank_triangle};
+  if (has_demands())
+    made.demanded_triangle = pair.part_triangle, made.demand = *demand_of_[pair.part_triangle];
   if (distance > kNoDirection * far_) made.normal = 1 / distance * out;
   made.distance = distance - width(pair.blank_triangle);
   return made;
@@ -69,48 +157,141 @@ SolidContact SolidMeter::contact(const Motion& motion, std::uint32_t part_triang
 MeasuredSolid SolidMeter::measure(const FramedPose& pose, double most, std::size_t count,
                                   std::vector<SolidContact>& contacts) const {
   const Motion motion = frame_.motion(pose);
-  std::vector<NearPair> pairs;
+  std::vector<NearPair> pairs = nearest(motion, most, count);
   const double error = part_error_ + blank_error_;
-  clearance_.nearest_by_piece(motion, most + error, count, pairs);
   contacts.clear();
   MeasuredSolid measured{pose, most, true};
-  for (const NearPair& pair : pairs) measured.value = std::min(measured.value, pair.low - error);
+  double apart = kInfinity;
+  for (const NearPair& pair : pairs) {
+    const auto& [minimum, scale] = demand_in(demand_of_, pair.part_triangle);
+    apart = std::min(apart, pair.low - error);
+    measured.value = std::min(measured.value, (pair.low - error - minimum) / scale);
+  }
   for (const NearPair& pair : pairs) {
     const SolidContact made = contact(motion, pair);
     if (made.directed()) contacts.push_back(made);
   }
-  measured.inside = measured.value > 0 && clearance_.inside(motion);
+  measured.inside = apart > 0 && inside(motion);
   if (measured.inside) return measured;
   add_crossings(motion, pairs, contacts);
   measured.value = -kNoDirection * far_;
-  for (const SolidContact& made : contacts) measured.value = std::min(measured.value, made.distance);
+  for (const SolidContact& made : contacts) measured.value = std::min(measured.value, made.margin());
   return measured;
+}
+
+std::vector<NearPair> SolidMeter::nearest(const Motion& motion, double most, std::size_t count) const {
+  std::vector<NearPair> pairs;
+  const double error = part_error_ + blank_error_;
+  if (!has_demands()) {
+    clearance_.nearest_by_piece(motion, most + error, count, pairs);
+    return pairs;
+  }
+  std::vector<NearPair> of_demand;
+  for (const Demanded& one : demanded_) {
+    // Even where no margin is asked for, all has to be apart.
+    const double far = std::max(one.demand.minimum + one.demand.scale * most, 0.0);
+    one.clearance.nearest_by_piece(motion, far + error, count, of_demand);
+    for (NearPair& pair : of_demand) {
+      pair.part_triangle = one.numbers[pair.part_triangle];
+      pairs.push_back(pair);
+    }
+  }
+  const auto margin = [&](const NearPair& pair) {
+    const auto& [minimum, scale] = *demand_of_[pair.part_triangle];
+    return (pair.high - minimum) / scale;
+  };
+  // Pairs that cross come first, for which nothing makes up.
+  std::stable_sort(pairs.begin(), pairs.end(), [&](const NearPair& a, const NearPair& b) {
+    const bool crosses = a.low <= error, other = b.low <= error;
+    return crosses != other ? crosses : margin(a) < margin(b);
+  });
+  if (pairs.size() > count) pairs.resize(count);
+  return pairs;
+}
+
+MeasuredPose SolidMeter::measure(const Motion& motion) const {
+  const double error = part_error_ + blank_error_;
+  MeasuredPose made;
+  if (!has_demands()) {
+    made.clearance = made.margin = clearance_.nearest(motion)->low - error;
+  } else {
+    made.clearance = made.margin = kInfinity;
+    for (const Demanded& one : demanded_) {
+      const double least = one.clearance.nearest(motion)->low - error;
+      const double margin = (least - one.demand.minimum) / one.demand.scale;
+      made.clearance = std::min(made.clearance, least);
+      // A quotient, a difference and two decimals are rounded.
+      made.margin = std::min(
+          made.margin,
+          margin - 0x1p-50 * (std::abs(margin) + (std::abs(least) + one.demand.minimum) / one.demand.scale));
+    }
+  }
+  made.inside = made.clearance > 0 && inside(motion);
+  return made;
+}
+
+/// Says where the surfaces of what has a demand are apart from the blank's if it lies in the blank, and no
+/// surface of the blank in the part.
+bool SolidMeter::inside(const Motion& motion) const {
+  if (!has_demands()) return clearance_.inside(motion);
+  const auto lies_outside = [&](Vector q) { return !clearance_.part().holds(motion.back(q)); };
+  return std::all_of(demanded_.begin(), demanded_.end(),
+                     [&](const Demanded& one) { return one.clearance.part_in_blank(motion); }) &&
+         std::all_of(blank_surfaces_.begin(), blank_surfaces_.end(), [&](const auto& vertices) {
+           return std::any_of(vertices.begin(), vertices.end(), lies_outside);
+         });
+}
+
+SolidContact SolidMeter::foremost(const Motion& motion, Vector normal) const {
+  SolidContact made;
+  made.normal = normal;
+  if (!has_demands()) {
+    made.part = *std::min_element(part_.vertices.begin(), part_.vertices.end(), [&](Vector a, Vector b) {
+      return dot(normal, motion(a)) < dot(normal, motion(b));
+    });
+    return made;
+  }
+  double least = kInfinity;
+  for (std::uint32_t v = 0; v < part_.vertices.size(); ++v) {
+    if (demanded_at_[v] == kNoTriangle) continue;
+    const SolidDemand demand = *demand_of_[demanded_at_[v]];
+    const double margin = (dot(normal, motion(part_.vertices[v])) - demand.minimum) / demand.scale;
+    if (margin >= least) continue;
+    least = margin;
+    made.part = part_.vertices[v], made.demanded_triangle = demanded_at_[v], made.demand = demand;
+  }
+  return made;
 }
 
 void SolidMeter::add_crossings(const Motion& motion, const std::vector<NearPair>& pairs,
                                std::vector<SolidContact>& contacts) const {
   std::vector<SolidContact> crossing;
-  const auto add = [&](Vector part, Vector blank, double depth) {
+  const auto add = [&](Vector part, Vector blank, double depth, std::uint32_t triangle) {
     if (!(depth > kNoDirection * far_)) return;
-    crossing.push_back({part, blank, 1 / depth * (blank - motion(part)), -depth, kNoTriangle, kNoTriangle});
+    SolidContact made{part, blank, 1 / depth * (blank - motion(part)), -depth, kNoTriangle, kNoTriangle};
+    if (has_demands()) made.demanded_triangle = triangle, made.demand = *demand_of_[triangle];
+    crossing.push_back(made);
   };
-  const auto sticks_out = [&](Vector a) {
+  const auto sticks_out = [&](Vector a, std::uint32_t triangle) {
     const Vector q = motion(a);
     if (clearance_.blank().holds(q)) return;
     const auto near = clearance_.blank().nearest(q);
-    add(a, near->place, norm(q - near->place));
+    add(a, near->place, norm(q - near->place), triangle);
   };
   const auto sticks_in = [&](Vector b) {
     const Vector p = motion.back(b);
     if (!clearance_.part().holds(p)) return;
     const auto near = clearance_.part().nearest(p);
-    add(near->place, b, norm(p - near->place));
+    // A triangle that is as cast may touch and cross.
+    if (has_demands() && !demand_of_[near->triangle]) return;
+    add(near->place, b, norm(p - near->place), near->triangle);
   };
-  for (const Vector a : of_part_) sticks_out(a);
+  for (const Sample& sample : of_part_) sticks_out(sample.place, sample.triangle);
   for (const Vector b : of_blank_) sticks_in(b);
   for (const NearPair& pair : pairs) {
     if (pair.low > 0) continue;
-    for (const std::uint32_t k : part_.triangles[pair.part_triangle]) sticks_out(part_.vertices[k]);
+    for (const std::uint32_t k : part_.triangles[pair.part_triangle])
+      sticks_out(part_.vertices[k], pair.part_triangle);
     for (const std::uint32_t k : blank_.triangles[pair.blank_triangle]) sticks_in(blank_.vertices[k]);
   }
   const auto deeper = [](const SolidContact& a, const SolidContact& b) {

@@ -20,16 +20,29 @@ struct SolidContact {
   double distance = 0;
   /// The pair of triangles, or kNoTriangle where they cross.
   std::uint32_t part_triangle = kNoTriangle, blank_triangle = kNoTriangle;
+  /// A triangle that has the part's point, and its demand, if there are demands.
+  std::uint32_t demanded_triangle = kNoTriangle;
+  SolidDemand demand = {};
+  [[nodiscard]] double margin() const { return (distance - demand.minimum) / demand.scale; }
   /// False where the two points are too near to each other to give a normal.
   [[nodiscard]] bool directed() const { return !(normal == solid::Vector{}); }
 };
 
-/// The objective at one pose: where the part is inside, a bound from below of the clearance, whatever the
+/// The objective at one pose: where the part is inside, a bound from below of the margin, whatever the
 /// coordinates may be off. Elsewhere it is how deep points stick out, which says in which direction to go and
 /// no more.
 struct MeasuredSolid {
   FramedPose pose;
   double value = 0;
+  bool inside = false;
+  [[nodiscard]] bool better_than(const MeasuredSolid& other) const {
+    return inside != other.inside ? inside : value > other.value;
+  }
+};
+
+/// The least allowance and the least margin at one pose, whatever the coordinates may be off.
+struct MeasuredPose {
+  double clearance = 0, margin = 0;
   bool inside = false;
 };
 
@@ -55,17 +68,46 @@ class SolidMeter {
   /// No width is smaller, mm, and none is above the true one by more than the error.
   [[nodiscard]] double narrowest() const noexcept { return narrowest_; }
   [[nodiscard]] double width_error() const noexcept { return width_error_; }
+  /// Says if triangles have demands of their own.
+  [[nodiscard]] bool has_demands() const noexcept { return !demand_of_.empty(); }
+  /// True if no triangle is as cast.
+  [[nodiscard]] bool whole() const noexcept { return whole_; }
+  /// The demands, each once; the only one is 0 where there are none.
+  [[nodiscard]] const std::vector<SolidDemand>& demands() const noexcept { return demands_; }
+  /// The one that asks for the least allowance at a margin.
+  [[nodiscard]] const SolidDemand& least_demand(double margin) const;
+  /// No pose that is inside has less margin: allowances are above 0 there.
+  [[nodiscard]] double floor() const noexcept { return floor_; }
 
-  /// Measures at a pose. Where the part is inside and all is `most` apart or more, the value is at least
-  /// `most`, and nothing more is known. The contacts are the nearest ones of `count` pieces of the part, less
-  /// than `most` apart, and where part and blank cross the deepest points of either in the other.
+  /// Measures at a pose. Where the part is inside and all has the margin `most` or more, the value is at
+  /// least `most`, and nothing more is known. The contacts are those with the least margins of `count` pieces
+  /// of the part, less than `most`, and where part and blank cross the deepest points of either in the other.
   [[nodiscard]] MeasuredSolid measure(const FramedPose& pose, double most, std::size_t count,
                                       std::vector<SolidContact>& contacts) const;
+  [[nodiscard]] MeasuredPose measure(const solid::Motion& motion) const;
+  /// The contact of the part's foremost point against a normal, and nothing of the blank. With demands it is
+  /// the one with the least margin over a half-space there.
+  [[nodiscard]] SolidContact foremost(const solid::Motion& motion, solid::Vector normal) const;
   /// The contact of two triangles at a pose.
   [[nodiscard]] SolidContact contact(const solid::Motion& motion, std::uint32_t part_triangle,
                                      std::uint32_t blank_triangle) const;
 
  private:
+  /// The triangles of the part that have one demand.
+  struct Demanded {
+    SolidDemand demand;
+    std::vector<std::uint32_t> numbers;  ///< of its triangles among all
+    solid::MeshClearance clearance;
+  };
+  struct Sample {
+    solid::Vector place;
+    std::uint32_t triangle = kNoTriangle;  ///< one that has it, if there are demands
+  };
+  void sort_by_demand();
+  [[nodiscard]] std::vector<Sample> samples_of_part() const;
+  [[nodiscard]] std::vector<solid::NearPair> nearest(const solid::Motion& motion, double most,
+                                                     std::size_t count) const;
+  [[nodiscard]] bool inside(const solid::Motion& motion) const;
   void add_crossings(const solid::Motion& motion, const std::vector<solid::NearPair>& pairs,
                      std::vector<SolidContact>& contacts) const;
   [[nodiscard]] SolidContact contact(const solid::Motion& motion, const solid::NearPair& pair) const;
@@ -74,8 +116,19 @@ class SolidMeter {
   const solid::Mesh &part_, &blank_;
   const std::vector<double>& widths_;
   solid::MeshClearance clearance_;
+  const std::vector<std::optional<SolidDemand>>& demand_of_;
+  bool whole_ = true;
+  double floor_ = 0;
+  std::vector<SolidDemand> demands_;
+  /// None where triangles have no demands of their own.
+  std::vector<Demanded> demanded_;
+  /// With demands: the vertices of each surface of the blank that hangs together; and of each vertex of the
+  /// part the triangle that demands most of those that have it.
+  std::vector<std::vector<solid::Vector>> blank_surfaces_;
+  std::vector<std::uint32_t> demanded_at_;
   /// Vertices spread over the surfaces.
-  std::vector<solid::Vector> of_part_, of_blank_;
+  std::vector<Sample> of_part_;
+  std::vector<solid::Vector> of_blank_;
   double far_ = 0, part_error_, blank_error_, width_error_, narrowest_ = 0;
 };
 

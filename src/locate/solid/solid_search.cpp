@@ -61,14 +61,12 @@ void SolidSearch::meet_first() {
       climb(meter_, start, size(meter_.frame().window), kWorthClimbing * options_.gap, options_.run, work_);
   for (double Vector::*const axis : kAxes)
     for (const double side : {-1.0, 1.0}) {
-      SolidContact contact;
-      contact.normal.*axis = side;
-      const auto before = [&](Vector a, Vector b) { return side * a.*axis < side * b.*axis; };
+      Vector normal;
+      normal.*axis = side;
+      SolidContact contact = meter_.foremost(motion, normal);
       const auto& of_blank = meter_.blank().vertices;
-      const auto& of_part = meter_.part().vertices;
-      contact.blank = *std::min_element(of_blank.begin(), of_blank.end(), before);
-      contact.part = *std::min_element(of_part.begin(), of_part.end(),
-                                       [&](Vector a, Vector b) { return before(motion(a), motion(b)); });
+      contact.blank = *std::min_element(of_blank.begin(), of_blank.end(),
+                                        [&](Vector a, Vector b) { return side * a.*axis < side * b.*axis; });
       contacts.push_back(contact);
     }
   for (const SolidContact& contact : contacts)
@@ -90,15 +88,15 @@ void SolidSearch::bound(Node& node, Found& found) const {
     return k < known_.size() ? known_[k] : found.known[k - known_.size()];
   };
   const auto proved = [&](const std::vector<Term>& terms) {
-    PoseForm sum;
+    PoseForm sum, open;
     double least = -kInfinity;
     for (const Term& term : terms) {
       const auto one = bounds_.form(known(term.known), term.choice, view);
       if (!one) return kInfinity;
-      sum.add(term.multiplier / kWhole, one->form);
+      (one->open ? open : sum).add(term.multiplier / kWhole, one->form);
       least = std::max(least, one->least);
     }
-    return std::max(least, sum.most(view));
+    return std::max(least, bounds_.most(sum, open, view));
   };
   std::vector<SolidRow> rows;
   std::vector<std::uint32_t> of_row;
@@ -121,13 +119,19 @@ void SolidSearch::bound(Node& node, Found& found) const {
       solution = solve_cell(program, view.half);
       ++found.work;
       terms.clear();
+      // A row is a term in units of its demand's scale.
+      std::array<double, 7> shares{};
+      double all = 0;
       for (std::size_t j = 0; j < solution.rows; ++j)
-        if (const double share = std::round(kWhole * solution.multiplier[j]); share > 0)
+        all += shares[j] = solution.multiplier[j] / rows[solution.row[j]].scale;
+      if (!meter_.has_demands()) all = 1;
+      for (std::size_t j = 0; j < solution.rows; ++j)
+        if (const double share = std::round(kWhole * shares[j] / all); share > 0)
           terms.push_back(
               {of_row[solution.row[j]], rows[solution.row[j]].choice, static_cast<std::uint32_t>(share)});
       if (const double upper = proved(terms); upper < node.upper) node.upper = upper, node.terms = terms;
       // While no pose is inside, a box may yet prove that there is none.
-      if (closed(node.upper) && (best_.value > 0 || node.upper < options_.min_allowance)) return;
+      if (closed(node.upper) && (best_.inside || node.upper < options_.min_allowance)) return;
       const Steps& z = solution.z;
       const double turn = 0.5 / view.reach;
       pose = node.cell.held(
@@ -135,11 +139,11 @@ void SolidSearch::bound(Node& node, Found& found) const {
     }
     if (round == kRounds) break;
     const MeasuredSolid here =
-        meter_.measure(pose, std::max(solution.bound, options_.gap), kLooked, contacts);
+        meter_.measure(pose, std::max(solution.bound, meter_.floor() + options_.gap), kLooked, contacts);
     ++found.work;
-    if (here.value > found.best.value) found.best = here;
+    if (here.better_than(found.best)) found.best = here;
     std::stable_sort(contacts.begin(), contacts.end(),
-                     [](const SolidContact& a, const SolidContact& b) { return a.distance < b.distance; });
+                     [](const SolidContact& a, const SolidContact& b) { return a.margin() < b.margin(); });
     std::size_t added = 0;
     for (const SolidContact& contact : contacts) {
       if (added == kMostNew) break;
@@ -173,11 +177,11 @@ void SolidSearch::learn(Node& node, Found& found) {
   ++boxes_;
   work_ += found.work;
   for (KnownSolid& known : found.known) known_.push_back(std::move(known));
-  if (!(found.best.value > best_.value)) return;
+  if (!found.best.better_than(best_)) return;
   best_ = found.best;
   const MeasuredSolid climbed =
       climb(meter_, best_.pose, size(node.cell), kWorthClimbing * options_.gap, options_.run, work_);
-  if (climbed.value > best_.value) best_ = climbed;
+  if (climbed.better_than(best_)) best_ = climbed;
 }
 
 /// Halves a box along its widest side.
@@ -289,8 +293,9 @@ SolidProof SolidSearch::proof() const {
     wider(tree.low[3 + k], tree.high[3 + k], kOutwards * tree.high[3 + k]);
   }
   // Each ball and plane that is used has one place in its table, in the order of their first use.
+  using Kind = SolidTerm::Kind;
   using Key = std::array<double, 4>;
-  std::map<Key, std::uint32_t> part, blank, planes;
+  std::map<Key, std::uint32_t> part, points, blank, planes;
   const auto place = [](std::map<Key, std::uint32_t>& places, auto& table, const auto& one, Vector v,
                         double number) {
     const auto [at, added] =
@@ -301,24 +306,39 @@ SolidProof SolidSearch::proof() const {
   const auto term_of = [&](const Term& term) {
     const KnownSolid& known = known_[term.known];
     SolidTerm written{term.choice.kind, 0, 0, term.multiplier};
-    if (term.choice.kind == SolidTerm::Kind::edges) {
-      written.part = known.edges->part_edge;
-      written.blank = known.edges->blank_edge;
-      return written;
+    switch (term.choice.kind) {
+      case Kind::edges:
+        written.part = known.edges->part_edge;
+        written.blank = known.edges->blank_edge;
+        return written;
+      case Kind::part_face:
+        written.part = known.part_face->triangle;
+        break;
+      case Kind::point:
+      case Kind::point_plane:
+      case Kind::point_face: {
+        const SolidPoint& at = known.on_part;
+        written.part = place(points, made.part_points, at, {static_cast<double>(at.triangle), at.u, at.v}, 0);
+        break;
+      }
+      default: {
+        const SolidBall& ball = known.part[term.choice.part].ball;
+        written.part = place(part, made.part_balls, ball, ball.centre, ball.radius);
+      }
     }
-    if (term.choice.kind == SolidTerm::Kind::part_face) {
-      written.part = known.part_face->triangle;
-    } else {
-      const SolidBall& ball = known.part[term.choice.part].ball;
-      written.part = place(part, made.part_balls, ball, ball.centre, ball.radius);
-    }
-    if (term.choice.kind == SolidTerm::Kind::face) {
-      written.blank = known.blank_face->triangle;
-    } else if (term.choice.kind == SolidTerm::Kind::plane) {
-      written.blank = place(planes, made.planes, known.plane, known.plane.normal, known.plane.least);
-    } else {
-      const SolidBall& ball = known.blank[term.choice.blank];
-      written.blank = place(blank, made.blank_balls, ball, ball.centre, ball.radius);
+    switch (term.choice.kind) {
+      case Kind::face:
+      case Kind::point_face:
+        written.blank = known.blank_face->triangle;
+        break;
+      case Kind::plane:
+      case Kind::point_plane:
+        written.blank = place(planes, made.planes, known.plane, known.plane.normal, known.plane.least);
+        break;
+      default: {
+        const SolidBall& ball = known.blank[term.choice.blank];
+        written.blank = place(blank, made.blank_balls, ball, ball.centre, ball.radius);
+      }
     }
     return written;
   };

@@ -17,7 +17,7 @@ class SolidSearch {
   void run();
 
   [[nodiscard]] const MeasuredSolid& best() const noexcept { return best_; }
-  /// No pose of the window has more clearance.
+  /// No pose of the window has more margin.
   [[nodiscard]] double upper() const noexcept { return upper_; }
   [[nodiscard]] bool finished() const noexcept { return finished_; }
   [[nodiscard]] std::uint64_t work() const noexcept { return work_; }
@@ -56,7 +56,11 @@ class SolidSearch {
   [[nodiscard]] std::array<Node, 2> halves(const Node& node);
   void keep(const Node& node);
   [[nodiscard]] double size(const SolidCell& cell) const;
-  [[nodiscard]] bool closed(double upper) const { return upper <= std::max(best_.value, 0.0) + options_.gap; }
+  /// Says if a box with this bound need not be looked at any more.
+  [[nodiscard]] bool closed(double upper) const {
+    if (best_.inside) return upper <= best_.value + options_.gap;
+    return upper <= meter_.floor() + options_.gap || (meter_.has_demands() && upper < options_.min_allowance);
+  }
   void report(const SolidCell& closed_cell);
 
   const SolidMeter& meter_;

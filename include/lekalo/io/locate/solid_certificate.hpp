@@ -9,7 +9,8 @@
 
 namespace lekalo::io {
 
-/// The numbers of triangles in their files, and which of them are turned, as solid::ClosedMesh has them.
+/// The numbers of triangles in their files, and which are turned round, as solid::ClosedMesh has
+/// them.
 struct SolidNumbers {
   const std::vector<std::uint32_t>&part, &blank;
   const std::vector<bool>&part_turned, &blank_turned;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lekalo/io/locate/result_json.hpp"
+#include "lekalo/io/locate/solid_feature_file.hpp"
 #include "lekalo/io/solid/solid_file.hpp"
 #include "lekalo/locate/guaranteed_solid.hpp"
 #include "lekalo/locate/solid.hpp"
@@ -17,7 +18,7 @@ namespace lekalo::io {
 
 /// One file that the result was made from.
 struct SolidInputRecord {
-  std::string role;  ///< "part", "blank", "points", "start", "nc" or "allow"
+  std::string role;  ///< "part", "blank", "points", "start", "features", "nc" or "allow"
   FileRecord file;
   std::optional<SolidUnit> unit;  ///< of a solid, or of points
   std::size_t triangles = 0;      ///< of a solid
@@ -46,6 +47,16 @@ struct SolidScanRecord {
   [[nodiscard]] bool proved() const noexcept { return unknown_triangles == 0; }
 };
 
+/// The demands of triangles, and how well they are met.
+struct SolidDemandRecord {
+  double minimum = 0;  ///< of triangles of no feature, mm
+  std::vector<SolidFeature> features;
+  /// The least of (allowance - minimum) / scale, mm; none where the part is not inside.
+  std::optional<double> margin;
+  /// No pose of the window has more, mm; none of a method that proves nothing.
+  std::optional<double> margin_bound;
+};
+
 struct SolidDocument {
   std::string status;  ///< optimal, stopped, infeasible, unproved
   std::string method;  ///< certified, climb, icp, axes
@@ -55,11 +66,13 @@ struct SolidDocument {
   locate::SolidFreedom freedom = locate::SolidFreedom::six;
   SolidWindow window;
   locate::SolidPose pose;
-  /// The least allowance, mm. There is none where the part is not inside the blank.
+  /// The least allowance, of what has a demand, mm. There is none where the part is not inside the blank.
   std::optional<double> clearance;
-  /// There is none of a method that proves nothing, mm.
+  /// There is none of a method that proves nothing, and none with demands, mm.
   std::optional<double> upper_bound;
   double min_allowance = 0;
+  /// None without a file of features.
+  std::optional<SolidDemandRecord> demands;
   std::vector<locate::SolidTouch> contacts;
   /// Without one the blank is taken as drawn.
   std::optional<SolidScanRecord> scan;
@@ -68,7 +81,7 @@ struct SolidDocument {
   locate::SolidProof proof;
   /// The numbers of these triangles in their files.
   std::vector<std::uint32_t> part_numbers, blank_numbers;
-  /// They say which of them are turned round.
+  /// Says which of them are turned round.
   std::vector<bool> part_turned, blank_turned;
   std::optional<FileRecord> certificate_file;
   /// The boxes of the certificate, wherever it is.
@@ -79,7 +92,8 @@ struct SolidDocument {
   unsigned threads = 1;
 
   [[nodiscard]] bool inside() const noexcept { return clearance.has_value(); }
-  /// The rest that is missing of the demanded allowance, mm; none where the part is not inside.
+  /// The rest that is missing of the demanded allowance, or of the demands, mm; none where the part is not
+  /// inside.
   [[nodiscard]] std::optional<double> shortfall() const noexcept;
 };
 

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/io/solid/solid_file.hpp"
+#include "lekalo/locate/solid.hpp"
+
+namespace lekalo::io {
+
+/// Demands by face of a solid, as a file says them (docs/formats.md, "Features of solids").
+
+/// The triangles of a feature, as the file names them.
+struct SolidFeatureSpec {
+  struct Numbers {
+    std::vector<std::uint32_t> triangles;
+  };
+  struct Label {
+    std::string name;
+  };
+  /// Those about the triangle that is nearest to a point, up to edges where the surface bends.
+  struct Patch {
+    solid::Vector point;
+  };
+  struct Box {
+    solid::Vector low, high;
+  };
+  /// Those along the plane normal . p = at |normal|.
+  struct Plane {
+    solid::Vector normal;
+    double at = 0, within = 0;
+  };
+  std::string name;
+  std::variant<Numbers, Label, Patch, Box, Plane> which;
+  std::optional<locate::SolidDemand> demand;  ///< none: as cast
+};
+
+/// A file may have so many features.
+inline constexpr std::size_t kMostSolidFeatures = 1000;
+
+struct SolidFeatureFile {
+  std::string name;
+  std::vector<SolidFeatureSpec> features;
+  /// The minimum of all other triangles, mm.
+  std::optional<double> minimum;
+};
+
+/// `{"units", "minimum", "features": [{"name", "triangles" | "label" | "patch" | "box" | "plane", "minimum",
+/// "scale", "as_cast"}, ...]}`. `unit` applies where the file does not say.
+///
+/// Fails with ErrorCode::bad_input, naming file and feature: words it does not know, numbers out of range, a
+/// feature without exactly one of the five, a demand on what is as cast.
+[[nodiscard]] Result<SolidFeatureFile> parse_solid_features(std::string_view bytes, const std::string& name,
+                                                            std::optional<SolidUnit> unit);
+
+struct SolidFeature {
+  std::string name;
+  std::vector<std::uint32_t> triangles;       ///< as the part's file counts them, ascending
+  std::optional<locate::SolidDemand> demand;  ///< none: as cast
+};
+
+/// The features with their triangles in the file of a part. bad_input, naming the feature, for one that has
+/// none, for a triangle that two features have, and where rounding leaves open which triangles it has.
+/// Cost: O(n log n), and O(n) a feature.
+[[nodiscard]] Result<std::vector<SolidFeature>> find_solid_features(const SolidFeatureFile& file,
+                                                                    const SolidFile& part);
+
+}  // namespace lekalo::io

@@ -1,0 +1,133 @@
+// Demands by face: which triangles of a solid's file a feature has, and what is refused.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "lekalo/io/locate/solid_feature_file.hpp"
+#include "support/solid_cases.hpp"
+#include "support/solid_files.hpp"
+
+namespace lekalo::io::io_solid_features_test {
+namespace {
+
+using Numbers = std::vector<std::uint32_t>;
+
+SolidFile file_of(const solid::Mesh& mesh) {
+  return parse_solid(solid_files::stl_text(mesh), "part.stl").value();
+}
+
+/// A block; triangles 0 and 1 look down, 2 and 3 up, 4 and 5 to low y, 8 and 9 to low x.
+SolidFile block() { return file_of(cases::block({0, 0, 0}, {30, 20, 10})); }
+
+Result<std::vector<SolidFeature>> found(const std::string& features, const SolidFile& part,
+                                        std::optional<SolidUnit> unit = {}) {
+  auto file = parse_solid_features(features, "f.json", unit);
+  if (!file) return tl::unexpected(file.error());
+  return find_solid_features(*file, part);
+}
+
+/// The triangles of the only feature.
+Numbers triangles(const std::string& which, const SolidFile& part) {
+  const auto all = found(R"({"features": [{"name": "a", )" + which + "}]}", part);
+  EXPECT_TRUE(all) << all.error().message;
+  return all ? all->front().triangles : Numbers{};
+}
+
+std::string refusal(const std::string& features, const SolidFile& part = block()) {
+  const auto all = found(features, part);
+  return all ? "found" : all.error().message;
+}
+std::string refusal_of(const std::string& feature, const SolidFile& part = block()) {
+  return refusal(R"({"features": [{"name": "a", )" + feature + "}]}", part);
+}
+
+TEST(SolidFeatures, TrianglesAreNamedInFiveWays) {
+  EXPECT_EQ(triangles(R"("triangles": [5, 2, 5])", block()), (Numbers{2, 5}));
+  EXPECT_EQ(triangles(R"("patch": [14, 9, 12])", block()), (Numbers{2, 3}));
+  EXPECT_EQ(triangles(R"("box": [[0, 0, 0], [0, 20, 10]])", block()), (Numbers{8, 9}));
+  EXPECT_EQ(triangles(R"("plane": {"normal": [0, 0, 1], "at": 0, "within": 0})", block()), (Numbers{0, 1}));
+  EXPECT_EQ(triangles(R"("plane": {"normal": [0, 0, -2], "at": -10, "within": 0.25})", block()),
+            (Numbers{2, 3}));
+  SolidFile named = block();
+  named.groups = {"", "top"};
+  named.group_of_triangle = {0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0};
+  EXPECT_EQ(triangles(R"("label": "top")", named), (Numbers{2, 3}));
+}
+
+TEST(SolidFeatures, APatchEndsWhereTheSurfaceBends) {
+  // The sides of a prism of 24 bend by 15 degrees, those of one of 10 by 36.
+  const auto prism = [](std::uint32_t sides) {
+    return file_of(cases::turned({{0, 0}, {10, 0}, {10, 30}, {0, 30}}, sides, 0.1));
+  };
+  EXPECT_EQ(triangles(R"("patch": [11, 0.5, 14])", prism(24)).size(), 48u);
+  EXPECT_EQ(triangles(R"("patch": [11, 0.5, 14])", prism(10)).size(), 2u);
+  EXPECT_EQ(triangles(R"("patch": [1, 0.5, 31])", prism(24)).size(), 24u);
+}
+
+TEST(SolidFeatures, DemandsAndUnits) {
+  const auto all = found(
+      R"({"units": "inch", "minimum": 0.1, "features": [
+        {"name": "a", "triangles": [0], "minimum": 2, "scale": 0.5},
+        {"name": "b", "box": [[-1, -1, 0.39370], [2, 1, 0.39371]]},
+        {"name": "c", "triangles": [4], "as_cast": true}]})",
+      block());
+  ASSERT_TRUE(all) << all.error().message;
+  ASSERT_EQ(all->size(), 3u);
+  EXPECT_DOUBLE_EQ((*all)[0].demand->minimum, 50.8);
+  EXPECT_EQ((*all)[0].demand->scale, 0.5);
+  EXPECT_EQ((*all)[1].triangles, (Numbers{2, 3}));
+  EXPECT_EQ((*all)[1].demand, locate::SolidDemand{});
+  EXPECT_FALSE((*all)[2].demand);
+  const auto file = parse_solid_features(R"({"minimum": 0.1})", "f.json", SolidUnit::metre);
+  EXPECT_DOUBLE_EQ(file->minimum.value(), 100);
+}
+
+TEST(SolidFeatures, WhatCannotBeUnderstoodIsRefused) {
+  EXPECT_EQ(refusal(R"({"ignore": []})"),
+            R"(f.json: unknown word "ignore"; known here: units, minimum, features)");
+  EXPECT_EQ(refusal(R"({"units": "ft"})"), R"(f.json: "units" must be "mm", "inch" or "m")");
+  EXPECT_EQ(refusal(R"({"features": [{"triangles": [0]}]})"), R"(f.json, feature 0: "name" must be a text)");
+  EXPECT_EQ(refusal_of(R"("minimum": 1)"),
+            R"(f.json, feature "a": one of "triangles", "label", "patch", "box" and "plane" must say which )"
+            "triangles it has");
+  EXPECT_EQ(refusal_of(R"("triangles": [0], "label": "x")"), refusal_of(R"("minimum": 1)"));
+  EXPECT_EQ(refusal_of(R"("triangles": [12])"),
+            R"(f.json, feature "a": triangle 12 is not one of the part's 12)");
+  EXPECT_EQ(refusal_of(R"("label": "top")"),
+            R"(f.json, feature "a": no triangle of the part has the label "top"; there is: part)");
+  EXPECT_EQ(refusal_of(R"("box": [[0, 0, 1], [1, 1, 0]])"),
+            R"(f.json, feature "a": "box" has a low corner above its high one)");
+  EXPECT_EQ(refusal_of(R"("box": [[1, 1, 1], [2, 2, 2]])"),
+            R"(f.json, feature "a": no triangle of the part is of it)");
+  EXPECT_EQ(refusal_of(R"("plane": {"normal": [0, 0, 0], "at": 0, "within": 1})"),
+            R"(f.json, feature "a", plane: "normal" must be a direction [x, y, z])");
+  EXPECT_EQ(refusal_of(R"("triangles": [0], "minimum": -1)"),
+            R"(f.json, feature "a": "minimum" must be a length that is not negative)");
+  EXPECT_EQ(refusal_of(R"("triangles": [0], "scale": 0)"),
+            R"(f.json, feature "a": "scale" must be a number from 1e-06 to 1e+06)");
+  EXPECT_EQ(refusal_of(R"("triangles": [0], "scale": 2, "as_cast": true)"),
+            R"(f.json, feature "a": a feature that is as cast has no "scale")");
+  EXPECT_EQ(refusal(R"({"features": [{"name": "a", "triangles": [0, 1]}, {"name": "b", "triangles": [1]}]})"),
+            R"(f.json, feature "b": triangle 1 is also of the feature "a"; it can be of one)");
+}
+
+TEST(SolidFeatures, WhatRoundingLeavesOpenIsRefused) {
+  EXPECT_EQ(
+      refusal_of(R"("patch": [30, 20, 5])"),
+      R"(f.json, feature "a": (30, 20, 5) is as near to one patch as to another; give a point beside the )"
+      "middle of one");
+  EXPECT_EQ(
+      refusal_of(R"("plane": {"normal": [0, 0, 1], "at": 9.75, "within": 0.25})"),
+      R"(f.json, feature "a": the corner (0, 20, 10) is as far off the plane as "within" allows, as far as )"
+      "rounding lets that be told; say a little more or less");
+  // Twelve sides bend by 30 degrees.
+  EXPECT_NE(refusal_of(R"("patch": [9.9, 0, 14])", file_of(cases::turned({{0, 0}, {10, 0}, {10, 30}, {0, 30}},
+                                                                         12, std::numbers::pi / 12)))
+                .find("meet at 30 degrees, as far as rounding lets that be told"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace lekalo::io::io_solid_features_test
