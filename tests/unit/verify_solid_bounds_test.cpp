@@ -10,7 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "lekalo/base/stop.hpp"
 #include "support/solid_results.hpp"
+#include "support/verify_solids.hpp"
+#include "verify/solid/certificate_tables.hpp"
 
 namespace lekalo::verify::verify_solid_bounds_test {
 namespace {
@@ -49,8 +52,7 @@ void sticks_out(Json& result) {
   result["contacts"] = Json::array();
 }
 
-// ---- fields
-// ------------------------------------------------------------------------------------------------
+// ---- fields ----------------------------------------------------------------------------------------------
 
 TEST(SolidFields, NumbersFollowToTheLastDigitTheyAreComputedTo) {
   // 1e-15 of upper_bound and clearance together, here 2.5, is what rounding may have lost.
@@ -144,8 +146,7 @@ TEST(SolidFields, AContactIsOnATriangleThatCounts) {
   EXPECT_EQ(files.told(), "refuted; contact 0: part_point is not on triangle 0 of the part");
 }
 
-// ---- scans
-// -------------------------------------------------------------------------------------------------
+// ---- scans -----------------------------------------------------------------------------------------------
 
 /// Widths of exactly 0.5, so that the best clearance is 0.5.
 SolidResultFiles scanned(const Json& certificate = nullptr, double bound = 0.5) {
@@ -228,8 +229,17 @@ TEST(SolidScan, ABallMayReachExactlyThroughTheWidth) {
   EXPECT_TRUE(says(at(-0.5, 1.0000000000000002), "less its width"));
 }
 
-// ---- certificates
-// ------------------------------------------------------------------------------------------
+TEST(SolidScan, ABallMayLieInOneOfTwoWidths) {
+  // The triangles below are 0.25 wide, those beside them 0.5.
+  SolidResultFiles files = scanned(one_leaf(Json::array({{"ball", 0, 0, 1}}), Json::array({{0, 0, 0, 5}}),
+                                            Json::array({{6, 0, -6, 0.5}}), Json::array(), 0));
+  files.result["scan"]["underside"] = {{"z", -6}, {"flat", 0.25}};
+  EXPECT_FALSE(says(files.told(), "blank_balls"));
+  files.result["certificate"]["blank_balls"][0][3] = 0.5000000000000001;
+  EXPECT_TRUE(says(files.told(), "blank_balls[0] is not what it has to be: triangle"));
+}
+
+// ---- certificates ----------------------------------------------------------------------------------------
 
 Json by_planes() {
   return one_leaf(Json::array({{"plane", 0, 0, 1}, {"plane", 1, 1, 1}}),
@@ -360,9 +370,9 @@ TEST(SolidBounds, BallsOfNoRadiusArePointsToo) {
             "refuted; certificate.part_balls[0] is not what it has to be: its centre is not in the part");
 }
 
-TEST(SolidBounds, AHalfSpaceHoldsEachCornerOfTheBlank) {
-  // A blank whose extents all differ, so that no axis stands for another.
-  const std::array<double, 3> low{-6, -13, -27}, high{7, 14, 28};
+/// What is told of half-spaces at the ends of a blank whose extents all differ, so that no axis stands for
+/// another.
+void expect_half_spaces(const std::array<double, 3>& low, const std::array<double, 3>& high) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (const double sign : {-1.0, 1.0}) {
       const double level = sign > 0 ? low[axis] : -high[axis];
@@ -384,6 +394,60 @@ TEST(SolidBounds, AHalfSpaceHoldsEachCornerOfTheBlank) {
       EXPECT_TRUE(says(with(level + 1), "a corner of the blank's triangle")) << axis << sign;
       EXPECT_TRUE(says(with(level + 20), "a corner of the blank's triangle")) << axis << sign;
     }
+}
+
+TEST(SolidBounds, AHalfSpaceHoldsEachCornerOfTheBlank) {
+  expect_half_spaces({-6, -13, -27}, {28, 14, 7});
+  expect_half_spaces({-27, -13, -6}, {7, 14, 28});
+}
+
+/// A block whose faces are divided into squares of two triangles.
+solid::Mesh fine_block(double half, int count) {
+  solid::Mesh mesh;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-half, half})
+      for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j) {
+          const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+          for (const int k : {0, 1, 2, 3}) {
+            const double u = half * (2.0 * (i + k % 2) / count - 1),
+                         v = half * (2.0 * (j + k / 2) / count - 1);
+            mesh.vertices.push_back(axis == 0   ? solid::Vector{side, u, v}
+                                    : axis == 1 ? solid::Vector{u, side, v}
+                                                : solid::Vector{u, v, side});
+          }
+          mesh.triangles.push_back({first, first + 1, first + 2});
+          mesh.triangles.push_back({first + 1, first + 3, first + 2});
+        }
+  return mesh;
+}
+
+/// What is far from a ball or from a half-space is not looked at one by one.
+TEST(SolidBounds, BallsAndHalfSpacesOfAFineBlankTakeLittleWork) {
+  Json balls = Json::array(), planes = Json::array();
+  for (int k = 0; k < 30; ++k) {
+    balls.push_back({16, 0, 0.001 * k, 9.999});
+    planes.push_back({1, 0.001 * k, 0.002 * k, -6.5 - 0.1 * k});
+  }
+  const std::string text =
+      Json{{"part_balls", Json::array()}, {"blank_balls", balls}, {"planes", planes}}.dump();
+  const SolidMesh part = cases::checked(block({-5, -5, -5}, {5, 5, 5})),
+                  blank = cases::checked(fine_block(6, 16));
+  std::vector<std::string> findings;
+  std::string complaint;
+  CertificateTables tables(*parse_json(text, "tables"), part, blank, findings, complaint);
+  const auto takes_at_most = [](std::size_t work, const auto& act) {
+    RunControl run;
+    run.work_limit = work;
+    return stoppable(run, [&] { return act(), true; }).has_value();
+  };
+  EXPECT_TRUE(takes_at_most(9000, [&] {
+    for (std::size_t k = 0; k < 30; ++k) EXPECT_NE(tables.blank_ball(k), nullptr);
+  }));
+  EXPECT_TRUE(takes_at_most(1000, [&] {
+    for (std::size_t k = 0; k < 30; ++k) EXPECT_NE(tables.plane(k), nullptr);
+  }));
+  EXPECT_EQ(complaint, "");
 }
 
 TEST(SolidBounds, ACertificateStandsInOnePlace) {

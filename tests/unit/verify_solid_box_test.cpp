@@ -95,7 +95,10 @@ TEST(SolidBox, LittleIsLookedAt) {
     tip[axis] = -2;
     std::vector<Box3> other = row;
     for (Box3& box : other) box.low[axis] = -2 - box.low[axis] - 0.5, box.high[axis] = box.low[axis] + 0.5;
-    for (const std::vector<Box3>& its : {other, std::vector<Box3>{cube(tip[0], tip[1], tip[2], 0.25)}})
+    Near3 end = tip;
+    end[axis] = 1025;
+    for (const std::vector<Box3>& its : {other, std::vector<Box3>{cube(tip[0], tip[1], tip[2], 0.25)},
+                                         std::vector<Box3>{cube(end[0], end[1], end[2], 0.25)}})
       for (const bool swapped : {false, true}) {
         const BoxTree second(its);
         double limit = 1e9;

@@ -68,7 +68,7 @@ TEST(SolidForms, APlyMayHaveMoreInIt) {
 
 TEST(SolidForms, OfAPlyEachLineOfTheHeaderIsKnown) {
   const std::string unknown = "this line of the header is not known";
-  for (const char* const line : {"note float x", "property set uchar int w", "property list float int w",
+  for (const char* const line : {"note float w", "property set uchar int w", "property list float int w",
                                  "element more 99999999999999999999", "element more 1 2", "format ascii"})
     EXPECT_NE(reading(ply(std::string(line) + "\n")).find(unknown), std::string::npos) << line;
   EXPECT_EQ(reading(replaced(ply(""), "property float x", "property list uchar float x")),

@@ -1,11 +1,14 @@
 // Numbers, places and widths of the checker's solids at their very bounds.
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
+#include "lekalo/base/stop.hpp"
 #include "support/solids.hpp"
 #include "support/verify_solids.hpp"
 #include "verify/solid/scan_widths.hpp"
@@ -55,8 +58,7 @@ TEST(SolidNumber, MessagesHaveTheNearestDouble) {
   EXPECT_EQ(nearest(to_fraction(decimal("1e-399"))), 0);
 }
 
-// ---- places in a solid
-// -------------------------------------------------------------------------------------
+// ---- places in a solid -----------------------------------------------------------------------------------
 
 TEST(SolidPlace, WhatIsInsideIsToldToTheLastDigit) {
   const SolidMesh mesh = cases::checked(cases::block({0, 0, 0}, {4, 4, 4}));
@@ -77,6 +79,32 @@ TEST(SolidPlace, WhatIsInsideIsToldToTheLastDigit) {
         EXPECT_FALSE(holds(x, out, y)) << x << y << out;
         EXPECT_FALSE(holds(out, x, y)) << x << y << out;
       }
+    }
+}
+
+/// The way up may meet a ridge, which is of one of its two sides alone.
+TEST(SolidPlace, AWayThroughARidgeCrossesItOnce) {
+  for (const double at : {-20.0, -3.0, 0.0, 50.0})
+    for (const bool along_x : {false, true}) {
+      solid::Mesh house;
+      house.vertices = {{0, 0, 0}, {4, 0, 0}, {4, 6, 0}, {0, 6, 0}, {2, 0, 3}, {2, 6, 3}};
+      house.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {2, 3, 5},
+                         {1, 2, 5}, {1, 5, 4}, {3, 0, 4}, {3, 4, 5}};
+      for (solid::Vector& p : house.vertices) {
+        p = p + solid::Vector{at, at, 0};
+        if (along_x) std::swap(p.x, p.y);
+      }
+      const SolidMesh mesh = cases::checked(house);
+      const PlacedSolid body(mesh);
+      for (const double y : {1.0, 2.0, 3.0, 4.5})
+        for (const auto& [z, in] : {std::pair(-1.0, false), {1, true}, {2.5, true}, {3.5, false}}) {
+          Near3 p{2 + at, y + at, z};
+          if (along_x) std::swap(p[0], p[1]);
+          EXPECT_EQ(body.holds({just(p[0]), just(p[1]), just(p[2])},
+                               {Fraction(p[0]), Fraction(p[1]), Fraction(p[2])}),
+                    in)
+              << at << " " << along_x << " " << y << " " << z;
+        }
     }
 }
 
@@ -127,10 +155,23 @@ TEST(SolidPlace, SentencesNameTheFirstOfSeveral) {
             0U);
 }
 
-TEST(SolidPlace, ContactsAreBoundsUpToTheSlack) {
+TEST(SolidPlace, AClearanceAtTheEndOfTheEnclosureIsDecidedExactly) {
   const SolidMesh part = cases::checked(cases::block({0, 0, 0}, {8, 8, 8})),
                   blank = cases::checked(cases::block({0, 0, 0}, {10, 10, 10}));
   const auto pair = SolidPair::make(part, blank, cases::unturned({"1", "1", "1"}));
+  ASSERT_TRUE(pair);
+  const double high = pair->check(decimal("1")).least.high;
+  const auto fault = [&](double clearance) { return pair->check(exactly(clearance)).fault.value_or(""); };
+  EXPECT_NE(fault(high).find("is nearer than the clearance to"), std::string::npos) << fault(high);
+  EXPECT_NE(fault(step_up(high)).find("the clearance"), std::string::npos) << fault(step_up(high));
+  EXPECT_EQ(fault(step_up(high)).find("the clearance 1"), 0U) << fault(step_up(high));
+}
+
+TEST(SolidPlace, ContactsAreBoundsUpToTheSlack) {
+  const SolidMesh part = cases::checked(cases::block({0, 0, 0}, {8, 8, 8}));
+  SolidMesh blank = cases::checked(cases::block({0, 0, 0}, {10, 10, 10}));
+  const SolidPose pose = cases::unturned({"1", "1", "1"});
+  const auto pair = SolidPair::make(part, blank, pose);
   ASSERT_TRUE(pair);
   const auto refusal = [&](const char* px, const char* bx, const char* distance, double slack,
                            Span width = {}) {
@@ -156,14 +197,20 @@ TEST(SolidPlace, ContactsAreBoundsUpToTheSlack) {
     EXPECT_EQ(refusal(px, bx, said, most), "") << text;
     EXPECT_NE(refusal(px, bx, said, step_down(most)), "") << text;
   }
+  // The other end: the points are as far apart as is said, less the slack.
+  const SolidMotion motion(pose);
+  const Vec3 way = motion(Vec3{just(0), just(3), just(4)}) - Vec3{just(0), just(4), just(5)};
+  const std::string most = fmt::format("{}", length(way).high + 0x1p-40);
+  EXPECT_EQ(refusal("0", "0", most.c_str(), 0x1p-40), "");
+  EXPECT_NE(refusal("0", "0", most.c_str(), step_down(0x1p-40) - 0x1p-52), "");
+  blank.widths.assign(12, just(0.25));
   EXPECT_EQ(refusal("0", "0", "0.75", 1e-6, just(0.25)), "");
   EXPECT_NE(refusal("0", "0", "1", 1e-6, just(0.25))
                 .find("mm apart but for the width of the blank's triangle, not 1"),
             std::string::npos);
 }
 
-// ---- the window
-// --------------------------------------------------------------------------------------------
+// ---- the window ------------------------------------------------------------------------------------------
 
 SolidWindow window(SolidFreedom freedom, const char* turn, const char* pivot = "0") {
   SolidWindow made;
@@ -220,8 +267,7 @@ TEST(SolidWindow, ARotationByHalfATurnIsBeyondAllDoubles) {
             0U);
 }
 
-// ---- widths of a scan
-// --------------------------------------------------------------------------------------
+// ---- widths of a scan ------------------------------------------------------------------------------------
 
 WrittenSolidScan scan(const char* guard, const char* radius, const char* dip = nullptr) {
   WrittenSolidScan made;
@@ -278,6 +324,18 @@ TEST(SolidWidth, AtTheRadiusATriangleIsUnknown) {
   EXPECT_EQ(scan_widths(mesh, scan("0.5", "5.5000000000000000001")).unknown, 0U);
 }
 
+TEST(SolidWidth, SpansDecideNearlyAlways) {
+  std::vector<std::array<Near3, 3>> all;
+  for (int k = 0; k < 300; ++k)
+    for (const Near3& third : {Near3{0, 3, 1}, {2.5, 2, 0.5}, {1, 0.5, 0}})
+      all.push_back({{{0, 0, 0}, {4, 0, 0.25}, third}});
+  RunControl run;
+  run.work_limit = 1500;  // a look at each, and none by fractions, which count for ten
+  const auto widths = stoppable(run, [&] { return scan_widths(triangles(all), scan("0.1", "5")).of.size(); });
+  ASSERT_TRUE(widths) << "by fractions";
+  EXPECT_EQ(*widths, all.size());
+}
+
 TEST(SolidWidth, FarFromTheOriginTextsAreReadExactly) {
   SolidMesh mesh = triangles({{{{1e6, 0, 0}, {1e6 + 0.0625, 0, 0}, {1e6, 0.0625, 0}}}});
   for (const Near3& p : mesh.near) mesh.written.push_back({exactly(p[0]), exactly(p[1]), exactly(p[2])});
@@ -311,6 +369,10 @@ TEST(SolidWidth, OfTwoStatementsTheBetterOneCounts) {
   EXPECT_NEAR(scan_widths(mesh, scan("0", "13", "2")).of[0].low, 1, 1e-12);
   EXPECT_EQ(scan_widths(mesh, scan("0", "13", "0.5")).of[0].low, 0.5);
   EXPECT_NEAR(scan_widths(mesh, scan("0", "13", "0.75")).of[1].low, 0.75, 0);
+  // Of two that are as good it is the radius.
+  WrittenSolidScan even = scan("0", "13");
+  even.max_dip = exactly(scan_widths(mesh, even).widest.high);
+  EXPECT_LT(scan_widths(mesh, even).of[1].high, 0.5);
   // One that leaves a triangle unknown says nothing.
   EXPECT_EQ(scan_widths(mesh, scan("0", "4", "3")).of[1].low, 3);
   EXPECT_EQ(scan_widths(mesh, scan("0", "4", "3")).unknown, 0U);

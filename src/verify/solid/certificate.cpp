@@ -55,8 +55,7 @@ class TreeCheck {
     }
     std::vector<Cell> open{root};
     JsonItems items(list);
-    for (std::size_t i = 0; const auto item = items.next(); ++i) {
-      at_ = i;
+    for (; const auto item = items.next(); ++at_) {
       if (nodes++ == limits::kMostCertificateNodes)
         return complain(
             fmt::format("{} is beyond the most nodes, {}", name(), limits::kMostCertificateNodes));

@@ -161,7 +161,7 @@ struct Facet {
 
   Facet(const SolidMesh& mesh, std::uint32_t triangle) {
     for (std::size_t k = 0; k < 3; ++k) at[k] = vertex<Number>(mesh, mesh.triangles[triangle][k]);
-    normal = cross(at[1] - at[0], at[2] - at[0]);
+    normal = verify::normal(at);
     for (std::size_t k = 0; k < 3; ++k) inwards[k] = cross(normal, at[(k + 1) % 3] - at[k]);
   }
 };
@@ -279,9 +279,9 @@ class LeafProof {
     const Facet<Number> face(frame_.blank, term.blank);
     const Facet<Span> seen(frame_.blank, term.blank);
     if (!has_area(face)) return add_nothing(forms);
-    const bool above = dot(near(seen.normal), middle_.place(a.centre) - near(seen.at[0])) >= 0;
+    const bool below = std::signbit(dot(near(seen.normal), middle_.place(a.centre) - near(seen.at[0])));
     const Number inverse = inverse_length(face.normal, false);
-    const Point n = (above ? face.normal : negative(face.normal)) * inverse,
+    const Point n = (below ? negative(face.normal) : face.normal) * inverse,
                 p = turned(as<Number>(a.centre) - pivot_);
     /// Holds the ball's centre against a half-space.
     const auto form_of = [&](const Point& normal, const Number& level) {
@@ -305,10 +305,10 @@ class LeafProof {
     const Facet<Number> face(frame_.part, term.part);
     const Facet<Span> seen(frame_.part, term.part);
     if (!has_area(face)) return add_nothing(forms);
-    const bool above =
-        dot(middle_.turned(seen.normal), near(as<Span>(c.centre)) - middle_.place(seen.at[0])) >= 0;
+    const bool below =
+        std::signbit(dot(middle_.turned(seen.normal), near(as<Span>(c.centre)) - middle_.place(seen.at[0])));
     const Number inverse = inverse_length(face.normal, false);
-    const Point n = (above ? face.normal : negative(face.normal)) * inverse;
+    const Point n = (below ? negative(face.normal) : face.normal) * inverse;
     /// Holds the ball's centre, as the part sees it, against a half-space: n . (T^-1 c - pivot) is
     /// (R turn n) . (c - t).
     const auto form_of = [&](const Point& normal, const Number& level) {

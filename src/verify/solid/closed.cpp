@@ -80,7 +80,7 @@ Of3<Number> normal_of(const SolidMesh& mesh, const std::array<std::uint32_t, 3>&
   std::array<Of3<Number>, 3> at{};
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t axis = 0; axis < 3; ++axis) at[k][axis] = (mesh.*coordinate)(triangle[k], axis);
-  return cross(at[1] - at[0], at[2] - at[0]);
+  return normal(at);
 }
 
 /// Says whether the corners lie exactly on one line.

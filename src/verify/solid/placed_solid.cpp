@@ -27,7 +27,7 @@ Number turn(const Of3<Number>& a, const Of3<Number>& b, const Of3<Number>& c) {
 }
 template <class Number>
 Number volume(const std::array<Of3<Number>, 3>& t, const Of3<Number>& p) {
-  return dot(cross(t[1] - t[0], t[2] - t[0]), p - t[0]);
+  return dot(normal(t), p - t[0]);
 }
 
 /// The signs that a way straight up from a point asks for: the filter answers nearly always.
@@ -128,7 +128,7 @@ bool PlacedSolid::holds(const Vec3& enclosed, const Exact3& point) const {
   bool odd = false;
   Box3 way = box_of(enclosed);
   way.high[2] = kInfinity;
-  tree_.visit([&](const Box3& box) { return !(gap(way, box) > 0); },
+  tree_.visit([&](const Box3& box) { return gap(way, box) == 0; },
               [&](std::uint32_t number) {
                 if (WayUp(*this, number, enclosed, point).crosses()) odd = !odd;
               });
@@ -147,7 +147,7 @@ std::vector<std::vector<std::uint32_t>> PlacedSolid::components() const {
     ask();
     for (const std::uint32_t vertex : triangle) {
       used[vertex] = 1;
-      const std::uint32_t a = root(triangle[0]), b = root(vertex);
+      const std::uint32_t a = root(triangle.front()), b = root(vertex);
       parent[std::max(a, b)] = std::min(a, b);
     }
   }

@@ -69,7 +69,7 @@ class PlacedSolid {
   std::optional<SolidMotion> motion_;
   std::vector<Vec3> at_;
   BoxTree tree_;
-  double narrowest_ = 0, widest_ = 0;
+  double narrowest_ = 0, widest_{};
 };
 
 }  // namespace lekalo::verify

@@ -39,7 +39,7 @@ struct PlyProperty {
 };
 struct PlyElement {
   std::string_view name;
-  std::uint64_t rows = 0;
+  std::uint64_t rows{};
   std::vector<PlyProperty> properties;
 
   /// Returns the place of a property, or how many there are.
@@ -104,7 +104,7 @@ class PlyReader {
         big_ = words_[1] == "binary_big_endian";
         if (!text_ && !big_ && words_[1] != "binary_little_endian") return bad_header();
       } else if (words_[0] == "element" && words_.size() == 3) {
-        PlyElement element{words_[1], 0, {}};
+        PlyElement element{words_[1], {}, {}};
         const auto [end, error] =
             std::from_chars(words_[2].data(), words_[2].data() + words_[2].size(), element.rows);
         if (error != std::errc() || end != words_[2].data() + words_[2].size()) return bad_header();
@@ -186,7 +186,7 @@ class PlyReader {
       ask();
       if (text_ && !next_row()) return bad_row(element, row, "the file ends here, too early");
       std::array<std::uint32_t, 3> face{};
-      std::size_t face_size = 0;
+      std::size_t face_size{};
       for (std::size_t p = 0; p < none; ++p) {
         const PlyProperty& property = element.properties[p];
         if (!property.count) {

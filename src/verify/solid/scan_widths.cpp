@@ -117,12 +117,12 @@ class Widths {
   }
   [[nodiscard]] Span area(std::uint32_t triangle) const {
     const Corners<Span> p = corners(triangle);
-    return length(cross(p[1] - p[0], p[2] - p[0])) * just(0.5);
+    return length(normal(p)) * just(0.5);
   }
 
   const SolidMesh& mesh_;
   const WrittenSolidScan& scan_;
-  double level_ = 0, flat_ = 0;
+  double level_{}, flat_{};
 };
 
 }  // namespace

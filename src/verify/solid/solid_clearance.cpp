@@ -26,9 +26,6 @@ std::size_t number(const PlacedSolid& body, std::uint32_t triangle) {
 
 bool is_zero(const Decimal& value) { return sgn(value.digits) == 0; }
 
-/// Returns a distance less a width; it is itself where there is none.
-Span beyond(Span distance, Span width) { return width.high > 0 ? distance - width : distance; }
-
 /// Returns a bound above the distance of a point from a surface.
 double distance_from(const Vec3& p, const PlacedSolid& body) {
   const BoxTree point({box_of(p)});

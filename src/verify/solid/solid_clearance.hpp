@@ -52,8 +52,12 @@ class SolidPair {
 
   struct Nearest {
     Span least;
-    std::uint32_t part = 0, blank = 0;  ///< triangles
+    std::uint32_t part{}, blank{};  ///< triangles
   };
+  /// Returns a distance from the blank less a width; it is itself where the blank has none.
+  [[nodiscard]] Span beyond(Span distance, Span width) const {
+    return blank_.mesh().widths.empty() ? distance : distance - width;
+  }
   [[nodiscard]] Nearest nearest() const;
   /// Decides exactly what enclosures leave open.
   void check_exactly(const Both& clearance, SolidAnswer& answer) const;

@@ -39,7 +39,7 @@ struct SolidWindow {
 struct WrittenSolidContact {
   SolidContact points;
   /// Their numbers in the files, from 0.
-  std::size_t part_triangle = 0, blank_triangle = 0;
+  std::size_t part_triangle{}, blank_triangle{};
 };
 
 /// The statements of the result about a blank from a scanner.

@@ -190,7 +190,7 @@ class ObjReader {
       std::int64_t number = 0;  // as it stays where the word is none
       const char* const end = std::from_chars(word.data(), word.data() + length, number).ptr;
       const auto count = static_cast<std::int64_t>(made_.vertices()),
-                 corner = number < 0 ? count + number : number - 1;
+                 corner = word.starts_with('-') ? count + number : number - 1;
       if (end != word.data() + length ||
           word.substr(length).find_first_not_of("/-0123456789") != std::string_view::npos || corner < 0 ||
           corner >= count)

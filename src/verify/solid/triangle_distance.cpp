@@ -23,7 +23,7 @@ using Shares = Near3;
 /// Two nearest points of two triangles, as far as doubles tell.
 struct Proposal {
   double squared = kInfinity;
-  Shares a{1, 0, 0}, b{1, 0, 0};
+  Shares a{}, b{};
 };
 
 Near3 point_at(const NearTriangle& t, const Shares& shares) {
@@ -66,7 +66,7 @@ class Proposer {
     const Near3 u = a_[(i + 1) % 3] - a_[i], v = b_[(j + 1) % 3] - b_[j], w = b_[j] - a_[i];
     const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w);
     // Of edges that are parallel or without length any place is one to begin at, so 0 may divide.
-    const auto within = [](double x) { return x > 0 ? std::min(x, 1.0) : 0.0; };
+    const auto within = [](double x) { return std::max(0.0, std::min(x, 1.0)); };  // of NaN 0
     const double from = within((uw * vv - vw * uv) / (uu * vv - uv * uv)), t = within((from * uv - vw) / vv);
     take(on_edge(i, within((t * uv + uw) / uu)), on_edge(j, t));
   }
@@ -74,7 +74,7 @@ class Proposer {
   /// Takes the foot of a point on the inside of a triangle.
   template <class Take>
   static void face(const NearTriangle& t, const Near3& p, const Take& take) {
-    const Near3 n = cross(t[1] - t[0], t[2] - t[0]);
+    const Near3 n = normal(t);
     Shares shares{};
     for (std::size_t k = 0; k < 3; ++k) {
       const Near3& from = t[(k + 1) % 3];
@@ -88,7 +88,7 @@ class Proposer {
   template <class Take>
   static void pierce(const NearTriangle& edge, const NearTriangle& t, std::size_t k, const Take& take) {
     const Near3 &from = edge[k], &to = edge[(k + 1) % 3];
-    const Near3 n = cross(t[1] - t[0], t[2] - t[0]);
+    const Near3 n = normal(t);
     const double before = dot(n, from - t[0]), after = dot(n, to - t[0]);
     if (!(before * after < 0)) return;
     const double share = before / (before - after);
@@ -159,7 +159,9 @@ class Least {
 };
 
 /// Says whether a share of a length is of its inside; nothing is of a length of 0.
-bool is_within(const Integer& share, const Integer& all) { return share > 0 && share < all; }
+bool is_within(const Integer& share, const Integer& all) {
+  return sgn(share) * sgn(Integer(all - share)) > 0;
+}
 
 /// Takes the first end of an edge and its inside; its other end is the first one of the next.
 void to_edge(const Whole3& p, const Whole3& from, const Whole3& to, Least& least) {
@@ -182,26 +184,21 @@ void between_edges(const Whole3& a, const Whole3& b, const Whole3& c, const Whol
 
 /// Takes the inside of a triangle.
 void to_face(const Whole3& p, const WholeTriangle& t, Least& least) {
-  const Whole3 n = cross(t[1] - t[0], t[2] - t[0]);
+  const Whole3 n = normal(t);
   for (std::size_t k = 0; k < 3; ++k)
     if (dot(n, cross(t[(k + 1) % 3] - t[k], p - t[k])) <= 0) return;
   const Integer height = dot(n, p - t[0]);
   least.take(height * height, dot(n, n));
 }
 
-/// Returns nothing where the edge does not pass from one side of the triangle's plane to the other within the
-/// triangle, and else whether it does so in its inside.
-std::optional<bool> pierces(const Whole3& from, const Whole3& to, const WholeTriangle& t) {
-  const Whole3 n = cross(t[1] - t[0], t[2] - t[0]);
-  if (sgn(dot(n, from - t[0])) * sgn(dot(n, to - t[0])) >= 0) return std::nullopt;
-  int least = 1, most = -1;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const int side = sgn(dot(cross(t[k] - from, t[(k + 1) % 3] - from), to - from));
-    least = std::min(least, side);
-    most = std::max(most, side);
-  }
-  if (least < 0 && most > 0) return std::nullopt;
-  return least == most;
+/// Says whether the edge passes from one side of the triangle's plane to the other through its inside.
+bool pierces(const Whole3& from, const Whole3& to, const WholeTriangle& t) {
+  const Whole3 n = normal(t);
+  if (sgn(dot(n, from - t[0])) * sgn(dot(n, to - t[0])) >= 0) return false;
+  const auto side = [&](std::size_t k) {
+    return sgn(dot(cross(t[k] - from, t[(k + 1) % 3] - from), to - from));
+  };
+  return side(0) == side(1) && side(1) == side(2);
 }
 
 }  // namespace
@@ -213,8 +210,7 @@ Span distance(const Triangle3& a, const Triangle3& b, double limit) {
   double low = gap_along(point_at(near_b, best.b) - point_at(near_a, best.a), a, b);
   if (low > limit) return {low, kInfinity};
   // Along a face that both lie flat to, its own normal is more exact than the way between two points.
-  for (const NearTriangle* t : {&near_a, &near_b})
-    low = std::max(low, gap_along(cross((*t)[1] - (*t)[0], (*t)[2] - (*t)[0]), a, b));
+  for (const NearTriangle* t : {&near_a, &near_b}) low = std::max(low, gap_along(normal(*t), a, b));
   if (low > limit) return {low, kInfinity};
   const double high = length(point_at(b, best.b) - point_at(a, best.a)).high;
   return {low, std::isnan(high) ? kInfinity : high};
@@ -237,10 +233,9 @@ ExactDistance exact_distance(const ExactTriangle& a, const ExactTriangle& b) {
       to_edge(t[j], from, to, least);
       between_edges(from, to, begin, end, least);
     }
-    for (const auto& through : {pierces(from, to, t), pierces(t[i], t[(i + 1) % 3], s)}) {
-      if (!through) continue;
+    if (pierces(from, to, t) || pierces(t[i], t[(i + 1) % 3], s)) {
       least.take(0, 1);
-      found.pierces = found.pierces || *through;
+      found.pierces = true;
     }
   }
   found.squared = least.value() / Fraction(unit * unit);

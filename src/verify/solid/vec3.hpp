@@ -35,6 +35,11 @@ template <class Number>
 [[nodiscard]] Of3<Number> cross(const Of3<Number>& a, const Of3<Number>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+/// Returns the normal of a triangle, twice as long as its area.
+template <class Number>
+[[nodiscard]] Of3<Number> normal(const std::array<Of3<Number>, 3>& t) {
+  return cross(t[1] - t[0], t[2] - t[0]);
+}
 [[nodiscard]] inline Span length(const Vec3& a) {
   return square_root(squared(a[0]) + squared(a[1]) + squared(a[2]));
 }
