@@ -17,7 +17,7 @@ import time
 from growth_families import FAMILIES
 
 QUICK = ["dxf-equal-circles", "dxf-concentric", "dxf-nested-squares", "dxf-slanting-slots", "svg-styles",
-         "region-holes-in-a-row", "region-square-holes-in-a-row", "program-comments"]
+         "region-holes-in-a-row", "region-square-holes-in-a-row", "tree-half-planes", "program-comments"]
 RATIO, SECONDS, ALLOWED_BYTES = 2.5, 10, 1 << 30
 # A command that takes no longer than this at n has done nothing but start.
 START = 0.06

@@ -188,7 +188,7 @@ TEST(VerifyPruned, TheNearestStrokeIsTheNearestOfAll) {
 std::size_t grow(Tree& tree, Random& random, int depth) {
   const std::uint64_t kind = depth == 0 ? 0 : random.below(4);
   if (kind == 0) {
-    tree.primitives.emplace_back();
+    tree.primitives.emplace_back().half_plane = random.below(4) == 0;
     tree.nodes.push_back({Tree::Kind::primitive, tree.primitives.size() - 1, {}});
     return tree.nodes.size() - 1;
   }
@@ -225,7 +225,9 @@ TEST(VerifyPruned, TheValueOfATreeIsThatOfItsNodes) {
     Tree tree;
     grow(tree, random, 4);
     TreeValue value(tree);
-    std::vector<In> primitives(tree.primitives.size(), In::no);
+    std::vector<In> primitives;
+    for (const Primitive& one : tree.primitives) primitives.push_back(one.half_plane ? In::open : In::no);
+    ASSERT_EQ(value.value(), value_of(tree, tree.nodes.size() - 1, primitives)) << i;
     std::vector<std::pair<std::size_t, std::vector<In>>> earlier{{value.said(), primitives}};
     for (int k = 0; k < 30; ++k) {
       if (random.below(4) == 0) earlier.emplace_back(value.said(), primitives);

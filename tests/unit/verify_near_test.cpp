@@ -57,6 +57,14 @@ TEST(VerifyNear, WhatIsNotShownIsHalvedSixtyTimesOrUntilTheWorkIsDone) {
   EXPECT_EQ(look(piece, other, 0.5, 1).work, 2U);
 }
 
+TEST(VerifyNear, ALongPieceIsLookedAtOnceWhateverLiesInItsBox) {
+  std::vector<CurvePiece> others{line(0, 0, 1000, 1000)};
+  for (int k = 1; k < 1000; ++k) others.push_back(line(k, k + 0.25, k + 0.5, k - 0.25));
+  std::size_t work = 0;
+  EXPECT_FALSE(CurvePieces(others).first_not_within({others[0]}, 1e-6, work, 0));
+  EXPECT_EQ(work, 1U);
+}
+
 TEST(VerifyNear, CirclesAreLookedAtInPartsOfLessThanHalfATurn) {
   EXPECT_FALSE(look(circle(5), circle(5.5), 0.75).far);
   EXPECT_TRUE(look(circle(5), circle(6), 0.75).far);

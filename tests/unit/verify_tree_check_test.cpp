@@ -81,9 +81,8 @@ const std::string kSquare = rectangle(0, 0, 10, 10), kSquareBox = box(0, 0, 10, 
 TEST(VerifyTreeCheck, EveryEdgeRunsAlongItsSides) {
   const Place low{3, -4}, high{3, 4};
   const std::string left = disc(0, 0, 5), right = disc(6, 0, 5);
-  // Beside their corners the stretches of an edge may run along both sides.
   EXPECT_EQ(told(intersect({left, half_plane(3, 0, 3, 5)}), arc(high, low, {0, 0}) + ", " + line(low, high)),
-            " 0.0 1.0 | 1.0");
+            " 0.0 | 1.0");
   EXPECT_EQ(told(intersect({left, half_plane(3, 5, 3, 0)}), arc(low, high, {0, 0}) + ", " + line(high, low)),
             " 0.0 | 1.0");
   EXPECT_EQ(told(intersect({left, right}), arc(low, high, {0, 0}) + ", " + arc(high, low, {6, 0})),
@@ -217,6 +216,21 @@ TEST(VerifyTreeCheck, WhatIsHeldByAThirdIsNoOutlineHoweverNearTwoOthersRun) {
 TEST(VerifyTreeCheck, ACircleIsFollowedWhenItIsLargerThanWhatIsAskedBesideIt) {
   EXPECT_EQ(told(disc(0, 0, 1), circle(0, 0, 1), "", 0.2499), " 0.0");
   EXPECT_EQ(told(disc(0, 0, 1), circle(0, 0, 1), "", 0.25).substr(0, 18), "open: its outline ");
+}
+
+TEST(VerifyTreeCheck, AHalfPlaneTellsOfAPieceOnlyWhatNothingNearToItChanges) {
+  // The half-planes alone say that there is nothing along their lines outside, and a bar says otherwise.
+  const std::string cut = intersect({kSquare, half_plane(6, 0, 6, 10), half_plane(0, 8, 0, 2)});
+  const std::string open_cut = intersect({kSquare, half_plane(6, 0, 6, 10), half_plane(0, 2, 10, 2)});
+  const std::string bar = rectangle(5, -3, 7, 6);
+  EXPECT_EQ(told(cut, box(0, 0, 6, 10)), " 0.0 | 1.0 | 0.2 | 0.3 2.0");
+  EXPECT_EQ(told(unite({open_cut, bar}),
+                 polygon({{0, 2}, {5, 2}, {5, -3}, {7, -3}, {7, 6}, {6, 6}, {6, 10}, {0, 10}})),
+            " 2.0 | 0.0 3.3 | 3.0 | 0.0 2.0 3.1 | 3.2 | 1.0 | 0.2 | 0.3");
+  EXPECT_EQ(told(unite({open_cut, rectangle(8, 4, 12, 6)}), box(0, 2, 6, 10)).substr(0, 32),
+            "it lacks the outline of the tree");
+  EXPECT_EQ(told(less({bar, open_cut}), polygon({{5, -3}, {7, -3}, {7, 6}, {6, 6}, {6, 2}, {5, 2}})),
+            " 0.0 | 0.1 1.0 3.0 | 0.2 | 2.0 | 3.0 | 0.3 1.0");
 }
 
 TEST(VerifyTreeCheck, AShapeOfHalfPlanesAloneMayHaveNoEnd) {

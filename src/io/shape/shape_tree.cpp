@@ -88,7 +88,7 @@ class Evaluator {
           return combined(std::move(all), {}, BooleanOperation::unite, node);
         });
       case ShapeKind::intersect:
-        return intersection(node, window);
+        return intersection(node, 0, node.children.size(), window);
       case ShapeKind::subtract: {
         LEKALO_TRY(auto first, run(node.children[0], window));
         if (node.children.size() == 1) return first;
@@ -127,13 +127,15 @@ class Evaluator {
     merge_errors(all, one);
   }
 
-  [[nodiscard]] Result<Evaluated> intersection(const ShapeNode& node, const Box& window) const {
-    LEKALO_TRY(auto all, run(node.children[0], window));
-    for (std::size_t i = 1; i < node.children.size(); ++i) {
-      LEKALO_TRY(auto next, run(node.children[i], window));
-      LEKALO_TRY(all, combined(std::move(all), std::move(next), BooleanOperation::intersect, node));
-    }
-    return all;
+  /// The children of a range have in common what those of its halves have. One after the other, n half-planes
+  /// would each cut an outline of up to n edges.
+  [[nodiscard]] Result<Evaluated> intersection(const ShapeNode& node, std::size_t begin, std::size_t end,
+                                               const Box& window) const {
+    if (end - begin == 1) return run(node.children[begin], window);
+    const std::size_t middle = end - (end - begin) / 2;
+    LEKALO_TRY(auto first, intersection(node, begin, middle, window));
+    LEKALO_TRY(auto second, intersection(node, middle, end, window));
+    return combined(std::move(first), std::move(second), BooleanOperation::intersect, node);
   }
 
   [[nodiscard]] static Result<Evaluated> combined(Evaluated a, Evaluated b, BooleanOperation operation,

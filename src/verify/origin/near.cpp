@@ -51,7 +51,9 @@ std::optional<Vec> CurvePieces::first_not_within(const std::vector<CurvePiece>& 
       const Corners corners = corners_of(piece);
       bool within = false;
       double limit = reach;
-      index_.visit_near(box_of(piece), limit, [&](std::size_t k) {
+      // A curve that all of the piece is near to is near to its beginning, whose box meets fewer than its
+      // own.
+      index_.visit_near(box_of(corners.at[0]), limit, [&](std::size_t k) {
         if (within) return void(limit = -1);  // no box is so near, which ends the walk
         ++work;
         const CurvePiece& other = pieces_[k];

@@ -30,8 +30,8 @@ constexpr std::size_t kMostTreeWork = 20'000'000;
 constexpr double kShort = 0.5;
 constexpr int kMostShort = 160;
 constexpr int kShortAtCorner = 16;
-/// An end that is cut off is to be no shorter than that; it is about a 256th of the whole.
-constexpr double kEnd = 256;
+/// An end that is cut off is about a 16th of the whole, and is to be no shorter than that.
+constexpr double kEnd = 16;
 /// The tree is asked this many times the reach to the left and to the right of a stretch.
 constexpr double kAside = 2;
 /// A point this many times the reach away from all outlines of the tree is on none of them.
@@ -75,15 +75,19 @@ struct Ground {
   }
 
   /// A side with a point farther from every primitive is none of the tree's.
-  [[nodiscard]] bool far_from_primitives(const Vec& p) const {
+  /// \param near  the half-plane that a point was near to last, which is asked first
+  [[nodiscard]] bool far_from_primitives(const Vec& p, std::size_t& near) const {
     bool far = true;
     const double limit = kFar * reach;
     sides.visit_near(box_of(p), limit, [&](std::size_t m) {
       const auto [k, i] = members[m].side;
       far = far && distance(p, primitives[k].shape.sides[i]).low > limit;
     });
-    for (const Member& half_plane : half_planes)
-      far = far && is_away(half_plane, primitives[half_plane.side.primitive].shape.sides[0], p, limit);
+    for (std::size_t k = 0, begin = near; k < half_planes.size() && far; ++k) {
+      near = (begin + k) % half_planes.size();
+      const SideOfTree& line = half_planes[near].side;
+      far = is_away(half_planes[near], primitives[line.primitive].shape.sides[line.side], p, limit);
+    }
     return far;
   }
 
@@ -161,19 +165,16 @@ class Walk {
   /// Returns the looks at sides that were needed so far.
   [[nodiscard]] std::size_t work() const { return work_; }
 
-  /// Beyond the window there is none of any primitive but half-planes. What is said here is taken back where
-  /// the first part of a side is looked at.
-  bool ends_in_window() {
-    for (const Member& half_plane : ground_.half_planes) value_.set(half_plane.side.primitive, In::open);
-    return value_.value() == In::no;
-  }
+  /// Beyond the window there is none of any primitive but half-planes.
+  /// \pre nothing was looked at
+  [[nodiscard]] bool ends_in_window() const { return value_.value() == In::no; }
 
   /// Looks at an edge of the region.
   /// \param most_work  nothing more is shown when this walk has needed more
   Finding along_edge(const Side& side, std::size_t most_work) {
     begin(side, most_work);
     for (const Vec& p : points_of(side))
-      if (ground_.far_from_primitives(p)) {
+      if (ground_.far_from_primitives(p, near_last_)) {
         found_.fault = fmt::format("its outline at {} is none of the tree's", text_of(p));
         return std::move(found_);
       }
@@ -291,28 +292,64 @@ class Walk {
     return distance(piece, side).low > 0;
   }
 
-  /// Decides which of the half-planes of which the parts before did not tell hold all of a piece and of the
-  /// stretches beside it, or nothing of them. The others are undecided for its parts, too.
-  void decide_half_planes(const Corners& corners) {
-    const double room = 2 * kAside * reach_;
-    const std::size_t begin = part_.undecided_begin, end = part_.undecided_end;
-    part_.undecided_begin = undecided_.size();
-    for (std::size_t u = begin; u < end; ++u) {
-      const Member& half_plane = ground_.half_planes[undecided_[u]];
-      const Side& line = primitives_[half_plane.side.primitive].shape.sides[0];
-      bool within = true, without = true;
-      for (std::size_t i = 0; i < corners.count; ++i) {
-        const Span height = cross(half_plane.along, corners.at[i] - line.from);
-        within = within && height.low > room, without = without && height.high < -room;
-      }
-      ++work_;
-      if (within || without)
-        value_.set(half_plane.side.primitive, within ? In::yes : In::no);
-      else
-        undecided_.push_back(undecided_[u]);
+  /// Says whether a half-plane holds all of a piece of this length and of the stretches beside it, or nothing
+  /// of them. From most of them its first corner is farther away than that it needs a second look.
+  In in_half_plane(const Member& half_plane, const Corners& corners, double length_of_piece) {
+    const Side& line = primitives_[half_plane.side.primitive].shape.sides[0];
+    bool within = true, without = true;
+    ++work_;
+    for (std::size_t i = 0; i < corners.count; ++i) {
+      const Span height = cross(half_plane.along, corners.at[i] - line.from);
+      const double room = 2 * kAside * reach_, far = (just(room) + just(length_of_piece)).high;
+      if (i == 0 && height.low > far) return In::yes;
+      if (i == 0 && height.high < -far) return In::no;
+      within = within && height.low > room, without = without && height.high < -room;
     }
+    return within ? In::yes : (without ? In::no : In::open);
+  }
+
+  /// Decides which of the half-planes of which the parts before did not tell hold all of a piece and of the
+  /// stretches beside it, or nothing of them. The others are undecided for its parts, too. Where they tell
+  /// the material there whatever else is near, and no outline is looked for, that is returned instead, and
+  /// the rest is not asked. They are asked from the one that told last to both hands: what cuts off one piece
+  /// mostly stands next to what cuts off another.
+  In decide_half_planes(const Side& piece, const Corners& corners, bool apart) {
+    const std::size_t begin = part_.undecided_begin, count = part_.undecided_end - begin;
+    if (count == 0) return In::open;
+    const auto say_of_others = [&](In in) {
+      if (!apart)
+        ground_.wholes.visit_near(box_of(piece), 2 * kAside * reach_,
+                                  [&](std::size_t w) { value_.set(ground_.with_box[w], in); });
+    };
+    const auto told = [&] { return !apart && value_.value() != In::open; };
+    const auto undecided = undecided_.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto first =
+        static_cast<std::size_t>(std::lower_bound(undecided, undecided_.end(), told_last_) - undecided);
+    double length_of_piece = 0;
+    for (std::size_t i = 1; i < corners.count; ++i)
+      length_of_piece = std::max(length_of_piece, length(corners.at[i] - corners.at[0]).high);
+    say_of_others(In::open);
+    decided_.resize(count);
+    for (std::size_t k = 0; k < count && !told(); ++k) {
+      const std::size_t u = (first + (k % 2 == 0 ? k / 2 : count - (k + 1) / 2)) % count;
+      const std::size_t asked = undecided_[begin + u];
+      const Member& half_plane = ground_.half_planes[asked];
+      decided_[u] = in_half_plane(half_plane, corners, length_of_piece);
+      value_.set(half_plane.side.primitive, decided_[u]);
+      if (told()) told_last_ = asked;
+    }
+    if (told()) {
+      const In in = value_.value();
+      value_.take_back(part_.said);
+      return in;
+    }
+    say_of_others(In::no);
+    part_.undecided_begin = undecided_.size();
+    for (std::size_t u = 0; u < count; ++u)
+      if (decided_[u] == In::open) undecided_.push_back(undecided_[begin + u]);
     part_.undecided_end = undecided_.size();
     part_.said = value_.said();
+    return In::open;
   }
 
   /// Asks on which side of a piece there is material of the tree. Where the outline of a primitive meets a
@@ -323,7 +360,8 @@ class Walk {
   Beside beside(const Side& piece, const Corners& corners, bool apart) {
     const double aside = kAside * reach_;
     Beside known;
-    decide_half_planes(corners);
+    known.left = known.right = decide_half_planes(piece, corners, apart);
+    if (known.left != In::open) return known;
     if (piece.arc && !(piece.radius.low > 2 * aside)) return known;
     const Stretch left(aside_of(piece, aside)), right(aside_of(piece, -aside));
     const Vec &at_left = left.middle, &at_right = right.middle;
@@ -411,7 +449,8 @@ class Walk {
   /// that are looked at: within the reach outlines may run on the wrong side of each other.
   [[nodiscard]] std::array<Part, 2> cut(const Part& part) const {
     std::array<Part, 2> two{part, part};
-    const bool long_enough = length(part.piece.to - part.piece.from).low > kEnd * kShort * reach_;
+    const bool long_enough =
+        length(part.piece.to - part.piece.from).low > kEnd * kShortAtCorner * kShort * reach_;
     const std::array<Side, 2> pieces = part.begins_at_corner != part.ends_at_corner && long_enough
                                            ? with_end_cut_off(part.piece, part.begins_at_corner)
                                            : halves(part.piece);
@@ -479,6 +518,11 @@ class Walk {
   /// range after the other.
   Part part_;
   std::vector<std::size_t> undecided_;
+  /// The half-plane that told last of a piece, and what each of the undecided ones is at the one looked at.
+  std::size_t told_last_ = 0;
+  std::vector<In> decided_;
+  /// The half-plane that a point was near to last.
+  std::size_t near_last_ = 0;
   /// The primitives near the stretch that is looked at.
   struct Near {
     std::size_t primitive;

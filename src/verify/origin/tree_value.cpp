@@ -7,7 +7,10 @@ TreeValue::TreeValue(const Tree& tree) : nodes_(tree.nodes.size()), node_of_(tre
     const Tree::Node& node = tree.nodes[n];
     Node& made = nodes_[n];
     made.kind = node.kind;
-    if (node.kind == Tree::Kind::primitive) node_of_[node.primitive] = n;
+    if (node.kind == Tree::Kind::primitive) {
+      node_of_[node.primitive] = n;
+      if (tree.primitives[node.primitive].half_plane) made.value = In::open;
+    }
     // Children stand before their node, so that their values are known.
     for (std::size_t k = 0; k < node.children.size(); ++k) {
       Node& child = nodes_[node.children[k]];

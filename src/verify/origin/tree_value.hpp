@@ -18,7 +18,8 @@ class TreeValue {
  public:
   explicit TreeValue(const Tree& tree);
 
-  /// Says what a primitive is at the place; at first it is `no`.
+  /// Says what a primitive is at the place; at first it is `no`, and a half-plane, which is far from no
+  /// place, `open`.
   void set(std::size_t primitive, In value);
   /// Takes back all that was set since `said()` was so large.
   [[nodiscard]] std::size_t said() const { return said_.size(); }

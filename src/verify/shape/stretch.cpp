@@ -132,7 +132,7 @@ std::optional<std::array<Side, 2>> cut_beside(const Side& piece, const Vec& poin
 
 std::array<Side, 2> with_end_cut_off(const Side& piece, bool first) {
   Side end = piece;
-  for (int k = 0; k < 8; ++k) end = halves(end)[first ? 0 : 1];
+  for (int k = 0; k < 4; ++k) end = halves(end)[first ? 0 : 1];
   Side rest = piece;
   if (!piece.arc) {
     (first ? rest.from : rest.to) = first ? end.to : end.from;

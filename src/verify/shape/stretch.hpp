@@ -29,7 +29,7 @@ struct Corners {
 /// nearest to a point; an arc runs from its first direction to its last. Nothing where that is not surely
 /// between the ends.
 [[nodiscard]] std::optional<std::array<Side, 2>> cut_beside(const Side& piece, const Vec& point);
-/// Returns about the first or the last 256th of a line, or of an arc of less than half a turn, and the
+/// Returns about the first or the last 16th of a line, or of an arc of less than half a turn, and the
 /// rest of it, in their order along it. Where an arc is too short for rounding to cut it, a part is the whole
 /// arc.
 [[nodiscard]] std::array<Side, 2> with_end_cut_off(const Side& piece, bool first);
