@@ -73,6 +73,8 @@ struct Setting {
 
 Setting setting(Random& random, double half_place, double half_turn) {
   Setting s{cases::checked(tetrahedron(random)), cases::checked(tetrahedron(random)), {}, {}, {}, {}};
+  if (random.below(2) == 0)
+    for (int k = 0; k < 4; ++k) s.blank.widths.push_back(just(random.uniform(0, 1)));
   for (double& q : s.start) q = random.uniform(-1, 1);
   for (double& p : s.pivot) p = random.uniform(-5, 5);
   for (std::size_t k = 0; k < 6; ++k) {
@@ -112,7 +114,7 @@ double value(const LeafTerm& term, const Setting& s, const solid::Motion& motion
     const auto [a, b] = edge(s.part, term.part);
     const auto [q, r] = edge(s.blank, term.blank);
     const solid::Vector n = cross(motion.turned(b - a), r - q);
-    return std::abs(dot(n, motion(a) - q)) / norm(n);
+    return std::abs(dot(n, motion(a) - q)) / norm(n) - s.blank.width(term.blank / 3).low;
   }
   if (term.kind == LeafTerm::Kind::part_face)
     return height(face(s.part, term.part), motion.back(vector(term.blank_ball->centre))) -
@@ -125,7 +127,7 @@ double value(const LeafTerm& term, const Setting& s, const solid::Motion& motion
   }
   if (term.kind == LeafTerm::Kind::ball)
     return norm(a - vector(term.blank_ball->centre)) - r - term.blank_ball->radius.near.low;
-  return height(face(s.blank, term.blank), a) - r;
+  return height(face(s.blank, term.blank), a) - r - s.blank.width(term.blank).low;
 }
 
 /// What the bound is taken times in a term.

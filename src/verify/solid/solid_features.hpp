@@ -28,7 +28,7 @@ struct SolidDemands {
   std::vector<std::uint32_t> feature_of;
 };
 
-/// Reads a file of features (docs/formats.md, "Features of solids") and finds its triangles in the part,
+/// Reads a file of features for solids (docs/formats.md) and finds its triangles in the part,
 /// exactly. `unit` holds where the file does not say one. bad_input for a word that is none of such a file, a
 /// number out of range, a feature without triangles, and a triangle of two.
 [[nodiscard]] Result<SolidDemands> read_solid_features(const Document& document, const SolidReading& part,
