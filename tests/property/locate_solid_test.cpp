@@ -11,6 +11,7 @@
 
 #include "lekalo/solid/mesh_clearance.hpp"
 #include "support/cases.hpp"
+#include "support/castings.hpp"
 #include "support/solid_brute_force.hpp"
 #include "support/solid_cases.hpp"
 
@@ -68,6 +69,19 @@ TEST(PlaceSolid, FindsAPlaceThatNoSmallMotionBetters) {
       EXPECT_LE(clearance(meter, there, placed->clearance + 0.1), placed->clearance + 1e-3) << size;
     }
   }
+}
+
+/// The top of the part is a little outside the blank and within the width of its surface, where a pair of
+/// triangles says that up is the way out.
+TEST(PlaceSolid, LeavesASurfaceByItsInnerSide) {
+  SolidProblem problem{
+      cases::block({-20, -15, -10}, {20, 15, 10}), cases::block({-22, -17, -12}, {22, 17, 12}), {}};
+  problem.start.shift = {0, 0, 2.01};
+  problem.blank_widths.assign(problem.blank.triangles.size(), 0.05);
+  const auto placed = locate::place_solid(problem, {});
+  ASSERT_TRUE(placed) << placed.error().message;
+  ASSERT_TRUE(placed->inside);
+  EXPECT_NEAR(placed->clearance, 1.95, 1e-3);
 }
 
 TEST(PlaceSolid, WhatIsLockedStays) {

@@ -35,16 +35,25 @@ bool add(Pool& pool, const std::vector<SolidContact>& contacts) {
   return added;
 }
 
+/// A pair of triangles says how to get away from the blank's surface on the side where the part is. Where
+/// that is outside, it is the opposite of what helps, and the crossings say what does.
+bool on_the_inner_side(const solid::Mesh& blank, const SolidContact& contact) {
+  const auto& [i, j, k] = blank.triangles[contact.blank_triangle];
+  const Vector a = blank.vertices[i];
+  return dot(contact.normal, cross(blank.vertices[j] - a, blank.vertices[k] - a)) <= 0;
+}
+
 /// The rows of all known contacts at a pose.
-std::vector<LinearBound<6>> rows_at(const SolidMeter& meter, const FramedPose& pose, const Pool& pool,
+std::vector<LinearBound<6>> rows_at(const SolidMeter& meter, const MeasuredSolid& at, const Pool& pool,
                                     const std::vector<SolidContact>& contacts) {
-  const Motion motion = meter.frame().motion(pose);
+  const Motion motion = meter.frame().motion(at.pose);
   std::vector<LinearBound<6>> rows;
   for (const SolidContact& contact : contacts)
     if (contact.part_triangle == kNoTriangle) rows.push_back(row_of(meter.frame(), motion, contact));
   for (const auto& [part, blank] : pool) {
     const SolidContact contact = meter.contact(motion, part, blank);
-    if (contact.directed()) rows.push_back(row_of(meter.frame(), motion, contact));
+    if (contact.directed() && (at.inside || on_the_inner_side(meter.blank(), contact)))
+      rows.push_back(row_of(meter.frame(), motion, contact));
   }
   return rows;
 }
@@ -62,7 +71,7 @@ MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trus
   const double widest = trust;
   int tries = 0;
   for (int step = 0; step < kMostSteps && !run.stop_requested(); ++step) {
-    const auto rows = rows_at(meter, best.pose, pool, here);
+    const auto rows = rows_at(meter, best, pool, here);
     if (rows.empty()) break;
     const LinearSolution<6> solution = solve_cell(rows, frame.trusted(trust));
     if (!(solution.bound > best.value + enough)) break;
