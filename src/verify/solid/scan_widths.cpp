@@ -11,7 +11,7 @@
 namespace lekalo::verify {
 namespace {
 
-/// What is left of a squared radius comes from fractions where its enclosure is wider than this part of it.
+/// The rest of a squared radius comes from fractions where its enclosure is wider than this part of it.
 constexpr double kLoose = 0x1p-36;
 
 template <class Number>

@@ -65,7 +65,7 @@ class Proposer {
   void edges(std::size_t i, std::size_t j) {
     const Near3 u = a_[(i + 1) % 3] - a_[i], v = b_[(j + 1) % 3] - b_[j], w = b_[j] - a_[i];
     const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w);
-    // Of edges that are parallel or without length any place is one to begin at, so 0 may divide.
+    // Any place is one to begin at where edges are parallel or without length, so 0 may divide.
     const auto within = [](double x) { return std::max(0.0, std::min(x, 1.0)); };  // of NaN 0
     const double from = within((uw * vv - vw * uv) / (uu * vv - uv * uv)), t = within((from * uv - vw) / vv);
     take(on_edge(i, within((t * uv + uw) / uu)), on_edge(j, t));
