@@ -8,6 +8,7 @@
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/locate/result_json.hpp"
 #include "lekalo/io/text/sha256.hpp"
+#include "lekalo/verify/offset.hpp"
 #include "report_document.hpp"
 
 namespace lekalo::jobs {
@@ -29,6 +30,9 @@ class Evidence {
       LEKALO_TRY(certificate_, needed("certificate", *written.certificate_file));
     }
     if (written.nc_output) take_written("NC program", *written.nc_output, program_);
+    LEKALO_TRY(const std::optional<verify::OffsetFile> offset, verify::offset_file(document(result_)));
+    if (offset) take_written("work offset", {offset->path, offset->sha256}, offset_);
+    has_offset_ = offset.has_value();
     if (written.deviations) take_written("deviations", *written.deviations, deviations_);
     return {};
   }
@@ -47,6 +51,7 @@ class Evidence {
     Verified verified;
     LEKALO_TRY(verified.report, verify::verify_locate(inputs));
     verify::LocateReport& report = verified.report;
+    if (has_offset_) LEKALO_CHECK(check_offset(report));
     report.notes.insert(report.notes.end(), notes_.begin(), notes_.end());
     report.findings.insert(report.findings.begin(), mismatches_.begin(), mismatches_.end());
     if (!report.findings.empty()) report.verdict = verify::Verdict::refuted;
@@ -55,6 +60,21 @@ class Evidence {
   }
 
  private:
+  /// Holds the lines of the work offset against the pose. Without them the report cannot confirm all.
+  Result<void> check_offset(verify::LocateReport& report) const {
+    if (!offset_) {
+      report.notes.emplace_back("that the work offset written is that of the placement was not rechecked");
+      if (report.verdict == verify::Verdict::confirmed) report.verdict = verify::Verdict::incomplete;
+      return {};
+    }
+    LEKALO_TRY(const std::optional<std::string> fault,
+               verify::fault_of_offset(document(result_), document(*offset_)));
+    if (fault)
+      report.findings.push_back(
+          fmt::format("the work offset {} is not that of the placement: {}", offset_->name, *fault));
+    return {};
+  }
+
   static verify::Document document(const File& file) { return {file.name, file.bytes}; }
 
   Result<std::optional<File>> found(const std::string& role, const io::FileRecord& written) {
@@ -140,7 +160,8 @@ class Evidence {
   const FileFinder& find_;
   /// With their roles, in the order of the result.
   std::vector<std::pair<std::string, File>> inputs_;
-  std::optional<File> certificate_, program_, deviations_;
+  std::optional<File> certificate_, program_, offset_, deviations_;
+  bool has_offset_ = false;
   std::vector<std::string> mismatches_, notes_;
 };
 

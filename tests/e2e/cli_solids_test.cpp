@@ -78,6 +78,28 @@ TEST_F(Solids, AProgramOfThreeAxesIsWrittenForThePlacement) {
       << high.err;
 }
 
+TEST_F(Solids, TheLinesOfAWorkOffsetAreWrittenAndConfirmed) {
+  const Words offset{"--offset-out", "lines.txt", "-o", "r.json", "--method", "climb"};
+  for (const auto& [more, sentence] :
+       {std::pair{Words{"--offset", "linuxcnc"}, "--offset linuxcnc, which turns about Z alone"},
+        {Words{"--offset", "fanuc"},
+         "--offset with --freedom six is for a machine that can tilt: say --axes 5"},
+        {Words{"--offset", "heidenhain"}, "--offset: \"heidenhain\" is not one of"},
+        {Words{}, "--offset CONTROL and --offset-out FILE need each other"}}) {
+    const Ran refused = locate(offset + more);
+    EXPECT_EQ(refused.status, 2) << refused.err;
+    EXPECT_NE(refused.err.find(sentence), std::string::npos) << refused.err;
+  }
+  const Ran ran = locate(offset + Words{"--offset", "siemens", "--axes", "5", "--wcs", "2"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.err.find("wrote              lines.txt"), std::string::npos) << ran.err;
+  const std::string lines = read_bytes(folder_ / "lines.txt");
+  EXPECT_NE(lines.find("\nG71 G55\nTRANS X"), std::string::npos) << lines;
+  EXPECT_EQ(verify("r.json").status, 1);  // no bound, and the rest is confirmed
+  std::filesystem::remove(folder_ / "lines.txt");
+  EXPECT_NE(verify("r.json").err.find("lines.txt is not there"), std::string::npos);
+}
+
 TEST_F(Solids, APageThatTurnsIsAPictureAndFourViewsAreAReport) {
   ASSERT_EQ(locate({"--method", "climb", "--picture", "p.html", "--report", "r.pdf"}).status, 0);
   EXPECT_NE(read_bytes(folder_ / "p.html").find("<canvas"), std::string::npos);

@@ -115,6 +115,7 @@ inline SolidResultFiles cube_in_cube(Json certificate = nullptr, double bound = 
                  {"certificate", std::move(certificate)},
                  {"certificate_file", nullptr},
                  {"nc", nullptr},
+                 {"offset", nullptr},
                  {"run", Json::object()}};
   return made;
 }

@@ -69,6 +69,7 @@ verify::Verdict verdict(const SolidLocateJob& job, const LocatedSolid& located) 
                if (role == "nc") return job.program;
                if (role == "NC program") return File{"o.nc", located.program};
                if (role == "features") return job.features;
+               if (role == "work offset") return File{"lines", located.offset};
                return role == "blank" ? std::optional(job.blank) : std::nullopt;
              });
   EXPECT_TRUE(done.has_value()) << (done ? "" : done.error().message);
@@ -144,7 +145,8 @@ TEST(JobsLocateSolid, TheFieldsOfTheResultStandInTheirOrder) {
                                                    "shortfall",   "contacts",
                                                    "scan",        "unknown_area_mm2",
                                                    "certificate", "certificate_file",
-                                                   "nc",          "run"}));
+                                                   "nc",          "offset",
+                                                   "run"}));
 }
 
 TEST(JobsLocateSolid, AProgramOfThreeAxesIsMovedAndChecked) {
@@ -178,6 +180,69 @@ TEST(JobsLocateSolid, AProgramIsWithheldWhereThreeAxesCannotFollow) {
   EXPECT_TRUE(tilted.program.empty());
   EXPECT_TRUE(
       warns(tilted, "the part lies tilted, which three axes cannot follow; place it with --freedom c-xyz"));
+}
+
+/// The pose of the result is what the lines say, whatever the control, and its clearance is measured there.
+TEST(JobsLocateSolid, AWorkOffsetIsWrittenForThePoseThatItCanSay) {
+  for (const auto control :
+       {nc::OffsetControl::linuxcnc, nc::OffsetControl::fanuc, nc::OffsetControl::siemens})
+    for (const bool tilts : {false, true}) {
+      if (tilts && control == nc::OffsetControl::linuxcnc) continue;
+      SolidLocateJob job = convex_job();
+      job.options.method = SolidMethod::climb;
+      if (!tilts) job.options.freedom = SolidFreedom::c_xyz;
+      const LocatedSolid free = made(job);
+      job.options.offset =
+          SolidOffsetOptions{{.control = control, .angle_decimals = 2, .length_decimals = 2}, tilts ? 5 : 3};
+      job.outputs.offset = "lines";
+      const LocatedSolid located = made(job);
+      ASSERT_TRUE(located.document.offset) << located.result;
+      EXPECT_TRUE(located.holds());
+      EXPECT_EQ(verdict(job, located), verify::Verdict::unproved);
+      const solid::Vector at = located.document.pose.shift;
+      for (const double length : {at.x, at.y, at.z}) EXPECT_EQ(length, std::round(length * 100) / 100);
+      EXPECT_GT(*located.document.clearance, *free.document.clearance - 0.1);
+      for (const char* const other : {"X", "Y", "Z", "R", "I"}) {
+        LocatedSolid changed = located;
+        const std::size_t place = changed.offset.rfind(std::string(" ") + other);
+        if (place == std::string::npos || changed.offset[place + 2] > '9') continue;
+        const std::size_t digit = changed.offset.find_first_of("0123456789", place);
+        changed.offset[digit] = changed.offset[digit] == '7' ? '6' : '7';
+        EXPECT_EQ(verdict(job, changed), verify::Verdict::refuted) << changed.offset;
+      }
+    }
+}
+
+TEST(JobsLocateSolid, AProvedPlacementIsRoundedWithinItsWindow) {
+  SolidLocateJob job = convex_job();
+  job.options.gap = 0.05, job.options.freedom = SolidFreedom::c_xyz;
+  job.options.offset = SolidOffsetOptions{};
+  job.outputs.offset = "lines";
+  const LocatedSolid located = made(job);
+  ASSERT_TRUE(located.document.offset) << located.result;
+  EXPECT_EQ(verdict(job, located), verify::Verdict::confirmed);
+}
+
+TEST(JobsLocateSolid, AWorkOffsetIsWithheldWhereItsWordsCannotSayThePose) {
+  SolidLocateJob job = convex_job();
+  job.options.method = SolidMethod::climb;
+  job.options.offset = SolidOffsetOptions{};
+  job.outputs.offset = "lines";
+  const LocatedSolid tilted = made(job);
+  EXPECT_TRUE(tilted.offset_withheld);
+  EXPECT_FALSE(tilted.holds());
+  EXPECT_TRUE(warns(tilted, "no work offset was written, because the part lies tilted, which G10 L2"));
+  job.options.offset->form.control = nc::OffsetControl::siemens;
+  EXPECT_TRUE(warns(made(job), "a machine of three axes cannot follow; place it with --freedom c-xyz"));
+  // A start of many digits without room about it has no pose that the words can say.
+  job = block_job();
+  job.options.freedom = SolidFreedom::xyz, job.options.shift = 0;
+  job.start = File{"s.json", made(job).result};
+  job.start->bytes.replace(job.start->bytes.find("\"x\": ", job.start->bytes.find("\n  \"x\"")) + 5, 1,
+                           "0.00012345");
+  job.options.offset = SolidOffsetOptions{};
+  job.outputs.offset = "lines";
+  EXPECT_TRUE(warns(made(job), "no pose beside it that its words can say is in the window"));
 }
 
 TEST(JobsLocateSolid, ThePartIsFoundWhereItWasTurnedAway) {

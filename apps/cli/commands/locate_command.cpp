@@ -42,6 +42,7 @@ Result<jobs::SolidLocateJob> read_solids(const LocateOptions& o, jobs::File part
   LEKALO_CHECK(read_if_named(o.allow, job.allow));
   job.outputs.certificate = o.outputs.certificate, job.outputs.mesh = o.mesh;
   job.outputs.program = o.outputs.program;
+  job.outputs.offset = o.offset_out;
   job.outputs.allowances = o.outputs.allowances;
   job.outputs.report = o.outputs.report;
   if (!o.picture.empty())
@@ -114,6 +115,7 @@ Result<int> locate_solid(const LocateOptions& o, jobs::File part, jobs::File bla
                                 {&o.allowances, &made.allowances}};
   if (!made.mesh.empty()) documents.push_back({&o.mesh, &made.mesh});
   if (made.document.nc) documents.push_back({&o.outputs.program, &made.program});
+  if (made.document.offset) documents.push_back({&o.offset_out, &made.offset});
   LEKALO_TRY(const std::vector<std::string> written, write_all(o, made.result, documents));
   tell(solid_summary(made.document, written));
   return made.holds() ? 0 : 1;
@@ -130,7 +132,8 @@ Result<int> run_locate(const LocateOptions& o) {
                               {"--drawing", o.drawing},
                               {"--deviations", o.outputs.deviations},
                               {"--mesh", o.mesh},
-                              {"--nc-out", o.outputs.program}},
+                              {"--nc-out", o.outputs.program},
+                              {"--offset-out", o.offset_out}},
                              {{"--part", o.part},
                               {"--blank", o.blank},
                               {"--nc", o.nc},

@@ -57,7 +57,8 @@ Result<std::optional<jobs::File>> find(const VerifyOptions& o, const std::string
   const std::string instead = given_instead(o, role);
   const std::string place = instead.empty() ? where_is(path, o.result) : instead;
   std::error_code error;
-  if ((role == "NC program" || role == "deviations") && !fs::exists(place, error)) return std::nullopt;
+  const bool written = role == "NC program" || role == "work offset" || role == "deviations";
+  if (written && !fs::exists(place, error)) return std::nullopt;
   LEKALO_TRY(std::string bytes, disk::read_file(place));
   return jobs::File{place, std::move(bytes)};
 }

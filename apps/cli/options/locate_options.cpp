@@ -43,6 +43,9 @@ constexpr std::array kModes{Word<nc::RewriteMode>{"coordinates", nc::RewriteMode
                             Word<nc::RewriteMode>{"g68", nc::RewriteMode::g68}};
 constexpr std::array kScanFrames{Word<nc::ScanFrame>{"machine", nc::ScanFrame::machine},
                                  Word<nc::ScanFrame>{"wcs", nc::ScanFrame::wcs}};
+constexpr std::array kOffsetControls{Word<nc::OffsetControl>{"linuxcnc", nc::OffsetControl::linuxcnc},
+                                     Word<nc::OffsetControl>{"fanuc", nc::OffsetControl::fanuc},
+                                     Word<nc::OffsetControl>{"siemens", nc::OffsetControl::siemens}};
 constexpr std::array kMirrors{Word<locate::Mirror>{"no", locate::Mirror::no},
                               Word<locate::Mirror>{"yes", locate::Mirror::yes},
                               Word<locate::Mirror>{"either", locate::Mirror::either}};
@@ -54,9 +57,9 @@ struct LocateWords {
       output, certificate, picture, report, allowances, drawing, deviations, compare, mirror, lock_x, lock_y,
       features, criterion, give_up, trade_off, join, curve, repair, underside, flat, uncertainty, coverage,
       min_radius, max_dip, step, drop_outliers, simplify, slice_height, slice_thickness, freedom, tilt, shift,
-      start, mesh, mesh_step;
+      start, mesh, mesh_step, offset, offset_out, axes;
   std::vector<std::string> part_layers, blank_layers;
-  std::vector<std::string> window;
+  std::vector<std::string> window, offset_decimals;
   bool json = false, strict = false;
 };
 
@@ -223,8 +226,10 @@ void read_program(const LocateWords& words, WordReader& read, LocateOptions& o) 
   read.require(o.outputs.program.empty() || !o.nc.empty(),
                "--nc-out: say with --nc FILE which program to rewrite");
   o.allow = words.allow;
-  read.require(!o.nc.empty() || (words.nc_mode.empty() && words.wcs.empty() && words.scan_frame.empty()),
-               "--nc-mode, --wcs and --scan-frame need --nc FILE, the program to rewrite");
+  read.require(!o.nc.empty() || (words.nc_mode.empty() && words.scan_frame.empty()),
+               "--nc-mode and --scan-frame need --nc FILE, the program to rewrite");
+  read.require(!o.nc.empty() || !words.offset.empty() || words.wcs.empty(),
+               "--wcs needs --nc FILE, the program to rewrite, or --offset CONTROL");
   read.require(
       !o.nc.empty() || (words.control.empty() && words.allow.empty() && words.chord_tolerance.empty()),
       "--control, --allow and --chord-tolerance need --nc FILE, the program to rewrite");
@@ -242,6 +247,36 @@ void read_program(const LocateWords& words, WordReader& read, LocateOptions& o) 
               o.job.rewrite.work_offset);
   o.solid.rewrite = o.job.rewrite;
   if (o.solid.units == io::SolidUnit::inch) o.solid.rewrite.start_unit = LengthUnit::inch;
+}
+
+void read_offset(const LocateWords& words, WordReader& read, LocateOptions& o) {
+  read.require(words.offset.empty() == words.offset_out.empty(),
+               "--offset CONTROL and --offset-out FILE need each other");
+  read.require(!words.offset.empty() || (words.axes.empty() && words.offset_decimals.empty()),
+               "--axes and --offset-decimals need --offset CONTROL");
+  o.offset_out = words.offset_out;
+  if (words.offset.empty()) return;
+  jobs::SolidOffsetOptions& offset = o.solid.offset.emplace();
+  nc::OffsetForm& form = offset.form;
+  read.choice("--offset", words.offset, kOffsetControls, form.control);
+  constexpr std::array kMost{9, 6, 4};
+  const int most = kMost[static_cast<std::size_t>(form.control)];
+  read.number("--wcs", words.wcs, 1, most, fmt::format("a whole number from 1 (G54) to {}", most).c_str(),
+              form.work_offset);
+  if (words.offset_decimals.size() == 2)
+    for (const auto& [word, to] : {std::pair{&words.offset_decimals[0], &form.angle_decimals},
+                                   {&words.offset_decimals[1], &form.length_decimals}})
+      read.number("--offset-decimals", *word, 0, 6, "two whole numbers from 0 to 6", *to);
+  constexpr std::array kAxes{Word<int>{"3", 3}, Word<int>{"5", 5}};
+  read.choice("--axes", words.axes, kAxes, offset.axes);
+  const bool linuxcnc = form.control == nc::OffsetControl::linuxcnc;
+  if (o.solid.freedom == locate::SolidFreedom::six && (linuxcnc || offset.axes == 3))
+    o.not_for_solids +=
+        (o.not_for_solids.empty() ? "" : "; ") +
+        std::string(linuxcnc
+                        ? "--offset linuxcnc, which turns about Z alone, goes with --freedom c-xyz or xyz"
+                        : "--offset with --freedom six is for a machine that can tilt: say --axes 5, or "
+                          "--freedom c-xyz or xyz");
 }
 
 void read_outputs(const LocateWords& words, WordReader& read, LocateOptions& o) {
@@ -300,8 +335,9 @@ constexpr std::array<std::string_view, 30> kOfBoth{
     "--nc",          "--nc-out",          "--nc-mode",       "--control",
     "--allow",       "--chord-tolerance", "--wcs",           "--nc-angle-decimals",
     "--scan-frame",  "--features"};
-constexpr std::array<std::string_view, 8> kOfSolids{"--freedom",   "--tilt", "--shift", "--start",
-                                                    "--underside", "--flat", "--mesh",  "--mesh-step"};
+constexpr std::array<std::string_view, 12> kOfSolids{
+    "--freedom", "--tilt",      "--shift",  "--start",      "--underside", "--flat",
+    "--mesh",    "--mesh-step", "--offset", "--offset-out", "--axes",      "--offset-decimals"};
 
 bool is_typed(const FormOption& option) {
   if (const auto* const flag = std::get_if<bool*>(&option.to)) return **flag;
@@ -388,6 +424,7 @@ Result<LocateOptions> to_options(const LocateWords& words, const std::vector<For
   check_turns(words, o);
   check_solid_scan(o);
   read_program(words, read, o);
+  read_offset(words, read, o);
   read_outputs(words, read, o);
   check_method(words, read, o);
   if (!read.complaint().empty()) {
@@ -518,6 +555,17 @@ void add_program_options(Form& form, LocateWords& w) {
       "Coordinates in which the blank was probed [machine]");
 }
 
+void add_offset_options(Form& form, LocateWords& w) {
+  const OptionAdder add(form, "Work offset of a solid");
+  add("--offset", w.offset, list_of(kOffsetControls, "|"),
+      "Lines that set work offset and rotation: LinuxCNC G10 L2, Fanuc G68, Siemens TRANS and AROT");
+  add("--offset-out", w.offset_out, "FILE", "These lines; the pose of the result is then what they say");
+  add("--axes", w.axes, "3|5", "Axes of the machine: five follow a tilt [3]");
+  add("--offset-decimals", w.offset_decimals, "N",
+      "Decimals of a degree and of a millimetre that the control takes [3 3]")
+      .count = 2;
+}
+
 void add_output_options(Form& form, LocateWords& w) {
   const OptionAdder add(form, "Output");
   add("-o,--output", w.output, "FILE", "Write the result as JSON to this file");
@@ -544,6 +592,7 @@ Typed add_locate_form(Form& form) {
   add_search_options(form, *words);
   add_solid_options(form, *words);
   add_program_options(form, *words);
+  add_offset_options(form, *words);
   add_output_options(form, *words);
   form.footer = kLocateFooter;
   return [words, options = form.options] {

@@ -24,7 +24,9 @@ namespace lekalo::cli {
 /// Holds what `lekalo locate` was asked for, checked. An empty path means: not asked for.
 struct LocateOptions {
   std::string part, blank, nc, allow, compare, features, start;
-  std::string output, picture, report, allowances, drawing, mesh;  ///< the other outputs are named in `outputs`
+  std::string offset_out;  ///< the name of the lines of a work offset
+  std::string output, picture, report, allowances, drawing,
+      mesh;  ///< the other outputs are named in `outputs`
   jobs::LocateOptions job;
   jobs::LocateOutputs outputs;
   jobs::SolidLocateOptions solid;

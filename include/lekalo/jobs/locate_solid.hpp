@@ -11,6 +11,8 @@
 #include "lekalo/jobs/file.hpp"
 #include "lekalo/jobs/locate.hpp"
 #include "lekalo/jobs/picture_form.hpp"
+#include "lekalo/nc/rewrite.hpp"
+#include "lekalo/nc/work_offset.hpp"
 
 namespace lekalo::jobs {
 
@@ -33,6 +35,12 @@ struct SolidScanOptions {
   std::optional<double> step;
 };
 
+/// The lines that set work offset and rotation for the placement, whose pose is then one that they can say.
+struct SolidOffsetOptions {
+  nc::OffsetForm form;
+  int axes = 3;  ///< of the machine, 3 or 5: five can follow a tilt
+};
+
 /// The way a solid is to be placed.
 /// \pre numbers are in the ranges said here
 struct SolidLocateOptions {
@@ -53,6 +61,7 @@ struct SolidLocateOptions {
   std::optional<SolidScanOptions> scan;
   /// The way a program is rewritten; its `z` is that of the placement.
   nc::RewriteOptions rewrite = {};
+  std::optional<SolidOffsetOptions> offset = {};
   /// They change the time and nothing else.
   unsigned threads = kUsualThreads;
 };
@@ -69,6 +78,9 @@ struct SolidLocateOutputs {
   /// The name of the rewritten program.
   /// \pre not empty where the job has one
   std::string program;
+  /// The name of the lines of the work offset.
+  /// \pre not empty where the options have one
+  std::string offset;
   /// The allowance at every corner of the part as CSV.
   bool allowances = false;
   std::optional<SolidPictureForm> picture;
@@ -95,14 +107,15 @@ struct LocatedSolid {
   io::SolidDocument document;
   /// The bytes of `document`, which are what was checked.
   std::string result;
-  std::string certificate, mesh, allowances, picture, report, program;
-  /// There was a program, but the placement does not allow it; a warning in the document says why.
-  bool program_withheld = false;
+  std::string certificate, mesh, allowances, picture, report, program, offset;
+  /// There was a program, or an offset, but the placement does not allow it; a warning in the document says
+  /// why.
+  bool program_withheld = false, offset_withheld = false;
 
   /// True if the answer is yes: the part lies in the blank and has the allowance, all of the blank is known,
-  /// and the program, if there was one, is there.
+  /// and the program and the offset, if they were asked for, are there.
   [[nodiscard]] bool holds() const noexcept {
-    return document.inside() && !(*document.shortfall() > 0) && !program_withheld &&
+    return document.inside() && !(*document.shortfall() > 0) && !program_withheld && !offset_withheld &&
            (!document.scan || document.scan->proved());
   }
 };

@@ -11,8 +11,9 @@
 namespace lekalo::jobs {
 
 /// Finds a file that a result names: `role` is that of one of its inputs ("part", "blank", "features", "nc",
-/// "last-result", "start"), "certificate", or "NC program" for the one that was written; `path` as it stands
-/// in the result. Without a value: there is no such file. An error: it is there and cannot be read.
+/// "last-result", "start"), "certificate", or "NC program" or "work offset" for those that were written;
+/// `path` as it stands in the result. Without a value: there is no such file. An error: it is there and
+/// cannot be read.
 using FileFinder =
     std::function<Result<std::optional<File>>(const std::string& role, const std::string& path)>;
 

@@ -80,6 +80,14 @@ void write(JsonWriter& json, const SolidDemandRecord& demands) {
       .end();
 }
 
+void write(JsonWriter& json, const std::optional<OffsetRecord>& offset) {
+  if (!offset) return void(json.value(nullptr));
+  json.begin_object().fields(
+      {{"control", offset->control}, {"axes", offset->axes}, {"work_offset", offset->work_offset}});
+  json.key("output").object({{"path", offset->output.path}, {"sha256", offset->output.sha256}});
+  json.end();
+}
+
 void write_head(JsonWriter& json, const SolidDocument& d) {
   line_of(json, "format").object({{"name", "lekalo-locate"}, {"version", 1}});
   lines(json, {{"status", d.status}, {"units", "mm"}});
@@ -145,6 +153,7 @@ std::string result_json(const SolidDocument& d) {
   write_placement(json, d);
   write_proof(json, d);
   detail::write_nc(line_of(json, "nc"), d.nc);
+  write(line_of(json, "offset"), d.offset);
   line_of(json, "run").object({{"seconds", d.seconds}, {"threads", d.threads}});
   json.line(0).end();
   return json.take() + "\n";

@@ -15,6 +15,7 @@
 #include "lekalo/locate/solid_reference.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "solid_documents.hpp"
+#include "solid_offset.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -56,7 +57,7 @@ void warn_of_names(const SolidLocateJob& job, std::vector<std::string>& warnings
   const auto name_of_file = [](const std::optional<File>& file) { return file ? file->name : std::string(); };
   for (const std::string& name :
        {job.part.name, job.blank.name, name_of_file(job.start), name_of_file(job.features),
-        name_of_file(job.program), job.outputs.certificate, job.outputs.program})
+        name_of_file(job.program), job.outputs.certificate, job.outputs.program, job.outputs.offset})
     if (const auto warning = warning_of_name(name)) warnings.push_back(*warning);
 }
 
@@ -78,27 +79,28 @@ void warn_of_start(const SolidInputs& in, std::vector<std::string>& warnings) {
           out, axis, p.shift));
 }
 
-/// The decimals of a pose are within half a last place of the doubles whose clearance is known, and so is
-/// what they do to any point of the part: mm.
-double decimals_lose(const locate::SolidPlacement& found, const SolidInputs& in) {
+/// The decimals of a pose, or the words of an offset, are within this share of the doubles whose clearance is
+/// known, and so is what they do to any point of the part: mm.
+double decimals_lose(const locate::SolidPlacement& found, const SolidInputs& in, double share) {
   double far = norm(found.pose.shift);
   for (const Vector p : in.problem.part.vertices) far = std::max(far, norm(p));
-  return 0x1p-49 * far;
+  return share * far;
 }
 
-std::optional<double> safe_clearance(const locate::SolidPlacement& found, const SolidInputs& in) {
+std::optional<double> safe_clearance(const locate::SolidPlacement& found, const SolidInputs& in,
+                                     double share) {
   if (!found.inside) return std::nullopt;
-  const double safe = difference_rounded_down(found.clearance, decimals_lose(found, in));
+  const double safe = difference_rounded_down(found.clearance, decimals_lose(found, in, share));
   if (!(safe > 0)) return std::nullopt;
   return safe;
 }
 
 /// A margin has lost as much as the smallest scale makes of it.
-double safe_margin(const locate::SolidPlacement& found, const SolidInputs& in) {
+double safe_margin(const locate::SolidPlacement& found, const SolidInputs& in, double share) {
   double least_scale = 1;
   for (const auto& demand : in.problem.demands)
     if (demand) least_scale = std::min(least_scale, demand->scale);
-  return difference_rounded_down(found.margin, (1 + 0x1p-50) * decimals_lose(found, in) / least_scale);
+  return difference_rounded_down(found.margin, (1 + 0x1p-50) * decimals_lose(found, in, share) / least_scale);
 }
 
 /// The findings of a method. One that proves nothing has neither bound nor proof.
@@ -201,7 +203,8 @@ Result<void> self_check(const SolidLocateJob& job, const SolidInputs& in, Locate
   }
   const bool proved = made.document.demands ? made.document.demands->margin_bound.has_value()
                                             : made.document.upper_bound.has_value();
-  return held_against(report, proved ? verify::Verdict::confirmed : verify::Verdict::unproved);
+  LEKALO_CHECK(held_against(report, proved ? verify::Verdict::confirmed : verify::Verdict::unproved));
+  return made.document.offset ? check_offset(made) : Result<void>{};
 }
 
 Result<Found> searched(const SolidInputs& in, const SolidLocateOptions& o, const RunControl& run,
@@ -225,12 +228,13 @@ io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&
   warn_of_names(job, d.warnings);
   d.work = found.best.work, d.freedom = job.options.freedom;
   d.window = {in.problem.start, in.pivot, job.options.shift, in.turn_deg};
-  d.pose = found.best.pose, d.clearance = safe_clearance(found.best, in);
+  const double share = job.options.offset ? kWordedLoss : 0x1p-49;
+  d.pose = found.best.pose, d.clearance = safe_clearance(found.best, in, share);
   d.min_allowance = job.options.min_allowance;
   d.demands = std::move(in.demands);
   if (d.demands) {
     d.demands->margin_bound = found.upper_bound;
-    if (d.inside()) d.demands->margin = safe_margin(found.best, in);
+    if (d.inside()) d.demands->margin = safe_margin(found.best, in, share);
   } else {
     d.upper_bound = found.upper_bound;
   }
@@ -273,11 +277,21 @@ Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& r
   const RunControl nobody;
   std::optional<Listening> to_the_end;
   if (run.stop_requested()) to_the_end.emplace(nobody);
+  std::optional<WordedPose> words;
+  const double before = found.best.clearance;
+  if (job.options.offset) {
+    LEKALO_TRY(words, worded(job, in, found.best));
+  }
+  const double lost = before - found.best.clearance;
   LocatedSolid made;
   made.document = document_of(job, in, std::move(found));
   made.document.seconds = seconds;
+  if (lost > 0)
+    made.document.warnings.push_back(
+        fmt::format("rounding the pose to what the control reads takes {:.3g} mm off the clearance", lost));
   place_proof(job, made);
   LEKALO_CHECK(add_program(job, made));
+  add_offset(job, words, made);
   LEKALO_CHECK(add_pictures(job, in, made));
   LEKALO_CHECK(self_check(job, in, made));
   if (in.meshed) made.mesh = std::move(in.meshed->mesh.bytes);

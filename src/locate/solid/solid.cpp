@@ -9,6 +9,7 @@
 
 #include "lekalo/base/limits.hpp"
 #include "lekalo/geom/trig.hpp"
+#include "lekalo/locate/solid_at.hpp"
 #include "solid_climb.hpp"
 #include "solid_placement.hpp"
 #include "solid_search.hpp"
@@ -106,6 +107,14 @@ SolidFrame frame_of(const SolidProblem& problem) {
   return frame;
 }
 
+/// Measures what the part has at its pose.
+void measure_at_pose(const SolidMeter& meter, SolidPlacement& made) {
+  const MeasuredPose there = meter.measure(motion_of(made.pose));
+  made.inside = there.inside;
+  made.clearance = there.inside ? there.clearance : 0;
+  made.margin = there.inside ? there.margin : 0;
+}
+
 SolidPlacement placement(const SolidMeter& meter, const FramedPose& found) {
   SolidPlacement made;
   made.pose.quaternion = meter.frame().quaternion(found);
@@ -116,10 +125,7 @@ SolidPlacement placement(const SolidMeter& meter, const FramedPose& found) {
   }
   const Motion turn = motion_of({made.pose.quaternion, {}});
   made.pose.shift = found.at - turn.turned(meter.frame().pivot);
-  const Motion motion = motion_of(made.pose);
-  const MeasuredPose there = meter.measure(motion);
-  made.inside = there.inside;
-  if (made.inside) made.clearance = there.clearance, made.margin = there.margin;
+  measure_at_pose(meter, made);
   return made;
 }
 
@@ -141,6 +147,24 @@ Result<SolidPlacement> place_solid(const SolidProblem& problem, const SolidOptio
   SolidPlacement made = placement(meter, best.pose);
   made.contacts = holding_contacts(meter, best, options.gap);
   made.work = work;
+  return made;
+}
+
+Result<std::optional<SolidPlacement>> solid_at(const SolidProblem& problem, const SolidPose& pose,
+                                               const SolidOptions& options) {
+  LEKALO_CHECK(check(problem, options));
+  const SolidMeter meter(problem, frame_of(problem));
+  const SolidFrame& frame = meter.frame();
+  const auto [w, x, y, z] = frame.start;
+  // The rotation after the start's.
+  const std::array<double, 4> turn = product(pose.quaternion, {w, -x, -y, -z});
+  const FramedPose framed{1 / turn[0] * Vector{turn[1], turn[2], turn[3]}, motion_of(pose)(frame.pivot)};
+  const FramedPose held = frame.window.held(framed);
+  if (!(held.x == framed.x && held.at == framed.at)) return std::nullopt;
+  SolidPlacement made;
+  made.pose = pose;
+  measure_at_pose(meter, made);
+  made.contacts = holding_contacts(meter, {framed, made.clearance, made.inside}, options.gap);
   return made;
 }
 

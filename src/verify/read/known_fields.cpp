@@ -125,6 +125,7 @@ constexpr Known kSolidScan[] = {
     {"guard"},      {"min_radius"},        {"max_dip"}, {"underside", kSolidUnderside},
     {"widest"},     {"unknown_triangles"}, {"proved"},  {"left_out"},
     {"assumptions"}};
+constexpr Known kOffset[] = {{"control"}, {"axes"}, {"work_offset"}, {"output", kFile}};
 constexpr Known kSolidFile[] = {{"path"}, {"sha256"}, {"boxes"}};
 constexpr Known kSolidPlacement[] = {{"format", kFormat},
                                      {"status"},
@@ -154,6 +155,7 @@ constexpr Known kSolidPlacement[] = {{"format", kFormat},
                                      {"certificate", kSolidCertificate},
                                      {"certificate_file", kSolidFile},
                                      {"nc", kNc},
+                                     {"offset", kOffset},
                                      {"run"}};
 constexpr Known kOfReports[] = {{"regions", kRegion}, {"drawing", kDrawing}, {"scan", kScan}};
 

@@ -64,7 +64,7 @@ class Reader {
       if (value && is_beyond_all_sizes(*value)) fields_.complain("a length is beyond all sizes");
     fields_.each("contacts", [&](Json item, const std::string& path) { read_contact(item, path); });
     fields_.require({"warnings", "seed", "work", "version", "method", "scan", "certificate",
-                     "certificate_file", "nc", "run"});
+                     "certificate_file", "nc", "offset", "run"});
     read_demands();
     read_scan();
     read_proof();

@@ -57,6 +57,13 @@ struct SolidDemandRecord {
   std::optional<double> margin_bound;
 };
 
+/// The lines that set work offset and rotation for the placement.
+struct OffsetRecord {
+  std::string control;
+  int axes = 3, work_offset = 1;
+  FileRecord output;
+};
+
 struct SolidDocument {
   std::string status;  ///< optimal, stopped, infeasible, unproved
   std::string method;  ///< certified, climb, icp, axes
@@ -87,6 +94,7 @@ struct SolidDocument {
   /// The boxes of the certificate, wherever it is.
   std::size_t certificate_boxes = 0;
   std::optional<NcRecord> nc;
+  std::optional<OffsetRecord> offset;
   /// The time of this run; the only field that is not a function of the input.
   double seconds = 0;
   unsigned threads = 1;
