@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <array>
 
+#include "lekalo/base/random.hpp"
 #include "lekalo/nc/rewrite.hpp"
+#include "lekalo/nc/work_offset.hpp"
 #include "support/cases.hpp"
 #include "support/places.hpp"
 #include "support/rs274_random.hpp"
@@ -322,6 +324,43 @@ M2
 bool goes_home(const std::string& program) {
   return std::ranges::any_of(std::array{"G28", "g28", "G30", "g30", "G53", "g53"},
                              [&](const char* word) { return program.find(word) != std::string::npos; });
+}
+
+/// The lines of a work offset and the original program after them, against the moved original: the
+/// interpreter has the tool at the same points of the machine.
+TEST(NcRs274, TheLinesOfAWorkOffsetMoveEveryProgram) {
+  Random random(lekalo::cases::seed(), 4400);
+  const std::size_t count = std::min<std::size_t>(lekalo::cases::case_count(12), 1000);
+  std::size_t compared = 0;
+  for (std::size_t k = 1; k <= count; ++k) {
+    // The heights are said from the beginning, as a program for a solid has to.
+    const std::string program =
+        "G21 G90 G0 X0. Y0. Z5.\n" + rs274::RandomProgram(lekalo::cases::seed(), 3 * k).write();
+    const double half = random.uniform(-1.5, 1.5);
+    const OffsetForm form{.length_decimals = 4};
+    const OffsetTurn turn = written_turns({std::cos(half), 0, 0, std::sin(half)}, form).front();
+    std::array<long long, 3> shift{};
+    for (long long& each : shift) each = std::llround(random.uniform(-5e6, 5e6));
+    const rs274::PlaneMotion pose{static_cast<double>(shift[0]) / 1e4, static_cast<double>(shift[1]) / 1e4,
+                                  2 * std::atan2(turn.quaternion[3], turn.quaternion[0]),
+                                  static_cast<double>(shift[2]) / 1e4};
+    const rs274::Run original = oracle().run(program);
+    if (!original.accepted) continue;
+    rs274::Comparison comparison(pose, kTolerance, true, goes_home(program));
+    const std::string moved = offset_lines(turn, shift, form, {"part.stl"}) + program;
+    EXPECT_EQ(comparison.difference(original, oracle().run(moved)), "") << moved;
+    EXPECT_GT(comparison.motions, 0U);
+    // The rewritten program, where it can be had, is at the same points.
+    RewriteOptions options;
+    options.z = pose.z;
+    const auto rewritten = rewrite_program(program, "p", pose.x, pose.y, pose.theta, options);
+    if (!rewritten) continue;
+    ++compared;
+    rs274::Comparison again(pose, kTolerance, false, goes_home(program));
+    EXPECT_EQ(again.difference(original, oracle().run(rewritten->program)), "") << rewritten->program;
+  }
+  fmt::print("{} of {} programs rewritten too\n", compared, count);
+  EXPECT_GE(compared, count / 4);
 }
 
 /// Programs as posts write them (the shared data): where rs274 knows all words, it sees the moved original.
