@@ -26,6 +26,8 @@ POCKET = {"units": "mm", "outer": [
     {"line": {"from": [0, 0], "to": [40, 0]}}, {"line": {"from": [40, 0], "to": [40, 24]}},
     {"line": {"from": [40, 24], "to": [0, 24]}}, {"line": {"from": [0, 24], "to": [0, 0]}}]}
 SHEET = "steel 2 mm#1"
+PROGRAM = "G21 G90 G17 G54 F90\nT1 M6\nG0 X0. Y0.\nG43 H1 Z80.\nG1 Z40.\nG2 X10. Y0. I5. Z38.\nG91 G1 X2. Z-1.5\nG90\n" \
+          "G98 G81 X1. Y2. Z-3. R42.\nX5.\nG80\nG0 Z80.\nM30\n"
 
 
 # Contacts and multipliers are claims to a millionth of the blank's size, and of 1 (docs/formats.md).
@@ -173,6 +175,14 @@ def of_solids():
                  inputs=stl + ["s.json"])
     about_z = near + ["--freedom", "c-xyz", "--window", "-1", "2", "--shift", "0.5", "--gap", "0.05"]
     yield placed("placement, solids, c-xyz", meshes, [start, about_z], inputs=stl)
+    words = ["--nc", "p.nc", "--nc-out", "o.nc", "--offset", "siemens", "--offset-out", "lines.txt"]
+    upright = climb + ["--freedom", "c-xyz", "-o", "s.json"]
+    program = functools.partial(placed, files=meshes, commands=[upright, about_z + words], written={"p.nc": PROGRAM})
+    yield program("placement, solids, program", inputs=["p.nc", "o.nc", "lines.txt"])
+    yield program("program of solids, rewritten", target="o.nc", oracle=truth.rewritten, form="text",
+                  report_of="r.json")
+    yield program("work offset of solids", target="lines.txt", oracle=truth.offset_lines, form="text",
+                  report_of="r.json")
     moved = [start, near + ["--freedom", "xyz", "--shift", "5", "--gap", "0.003", "--certificate", "c.json"]]
     yield placed("placement, solids, xyz", meshes, moved, inputs=stl + ["c.json"])
     yield placed("placement, solids, proof in a file", meshes, moved, target="c.json", oracle=solids.certificate,

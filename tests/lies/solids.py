@@ -17,13 +17,15 @@ from fractions import Fraction as F
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
 
 import check_solid_certificate as proof
+import nc_reader
 import exact
 import exact_solids as space
 import truth
 from exact_solids import cross, dot, plus, sub, times
 
 INFORMATION = [r"/(seed|work|version|method|run|warnings)(/.*)?$", r"/inputs/\d+/path$", r"/certificate_file/path$",
-               r"/contacts/\d+/multiplier$", r"/scan/assumptions/\d+$"]
+               r"/contacts/\d+/multiplier$", r"/scan/assumptions/\d+$", r"/nc/(motions|scan_frame|notes)(/.*)?$",
+               r"/(nc|offset)/output/path$"]
 # Items that each say something for themselves; a term, a ball or a node is missed where it is needed.
 MAY_GO = r"/(contacts|inputs)/\d+$|/certificate/(part_balls|blank_balls|planes)/\d+$|/certificate/trees/\d+/nodes/\d+(/\d+)?$"
 UNITS = {"mm": F(1), "inch": F(254, 10), "m": F(1000)}
@@ -330,11 +332,13 @@ class Solids:
         if document["format"] != {"name": "lekalo-locate", "version": 1} or document["units"] != "mm":
             return False
         proof_in = document["certificate_file"]
-        for entry in document["inputs"] + ([proof_in] if proof_in else []):
+        written = [document[key]["output"] for key in ("nc", "offset") if document[key]]
+        for entry in document["inputs"] + ([proof_in] if proof_in else []) + written:
             if hashlib.sha256(bytes_of(self.files[entry["path"]])).hexdigest() != entry["sha256"]:
                 return False
         roles = {entry["role"]: entry for entry in document["inputs"]}
-        if len(roles) != len(document["inputs"]) or not {"part", "blank"} <= roles.keys() <= {"part", "blank", "start", "points"}:
+        if len(roles) != len(document["inputs"]) or not {"part", "blank"} <= roles.keys() <= {
+                "part", "blank", "start", "points", "nc", "allow"}:
             return False
         part, blank = (self.mesh(roles[role]["path"], roles[role]["units"]) for role in ("part", "blank"))
         if any(roles[role]["triangles"] != len(mesh.all) for role, mesh in (("part", part), ("blank", blank))):
@@ -344,6 +348,7 @@ class Solids:
                 else document["unknown_area_mm2"] == 0 and "points" not in roles):
             return False
         return (derived(document, certificate) and pose_is_allowed(document) and
+                program_holds(document, self.files) and offset_holds(document, self.files) and
                 all(contact_holds(document, contact, part, blank, scan) for contact in document["contacts"]) and
                 self.clearance_holds(document, part, blank, scan) and
                 self.is_proved(document, certificate, part, blank))
@@ -443,6 +448,31 @@ def derived(document, certificate):
         return status == "stopped" or certificate is None
     return bound is not None and (bound < least) == (status == "infeasible") and \
         status in ("optimal", "infeasible") and (status == "infeasible" or document["inside"])
+
+
+def program_holds(document, files):
+    """The program is the original, turned about z and shifted, by the second reader of the tests; the rest that is said
+    of it is what was said before."""
+    nc, last = document["nc"], json.loads(files["r.json"])["nc"]
+    if nc is None or last is None:
+        return nc is last
+    if any(nc[k] != last[k] for k in last if k not in ("rounding_mm", "clearance", "motions", "notes", "scan_frame")):
+        return False
+    w, x, y, z = document["quaternion"]
+    if x or y or nc["rounding_mm"] < 0 or nc["clearance"] > document["clearance"] - nc["rounding_mm"]:
+        return False
+    original = files[next(one["path"] for one in document["inputs"] if one["role"] == "nc")]
+    pose = float(document["x"]), float(document["y"]), 2 * math.atan2(z, w)
+    return not nc_reader.differences(original, files[nc["output"]["path"]], nc["control"], pose,
+                                     float(nc["rounding_mm"]), mode=nc["mode"], rise=float(document["z"]))
+
+
+def offset_holds(document, files):
+    """The lines are those that were written, so that they say this pose if it is the one that was found."""
+    last = json.loads(files["r.json"], parse_float=F, parse_int=F)
+    if document["offset"] != last["offset"]:
+        return False
+    return document["offset"] is None or all(document[k] == last[k] for k in ("quaternion", "x", "y", "z"))
 
 
 def contact_holds(document, contact, part, blank, scan):

@@ -575,9 +575,10 @@ def rewritten(context):
     before, same_way = words_of_program(context.text), goes_as(context.text)
     document = context.json("r.json")
     room = document["nc"]["rounding_mm"] - 0.71e-5
+    places = "XYZIJR" if "quaternion" in document else "XYIJ"
 
     def same(a, b):
-        return a == b or (isinstance(a, tuple) and isinstance(b, tuple) and a[0] == b[0] and a[0] in "XYIJ" and
+        return a == b or (isinstance(a, tuple) and isinstance(b, tuple) and a[0] == b[0] and a[0] in places and
                           abs(a[1] - b[1]) <= room)
 
     def holds(change):
@@ -588,6 +589,16 @@ def rewritten(context):
         return len(before) == len(after) and all(
             len(one) == len(other) and all(map(same, one, other)) for one, other in zip(before, after)) or \
             same_way(change)
+    return holds
+
+
+def offset_lines(context):
+    def words(text):
+        return words_of_program("\n".join(line for line in text.splitlines() if not line.startswith((";", "("))))
+
+    def holds(change):
+        # Comments are for people, and so is the sign of a zero.
+        return "information" if words(change.text()) == words(context.text) else None
     return holds
 
 

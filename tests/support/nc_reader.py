@@ -361,9 +361,9 @@ def read(text, control):
 
 
 class Comparison:
-    def __init__(self, pose, rounding, chord, mode):
+    def __init__(self, pose, rounding, chord, mode, rise):
         x, y, theta = pose
-        self.mode = mode
+        self.mode, self.rise = mode, rise
         self.x, self.y, self.c, self.s = x, y, math.cos(theta), math.sin(theta)
         self.rounding, self.chord = rounding + 1e-9, chord
 
@@ -374,6 +374,12 @@ class Comparison:
         if p is None or q is None:
             return 0.0 if (p is None) == (q is None) else math.inf
         return math.dist(self.moved(p), q)
+
+    def raised(self, a, b, by=0.0):
+        """Heights of the original and of the written one; of a solid's program they are shifted."""
+        if a is None or b is None:
+            return a is b
+        return close(a, b, by or 1e-9) if self.rise is None else close(a + self.rise, b, by + self.rounding)
 
     def run(self, original, written):
         k = 0
@@ -399,15 +405,15 @@ class Comparison:
         if a.kind == "machine":
             return "" if (a.to, a.motion) == (b.to, b.motion) else "another place of the machine"
         if a.kind == "home":
-            same = (a.which, a.z, a.axes, a.through) == (b.which, b.z, b.axes, b.through)
-            return "" if same else "another way home"
+            same = (a.which, a.axes, a.through) == (b.which, b.axes, b.through)
+            return "" if same and self.raised(a.z, b.z) else "another way home"
         if a.kind == "holes":
-            if (a.code, a.cycle, a.repeats, a.retract) != (b.code, b.cycle, b.repeats, b.retract):
+            if (a.code, a.repeats, a.retract) != (b.code, b.repeats, b.retract) or not self.same_cycle(a, b):
                 return "another cycle"
             return "" if all(self.off(p, q) <= self.rounding for p, q in zip(a.holes, b.holes)) else "holes elsewhere"
         if a.kind == "words":
             return ""
-        if not close(a.z0, b.z0) or not close(a.z1, b.z1):
+        if not self.raised(a.z0, b.z0) or not self.raised(a.z1, b.z1):
             return "another height"
         if max(self.off(a.start, b.start), self.off(a.end, b.end)) > self.rounding:
             return "another place"
@@ -419,13 +425,19 @@ class Comparison:
         for k in range(17):
             u, v = p.point(k / 16), q.point(k / 16)
             place = b.frame(v[0], v[1])
-            if self.off(u[:2], place) > self.rounding or not close(u[2], v[2]):
+            if self.off(u[:2], place) > self.rounding or not self.raised(u[2], v[2]):
                 return "another arc"
         return ""
 
+    def same_cycle(self, a, b):
+        heights = "" if a.incremental or self.rise is None else "ZR"
+        return a.cycle.keys() == b.cycle.keys() and all(
+            self.raised(a.cycle[k], b.cycle[k]) if k in heights else a.cycle[k] == b.cycle[k] for k in a.cycle)
+
     def within_decimals(self, a, b):
-        """A written coordinate is the nearest number of its decimals. Steps follow one another instead."""
-        if self.mode != "coordinates" or b.incremental or a.end is None or a.start == a.end:
+        """A written coordinate is the nearest number of its decimals. Steps follow one another instead. The poses of
+        solids are changed by more than that."""
+        if self.rise is not None or self.mode != "coordinates" or b.incremental or a.end is None or a.start == a.end:
             return ""
         exact = self.moved(a.end)
         for axis, places in enumerate(b.decimals):
@@ -439,7 +451,7 @@ class Comparison:
         end, last = event.arc.point(1), k
         while last < len(written) and written[last].kind == "feed":
             w = written[last]
-            if self.off(end[:2], w.end) <= self.rounding and close(end[2], w.z1, 1e-6):
+            if self.off(end[:2], w.end) <= self.rounding and self.raised(end[2], w.z1, 1e-6):
                 break
             last += 1
         else:
@@ -452,7 +464,7 @@ class Comparison:
             for part in range(1, 9):
                 share, here = part / 8, event.arc.point((n + part / 8) / count)
                 place = [p + share * (q - p) for p, q in zip((*before[0], before[1]), (*w.end, w.z1))]
-                if math.hypot(self.off(here[:2], place[:2]), here[2] - place[2]) > allowed:
+                if math.hypot(self.off(here[:2], place[:2]), here[2] + (self.rise or 0) - place[2]) > allowed:
                     return k, "a chord off the arc"
             before = (w.end, w.z1)
             if n and [x for x in w.words if not x.startswith("F")]:
@@ -473,6 +485,7 @@ def close(a, b, by=1e-9):
     return a == b or (a is not None and b is not None and abs(a - b) <= by)
 
 
-def differences(original, written, control, pose, rounding, chord=1e-3, mode="coordinates"):
-    """What the rewritten program does otherwise than the original, moved; empty where nothing."""
-    return Comparison(pose, rounding, chord, mode).run(read(original, control), read(written, control))
+def differences(original, written, control, pose, rounding, chord=1e-3, mode="coordinates", rise=None):
+    """What the rewritten program does otherwise than the original, moved; empty where nothing. `rise` is the shift along
+    Z of a solid."""
+    return Comparison(pose, rounding, chord, mode, rise).run(read(original, control), read(written, control))

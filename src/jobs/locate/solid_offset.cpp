@@ -85,7 +85,7 @@ Result<std::optional<WordedPose>> worded(const SolidLocateJob& job, const SolidI
     LEKALO_TRY(std::optional<locate::SolidPlacement> made,
                locate::solid_at(in.problem, {turn.quaternion, {length(0), length(1), length(2)}}, how));
     if (!made ||
-        (found && std::pair(made->inside, made->clearance) <= std::pair(found->inside, found->clearance)))
+        (found && std::pair(made->inside, made->margin) <= std::pair(found->inside, found->margin)))
       continue;
     found = std::move(made), words = here;
   }
