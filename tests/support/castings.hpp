@@ -478,64 +478,74 @@ struct PinchedPlate : SolidCase {
   solid::Vector above, below;  ///< the tips, in the blank's frame
 };
 
-inline PinchedPlate pinched_plate(Random& random, std::uint32_t across) {
-  const double thick = random.uniform(8, 25), wide = random.uniform(35, 60), deep = random.uniform(35, 60),
-               wave = random.uniform(20, 40);
-  PinchedPlate made;
-  made.kind = "pinched plate", made.optimum = random.uniform(0.2, 1.5);
-  const std::uint32_t at_x = across * 2 / 5 + static_cast<std::uint32_t>(random.below(across / 5)),
-                      at_y = across * 2 / 5 + static_cast<std::uint32_t>(random.below(across / 5));
-  const double phase = random.uniform(0, 6);
-  // A disc where `round`, else a block.
-  const bool round = random.below(2) == 0;
-  const auto body = [&](double grown, auto&& height) {
-    solid::Mesh mesh;
-    const std::uint32_t row = across + 1;
-    for (const double side : {-1.0, 1.0})
-      for (std::uint32_t j = 0; j <= across; ++j)
-        for (std::uint32_t i = 0; i <= across; ++i) {
-          const double u = 2.0 * i / across - 1, v = 2.0 * j / across - 1;
-          const double x = round ? u * std::sqrt(1 - v * v / 2) : u,
-                       y = round ? v * std::sqrt(1 - u * u / 2) : v;
-          const double px = x * (wide + grown), py = y * (deep + grown);
-          mesh.vertices.push_back({px, py, side * height(i, j, px, py)});
-        }
-    const std::uint32_t over = row * row;
-    const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-      mesh.triangles.push_back({a, b, c});
-      mesh.triangles.push_back({a, c, d});
-    };
-    for (std::uint32_t j = 0; j < across; ++j)
-      for (std::uint32_t i = 0; i < across; ++i) {
-        const std::uint32_t a = j * row + i;
-        quad(a, a + row, a + row + 1, a + 1);
-        quad(over + a, over + a + 1, over + a + row + 1, over + a + row);
-      }
-    for (std::uint32_t k = 0; k < across; ++k) {
-      const std::uint32_t south = k, north = across * row + k, west = k * row, east = west + across;
-      quad(south, south + 1, over + south + 1, over + south);
-      quad(north + 1, north, over + north, over + north + 1);
-      quad(west + row, west, over + west, over + west + row);
-      quad(east, east + row, over + east + row, over + east);
-    }
-    return mesh;
-  };
-  made.part = body(0, [&](auto, auto, double, double) { return 0.5 * thick; });
-  const auto tip = [&](std::uint32_t i, std::uint32_t j) { return i == at_x && j == at_y; };
-  solid::Vector pinch;
-  made.blank = body(4, [&](std::uint32_t i, std::uint32_t j, double x, double y) {
-    if (tip(i, j)) pinch = {x, y, 0};
-    return 0.5 * thick + 4 + 0.4 * std::sin(x / wave + phase) * std::cos(y / wave);
-  });
-  for (solid::Vector& p : made.blank.vertices) {
-    const double away = std::hypot(p.x - pinch.x, p.y - pinch.y), dent = std::max(0.0, 1 - away / 8);
-    const double least = 0.5 * thick + made.optimum;
-    p.z = std::copysign(std::abs(p.z) + (least - std::abs(p.z)) * dent, p.z);
+/// A plate of six corners, of as few triangles as a drawing has: a large one between three of the corners,
+/// and one at each of the others.
+inline solid::Mesh plate(const std::array<std::array<double, 2>, 6>& outline, double thick) {
+  solid::Mesh mesh;
+  for (const double z : {-0.5 * thick, 0.5 * thick})
+    for (const auto& [x, y] : outline) mesh.vertices.push_back({x, y, z});
+  for (const auto& [a, b, c] : {solid::Triangle{0, 2, 4}, {0, 1, 2}, {2, 3, 4}, {4, 5, 0}}) {
+    mesh.triangles.push_back({a, c, b});
+    mesh.triangles.push_back({a + 6, b + 6, c + 6});
   }
-  made.above = {pinch.x, pinch.y, 0.5 * thick + made.optimum};
-  made.below = {pinch.x, pinch.y, -0.5 * thick - made.optimum};
-  made.there = casting_motion(random);
-  made.part = closed_mesh(moved_back(std::move(made.part), made.there)).value().mesh;
+  for (std::uint32_t k = 0; k < 6; ++k) {
+    const std::uint32_t next = (k + 1) % 6;
+    mesh.triangles.push_back({k, next, next + 6});
+    mesh.triangles.push_back({k, next + 6, k + 6});
+  }
+  return mesh;
+}
+
+/// The part is less than 0.6 degrees and 0.3 mm along each axis off where it fits.
+/// \param across  how many quads the blank has each way
+inline PinchedPlate pinched_plate(Random& random, std::uint32_t across) {
+  const double thick = random.uniform(8, 25), wave = random.uniform(20, 40), phase = random.uniform(0, 6);
+  std::array<std::array<double, 2>, 6> outline;
+  for (std::uint32_t k = 0; k < 6; ++k) {
+    const double turned = std::numbers::pi / 3 * (k + random.uniform(0, 0.25)),
+                 out = random.uniform(110, 130);
+    outline[k] = {out * std::cos(turned), out * std::sin(turned)};
+  }
+  PinchedPlate made;
+  made.kind = "pinched plate", made.optimum = random.uniform(0.9, 1.6);
+  // The blank is a block with a grid above and below, whose heights wave.
+  const double most = 134, least = 0.5 * thick + made.optimum;
+  const auto middle = [&] {
+    return across * 9 / 20 + static_cast<std::uint32_t>(random.below(1 + across / 10));
+  };
+  const std::uint32_t at_x = middle(), at_y = middle(), row = across + 1, over = row * row;
+  const auto along = [&](std::uint32_t i) { return 2.0 * i / across - 1; };
+  const double x = along(at_x) * most, y = along(at_y) * most;
+  made.above = {x, y, least}, made.below = {x, y, -least};
+  for (const double side : {-1.0, 1.0})
+    for (std::uint32_t j = 0; j <= across; ++j)
+      for (std::uint32_t i = 0; i <= across; ++i) {
+        const solid::Vector p{along(i) * most, along(j) * most, 0};
+        const double high = 0.5 * thick + 4 + 0.4 * std::sin(p.x / wave + phase) * std::cos(p.y / wave),
+                     dent = std::max(0.0, 1 - std::hypot(p.x - x, p.y - y) / 12);
+        made.blank.vertices.push_back({p.x, p.y, side * std::lerp(high, least, dent)});
+      }
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    made.blank.triangles.push_back({a, b, c});
+    made.blank.triangles.push_back({a, c, d});
+  };
+  for (std::uint32_t j = 0; j < across; ++j)
+    for (std::uint32_t i = 0; i < across; ++i) {
+      const std::uint32_t a = j * row + i;
+      quad(a, a + row, a + row + 1, a + 1);
+      quad(over + a, over + a + 1, over + a + row + 1, over + a + row);
+    }
+  for (std::uint32_t k = 0; k < across; ++k) {
+    const std::uint32_t south = k, north = across * row + k, west = k * row, east = west + across;
+    quad(south, south + 1, over + south + 1, over + south);
+    quad(north + 1, north, over + north, over + north + 1);
+    quad(west + row, west, over + west, over + west + row);
+    quad(east, east + row, over + east + row, over + east);
+  }
+  const solid::Vector axis = direction(random);
+  made.there = turn(axis, random.uniform(-0.01, 0.01));
+  made.there.shift = {random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3)};
+  made.part = closed_mesh(moved_back(plate(outline, thick), made.there)).value().mesh;
   made.blank = closed_mesh(std::move(made.blank)).value().mesh;
   return made;
 }
