@@ -9,8 +9,8 @@ namespace lekalo::locate {
 /// what they find is measured like any placement, however bad it is. docs/design/reference-methods.md.
 
 /// Point-to-plane least squares from the start: points spread evenly over the part's surface against the
-/// plane of the blank's triangle that is nearest to each, small steps until they vanish. The criterion does
-/// not see on which side of the surface a point lies.
+/// plane of the blank's triangle that is nearest to each, small steps until they no longer help. The
+/// criterion does not see on which side of the surface a point lies.
 ///
 /// Refuses what place_solid refuses. Deterministic; single-threaded. A unit of work is one step. Source: Chen
 /// and Medioni 1992 (distance to the tangent plane).

@@ -16,8 +16,9 @@ using solid::Vector;
 
 /// So many points are spread over the part's surface.
 constexpr std::size_t kPoints = 10'000;
-/// A step below this part of the part's size ends the iteration, and so does the number of steps.
-constexpr double kVanishedPivot = 1e-10;
+/// The iteration ends with a sum of squares that changes by less than this part of itself, or after so many
+/// steps.
+constexpr double kSettled = 1e-6;
 constexpr int kMostSteps = 100;
 
 /// One point for each equal share of the surface. Where in its triangle it lies goes by the multiples of two
@@ -56,7 +57,7 @@ class SolidRegistration {
     }
   }
 
-  /// Moves the pose by one least-squares step and returns the length of the step.
+  /// Moves the pose by one least-squares step and returns the sum of the squares before it.
   double step(FramedPose& pose) {
     const SolidFrame& frame = meter_.frame();
     const Steps free = frame.trusted(1);
@@ -72,9 +73,8 @@ class SolidRegistration {
       for (std::size_t k = 0; k < row.size(); ++k) row[k] *= free[k];
       sum.add(row, dot(n, nearest.place - p));
     }
-    const FramedPose before = pose;
     pose = frame.moved(pose, sum.solve());
-    return norm(pose.at - before.at) + 2 * frame.reach * norm(pose.x - before.x);
+    return sum.squares;
   }
 
  private:
@@ -91,9 +91,12 @@ Result<SolidPlacement> place_solid_icp(const SolidProblem& problem, const SolidO
   SolidRegistration registration(meter);
   FramedPose pose = meter.frame().window.middle();
   std::uint64_t steps = 0;
+  double before = kInfinity;
   while (steps < kMostSteps && !options.run.stop_requested()) {
     ++steps;
-    if (registration.step(pose) <= kVanishedPivot * meter.frame().reach) break;
+    const double squares = registration.step(pose);
+    if (std::abs(before - squares) <= kSettled * squares) break;
+    before = squares;
   }
   std::vector<SolidContact> contacts;
   const MeasuredSolid there = meter.measure(pose, kInfinity, 1, contacts);
