@@ -265,6 +265,9 @@ std::string demands_line(const io::SolidDocument& d) {
   const std::string bound = !r.margin_bound ? ""
                                             : fmt::format("; no placement {} has a margin above {}",
                                                           window_text(d), mm_up(*r.margin_bound));
+  if (!r.margin && r.margin_bound && *r.margin_bound < 0)
+    return fmt::format("  demands            at least {} are missing, wherever in the window the part lies\n",
+                       mm_down(-*r.margin_bound));
   if (!r.margin) return fmt::format("  demands            not met{}\n", bound);
   if (*r.margin >= 0)
     return fmt::format("  demands            met, with a margin of {}{}\n", mm_down(*r.margin), bound);

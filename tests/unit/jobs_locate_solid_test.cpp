@@ -328,7 +328,7 @@ TEST(JobsLocateSolid, DemandsThatCannotBeMetAreProvedToBe) {
 TEST(JobsLocateSolid, FilesOfFeaturesThatMakeNoSenseAreRefused) {
   SolidLocateJob job = block_job();
   job.features = features_of_block(1, R"(, {"name": "all", "box": [[-99, -99, -99], [99, 99, 99]]})");
-  EXPECT_TRUE(says(refusal(job).message, "is also of the feature \"end\"; it can be of one"));
+  EXPECT_TRUE(says(refusal(job).message, "is also of the feature \"top\"; it can be of one"));
   job.features = File{"features.json", R"({"features": [{"name": "all", "as_cast": true,
     "box": [[-99, -99, -99], [99, 99, 99]]}]})"};
   EXPECT_EQ(
