@@ -14,6 +14,7 @@
 #include "support/solid_results.hpp"
 #include "support/verify_solids.hpp"
 #include "verify/solid/certificate_tables.hpp"
+#include "verify/solid/triangle_distance.hpp"
 
 namespace lekalo::verify::verify_solid_bounds_test {
 namespace {
@@ -133,6 +134,30 @@ TEST(SolidFields, ContactsMayBeOffByAShareOfTheLongestExtentOfTheBlank) {
   EXPECT_EQ(small.told(), "unproved");
   contact["part_point"][0] = 0.1250011;
   EXPECT_TRUE(says(small.told(), "part_point is not on triangle 10"));
+}
+
+TEST(SolidFields, AContactMayBeOffByExactlyTheTolerance) {
+  SolidResultFiles files = cube_in_cube();
+  files.part = solid_files::stl_binary(block({0, -5, -5}, {10, 5, 5}));
+  files.blank = solid_files::stl_binary(block({-1, -6, -6}, {11, 6, 6}));
+  files.result["contacts"][0]["part_point"] = {0.123, 1, -1};
+  files.result["contacts"][0]["part_triangle"] = 9;
+  const double slack = 1e-6 * 12.0;
+  const Triangle3 face{
+      {{just(0), just(5), just(-5)}, {just(0), just(-5), just(5)}, {just(0), just(5), just(5)}}};
+  const auto told_at = [&](double off) {
+    return told_with(files, "0.123", fmt::format("{:.99f}", off));  // to the last digit of the double
+  };
+  const auto is_at_the_bound = [&](double off) {
+    const Vec3 p{just(off), just(1), just(-1)};
+    return distance({p, p, p}, face).low == slack;
+  };
+  double off = slack;
+  for (int k = 0; k < 100 && !is_at_the_bound(off); ++k) off = step_up(off);
+  ASSERT_TRUE(is_at_the_bound(off));
+  EXPECT_FALSE(says(told_at(off), "part_point is not on triangle")) << told_at(off);
+  for (int k = 0; k < 5; ++k) off = step_up(off);
+  EXPECT_TRUE(says(told_at(off), "part_point is not on triangle")) << told_at(off);
 }
 
 TEST(SolidFields, AContactIsOnATriangleThatCounts) {
@@ -273,6 +298,25 @@ TEST(SolidBounds, ARootThatIsNoFractionIsRoundedToTheSafeSide) {
   sticks_out(files.result);
   EXPECT_EQ(with(files, "-" + well_below), "confirmed");
   EXPECT_TRUE(says(with(files, "-" + above), "do not prove"));
+}
+
+TEST(SolidBounds, ABallInTheMiddleOfAnotherIsBoundedAsFromOneMillimetre) {
+  // With the balls on each other at the only pose, |w| <= (|w|^2 + 1) / 2 leaves 0.5 - 0.25 - 1.5 - bound.
+  const auto with = [](double bound) {
+    SolidResultFiles files =
+        cube_in_cube(one_leaf(Json::array({{"ball", 0, 0, 1}}), Json::array({{0, 0, 0, 0.25}}),
+                              Json::array({{0, 0, 0, 1.5}}), Json::array(), 0),
+                     bound, "xyz", 0);
+    solid::Mesh blank = block({-6, -6, -6}, {6, 6, 6});
+    cases::append(blank, block({-2, -2, -2}, {2, 2, 2}));
+    files.blank = solid_files::stl_binary(blank);
+    files.result["inputs"][1]["triangles"] = 24;
+    sticks_out(files.result);
+    return files.told();
+  };
+  EXPECT_EQ(with(-1), "confirmed");
+  EXPECT_EQ(with(-1.25), "confirmed");
+  EXPECT_TRUE(says(with(-1.2500001), "do not prove"));
 }
 
 TEST(SolidBounds, OnlyTheFirstLeavesThatFailAreNamed) {
@@ -429,6 +473,7 @@ TEST(SolidBounds, BallsAndHalfSpacesOfAFineBlankTakeLittleWork) {
     balls.push_back({16, 0, 0.001 * k, 9.999});
     planes.push_back({1, 0.001 * k, 0.002 * k, -6.5 - 0.1 * k});
   }
+  for (int k = 0; k < 30; ++k) balls.push_back({6.5, 0.3, 0.05 * k, 0.4});
   const std::string text =
       Json{{"part_balls", Json::array()}, {"blank_balls", balls}, {"planes", planes}}.dump();
   const SolidMesh part = cases::checked(block({-5, -5, -5}, {5, 5, 5})),
@@ -441,10 +486,13 @@ TEST(SolidBounds, BallsAndHalfSpacesOfAFineBlankTakeLittleWork) {
     run.work_limit = work;
     return stoppable(run, [&] { return act(), true; }).has_value();
   };
-  EXPECT_TRUE(takes_at_most(9000, [&] {
+  EXPECT_TRUE(takes_at_most(300, [&] {
     for (std::size_t k = 0; k < 30; ++k) EXPECT_NE(tables.blank_ball(k), nullptr);
   }));
-  EXPECT_TRUE(takes_at_most(1000, [&] {
+  EXPECT_TRUE(takes_at_most(250, [&] {
+    for (std::size_t k = 30; k < 60; ++k) EXPECT_NE(tables.blank_ball(k), nullptr);
+  }));
+  EXPECT_TRUE(takes_at_most(250, [&] {
     for (std::size_t k = 0; k < 30; ++k) EXPECT_NE(tables.plane(k), nullptr);
   }));
   EXPECT_EQ(complaint, "");

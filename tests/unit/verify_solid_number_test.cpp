@@ -21,7 +21,7 @@ namespace {
 using cases::decimal;
 
 TEST(SolidNumber, AnEnclosureIsTheNumberItselfWhereADoubleIs) {
-  for (const char* text : {"0", "0.5", "-3", "1e9", "-0.375"}) {
+  for (const char* text : {"0", "0.5", "-3", "1e9", "-0.375", "5.9604644775390625e-8"}) {
     const Fraction value = to_fraction(decimal(text));
     for (const Span span : {enclosed(value), enclosed(decimal(text))}) {
       EXPECT_EQ(span.low, std::stod(text));
@@ -29,7 +29,8 @@ TEST(SolidNumber, AnEnclosureIsTheNumberItselfWhereADoubleIs) {
     }
   }
   for (const char* text :
-       {"0.1", "-0.1", "1e-30", "0.30000000000000000001", "-123456789.123456789123456789"}) {
+       {"0.1", "-0.1", "1e-30", "0.30000000000000000001", "-123456789.123456789123456789",
+        "0.12345678901234567", "-0.98765432109876543", "123456789.123456789", "0.7", "0.3"}) {
     const Fraction value = to_fraction(decimal(text));
     for (const Span span : {enclosed(value), enclosed(decimal(text))}) {
       EXPECT_TRUE(Fraction(span.low) < value && value < Fraction(span.high)) << text;
@@ -322,6 +323,24 @@ TEST(SolidWidth, AtTheRadiusATriangleIsUnknown) {
   EXPECT_EQ(scan_widths(mesh, scan("0", "5.00000000000000000001")).unknown, 0U);
   EXPECT_EQ(scan_widths(mesh, scan("0.5", "5.5")).unknown, 1U);
   EXPECT_EQ(scan_widths(mesh, scan("0.5", "5.5000000000000000001")).unknown, 0U);
+}
+
+/// Its largest angle is a little more than a right one, and doubles do not tell which of the long sides is
+/// the longer one.
+TEST(SolidWidth, OfANeedleItHoldsTheExactOne) {
+  const double length = 0x1.8p20, thin = 0x1p-12, back = 0.25, radius = 900'000;
+  const Near3 blunt{0, 0, 0}, sharp{thin, 0, 0}, tip{-back, length, 0};
+  const Fraction wide = Fraction(thin) + Fraction(back),
+                 longest = wide * wide + Fraction(length) * Fraction(length),
+                 left = Fraction(radius) * Fraction(radius) - longest / 4;
+  for (const std::array<Near3, 3>& t : {std::array{blunt, sharp, tip}, std::array{sharp, blunt, tip},
+                                        std::array{tip, sharp, blunt}, std::array{tip, blunt, sharp}}) {
+    const Span width = scan_widths(triangles({t}), scan("0", "900000")).of[0];
+    const Fraction low = Fraction(radius) - Fraction(width.low),
+                   high = Fraction(radius) - Fraction(width.high);
+    EXPECT_TRUE(low * low >= left && high * high <= left);
+    EXPECT_LT(width.high - width.low, 1e-7);
+  }
 }
 
 TEST(SolidWidth, SpansDecideNearlyAlways) {

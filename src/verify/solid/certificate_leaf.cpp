@@ -289,7 +289,7 @@ class LeafProof {
       form.slope = normal, form.level = level, form.weight = number<Number>(1);
       return form;
     };
-    const Number foot = dot(n, face.at[0]), radius = as<Number>(a.radius),
+    const Number foot = dot(n, face.at.front()), radius = as<Number>(a.radius),
                  width = number<Number>(frame_.blank.width(term.blank).low);
     forms.push_back(form_of(n, number<Number>(0) - foot - radius - width - bound));
     Answer all = std::min(not_below_zero(bound), nowhere_positive(form_of(negative(n), foot - radius)));

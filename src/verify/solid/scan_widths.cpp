@@ -11,7 +11,8 @@
 namespace lekalo::verify {
 namespace {
 
-/// The rest of a squared radius comes from fractions where its enclosure is wider than this part of it.
+/// The enclosure of what a circle leaves of a squared radius decides where it is no wider than this part of
+/// it; else fractions do.
 constexpr double kLoose = 0x1p-36;
 
 template <class Number>

@@ -65,8 +65,8 @@ class Proposer {
   void edges(std::size_t i, std::size_t j) {
     const Near3 u = a_[(i + 1) % 3] - a_[i], v = b_[(j + 1) % 3] - b_[j], w = b_[j] - a_[i];
     const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w);
-    // Any place is one to begin at where edges are parallel or without length, so 0 may divide.
-    const auto within = [](double x) { return std::max(0.0, std::min(x, 1.0)); };  // of NaN 0
+    // Any place is one to begin at where edges are parallel or without length, so that 0 may divide.
+    const auto within = [](double x) { return std::max(0.0, std::min(x, 1.0)); };  // NaN becomes 0
     const double from = within((uw * vv - vw * uv) / (uu * vv - uv * uv)), t = within((from * uv - vw) / vv);
     take(on_edge(i, within((t * uv + uw) / uu)), on_edge(j, t));
   }
@@ -194,7 +194,8 @@ void to_face(const Whole3& p, const WholeTriangle& t, Least& least) {
 /// Says whether the edge passes from one side of the triangle's plane to the other through its inside.
 bool pierces(const Whole3& from, const Whole3& to, const WholeTriangle& t) {
   const Whole3 n = normal(t);
-  if (sgn(dot(n, from - t[0])) * sgn(dot(n, to - t[0])) >= 0) return false;
+  const auto height = [&](const Whole3& p) { return sgn(dot(n, p - t.front())); };
+  if (height(from) * height(to) >= 0) return false;
   const auto side = [&](std::size_t k) {
     return sgn(dot(cross(t[k] - from, t[(k + 1) % 3] - from), to - from));
   };
