@@ -72,6 +72,7 @@ class Mesh:
     def __init__(self, triangles):
         self.all = triangles
         self.kept = [t for t in triangles if any(space.normal(t))]
+        self.boxes = [[(min(c), max(c)) for c in zip(*t)] for t in self.kept]
         self.known = {}
         edges = collections.Counter(
             frozenset((tuple(t[k - 1]), tuple(t[k]))) for t in self.kept for k in range(3))
@@ -81,8 +82,19 @@ class Mesh:
     def ball_holds(self, ball, wanted):
         key = (tuple(ball), wanted)
         if key not in self.known:
-            self.known[key] = space.ball_holds(ball, self.kept, wanted)
+            self.known[key] = self.looked_at(ball[:3], ball[3], wanted)
         return self.known[key]
+
+    def looked_at(self, p, radius, wanted):
+        """What space.ball_holds says, of the triangles whose boxes matter alone."""
+        near = [t for t, box in zip(self.kept, self.boxes)
+                if sum(max(low - x, x - high, 0) ** 2 for x, (low, high) in zip(p, box)) <= radius ** 2]
+        squares = [space.squared_distance(p, t) for t in near]
+        if any(square < radius ** 2 for square in squares):
+            return False
+        above = [t for t, box in zip(self.kept, self.boxes)
+                 if all(low <= x <= high for x, (low, high) in zip(p[:2], box))]
+        return 0 in squares or space.inside(p, above) == wanted
 
     def one_of_each_component(self):
         parent = {}
@@ -197,7 +209,7 @@ def root_of(fraction):
 def squared_circle(t):
     """The squared radius of the smallest circle around a triangle."""
     a, b, c = sorted(dot(w, w) for w in (sub(t[k], t[k - 1]) for k in range(3)))
-    n = proof.normal(t)
+    n = space.normal(t)
     return c / 4 if a + b <= c else a * b * c / (4 * dot(n, n))
 
 
@@ -315,11 +327,13 @@ def root_covers(document, tree):
 # Claims. -------------------------------------------------------------------------------------------------------
 
 class Solids:
-    """What a placement of solids claims. Meshes, clearances and leaves that were looked at before are kept."""
+    """What a placement of solids claims. Meshes, clearances and leaves that were looked at before are kept, also from
+    one kind to the next, many of which are of the same meshes and proof."""
+
+    meshes, clearances, leaves, measured = {}, {}, {}, {}
 
     def __init__(self, files):
-        self.files, self.meshes, self.clearances, self.leaves = files, {}, {}, {}
-        self.measured = {}
+        self.files = files
 
     def mesh(self, path, unit):
         key = self.files[path], unit
