@@ -248,7 +248,7 @@ class Scan:
         return made
 
     def is_told(self, document):
-        area = sum(root_of(dot(n, n)) / 2 for n in map(proof.normal, self.unknown))
+        area = sum(root_of(dot(n, n)) / 2 for n in map(space.normal, self.unknown))
         said = self.scan["assumptions"]
         return (self.scan["unknown_triangles"] == len(self.unknown) and self.scan["proved"] == (not self.unknown) and
                 isinstance(said, list) and len(said) > 0 and all(

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <numbers>
 
@@ -232,11 +233,43 @@ TEST(LocateSolid, StoppedEarlyTheBoundHolds) {
   EXPECT_EQ(found->status, locate::Status::stopped);
   EXPECT_GE(found->upper_bound, 1.25);
   options.run.work_limit = std::numeric_limits<std::uint64_t>::max();
+  fraction = 0;
   const auto whole = locate::locate_solid({pair.part, pair.blank, {}}, options);
   EXPECT_EQ(whole->status, locate::Status::optimal);
   EXPECT_NEAR(whole->best.clearance, 1.25, 1e-4);
   EXPECT_GE(whole->upper_bound, 1.25);
   EXPECT_GT(fraction, 0);
+}
+
+TEST(LocateSolid, ProgressIsToldFromTheBeginningAndAStopIsSeenWithinAMeasurement) {
+  Random random(cases::seed(), 68);
+  const cases::SolidCase pair = cases::convex_in_convex(random, 16, 1.25);
+  const locate::SolidProblem problem{pair.part, pair.blank, {}};
+  // Before any box is closed there were calls: before the trees, behind them, at each step of the climb.
+  for (std::size_t stop_at = 0; stop_at < 12; ++stop_at) {
+    SCOPED_TRACE(stop_at);
+    std::atomic<bool> stop = false;
+    std::size_t calls = 0;
+    Progress told;
+    locate::SolidOptions options{.gap = 1e-4, .run = {}};
+    options.run.stop = &stop;
+    options.run.progress = [&](const Progress& progress) {
+      EXPECT_GE(progress.fraction, told.fraction);
+      EXPECT_EQ(progress.fraction == 0, calls == 0);
+      if (!stop) told = progress;
+      stop = stop || calls == stop_at;
+      ++calls;
+    };
+    const auto found = locate::locate_solid(problem, options);
+    ASSERT_TRUE(found);
+    EXPECT_GT(calls, stop_at);
+    EXPECT_LT(told.fraction, 0.5);
+    // The pose that it begins from is measured in any case, and each of the first boxes has its program.
+    EXPECT_LE(found->best.work, std::max<std::uint64_t>(told.work, 2) + found->boxes);
+    EXPECT_EQ(found->status, locate::Status::stopped);
+    EXPECT_GE(found->upper_bound, 1.25);
+    EXPECT_LE(found->best.clearance, 1.25);
+  }
 }
 
 TEST(LocateSolid, ABlankThatIsTooSmallIsProvedToBe) {

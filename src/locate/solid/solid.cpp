@@ -170,6 +170,7 @@ Result<std::optional<SolidPlacement>> solid_at(const SolidProblem& problem, cons
 
 Result<SolidResult> locate_solid(const SolidProblem& problem, const SolidOptions& options) {
   LEKALO_CHECK(check(problem, options));
+  if (options.run.progress) options.run.progress({});
   const SolidMeter meter(problem, frame_of(problem));
   SolidSearch search(meter, options);
   search.run();

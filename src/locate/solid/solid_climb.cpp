@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "lekalo/base/stop.hpp"
 #include "locate/search/cell_program.hpp"
 
 namespace lekalo::locate {
@@ -60,6 +61,19 @@ std::vector<LinearBound<6>> rows_at(const SolidMeter& meter, const MeasuredSolid
 
 }  // namespace
 
+std::optional<MeasuredSolid> measured_unless_stopped(const SolidMeter& meter, const FramedPose& pose,
+                                                     double most, std::size_t count, const RunControl& run,
+                                                     std::vector<SolidContact>& contacts) {
+  RunControl until_stop;
+  until_stop.stop = run.stop;
+  const Listening listening(until_stop);
+  try {
+    return meter.measure(pose, most, count, contacts);
+  } catch (const Stopped&) {
+    return std::nullopt;
+  }
+}
+
 MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trust, double enough,
                     const RunControl& run, std::uint64_t& work) {
   const SolidFrame& frame = meter.frame();
@@ -71,17 +85,20 @@ MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trus
   const double widest = trust;
   int tries = 0;
   for (int step = 0; step < kMostSteps && !run.stop_requested(); ++step) {
+    if (run.progress) run.progress({work, static_cast<double>(step) / kMostSteps});
     const auto rows = rows_at(meter, best, pool, here);
     if (rows.empty()) break;
     const LinearSolution<6> solution = solve_cell(rows, frame.trusted(trust));
     if (!(solution.bound > best.value + enough)) break;
-    MeasuredSolid next = meter.measure(frame.moved(best.pose, solution.z),
-                                       std::max(solution.bound, meter.floor() + enough), kContacts, there);
+    const auto next =
+        measured_unless_stopped(meter, frame.moved(best.pose, solution.z),
+                                std::max(solution.bound, meter.floor() + enough), kContacts, run, there);
+    if (!next) break;
     work += 2;
     const bool added = add(pool, there);
-    if (next.better_than(best)) {
-      const double gained = next.value - best.value, hoped = solution.bound - best.value;
-      best = next;
+    if (next->better_than(best)) {
+      const double gained = next->value - best.value, hoped = solution.bound - best.value;
+      best = *next;
       here = there;
       if (gained < 0.25 * hoped && !added) trust *= 0.5;
       if (gained > 0.75 * hoped) trust = std::min(widest, 2 * trust);

@@ -1,14 +1,22 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "solid_meter.hpp"
 
 namespace lekalo::locate {
 
+/// Measures as the meter does, and returns nothing where the flag of `run` is set meanwhile.
+[[nodiscard]] std::optional<MeasuredSolid> measured_unless_stopped(const SolidMeter& meter,
+                                                                   const FramedPose& pose, double most,
+                                                                   std::size_t count, const RunControl& run,
+                                                                   std::vector<SolidContact>& contacts);
+
 /// Climbs from a pose until no step makes it better by `enough`: the linear program of the contacts, without
 /// remainders, is solved in a box of steps up to `trust` mm, which shrinks where that does not help. What a
-/// step meets is kept, so that the next program knows of it. Adds to `work`.
+/// step meets is kept, so that the next program knows of it. Adds to `work`, and tells `run` how many of the
+/// steps that may be are done. A stop leaves the best so far.
 [[nodiscard]] MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trust,
                                   double enough, const RunControl& run, std::uint64_t& work);
 

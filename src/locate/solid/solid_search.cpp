@@ -27,8 +27,9 @@ constexpr std::size_t kMostKnown = 64;
 constexpr double kWorthKnowing = 1.0 / 64;
 /// A climb goes on while it gains this part of the gap.
 constexpr double kWorthClimbing = 1e-3;
-/// The progress listener is called after this many units of work.
-constexpr std::uint64_t kReportEvery = 256;
+/// The trees over the meshes are told as this part of the whole, and with the first climb as that. How long
+/// boxes take is not known before one is closed, so that more would promise an end.
+constexpr double kTreesShare = 0.001, kClimbShare = 0.01;
 
 /// Multipliers are whole numbers up to this, so that they take little room in files.
 constexpr double kWhole = 1e9;
@@ -57,8 +58,14 @@ void SolidSearch::meet_first() {
   std::vector<SolidContact> contacts;
   (void)meter_.measure(start, kInfinity, kLooked, contacts);
   ++work_;
-  best_ =
-      climb(meter_, start, size(meter_.frame().window), kWorthClimbing * options_.gap, options_.run, work_);
+  tell(kTreesShare);
+  RunControl climbing = options_.run;
+  if (climbing.progress)
+    climbing.progress = [this](const Progress& climbed) {
+      tell(kTreesShare + climbed.fraction * (kClimbShare - kTreesShare));
+    };
+  best_ = climb(meter_, start, size(meter_.frame().window), kWorthClimbing * options_.gap, climbing, work_);
+  tell(kClimbShare);
   for (double Vector::*const axis : kAxes)
     for (const double side : {-1.0, 1.0}) {
       Vector normal;
@@ -138,10 +145,12 @@ void SolidSearch::bound(Node& node, Found& found) const {
           {view.middle.x + turn * Vector{z[3], z[4], z[5]}, view.middle.at + Vector{z[0], z[1], z[2]}});
     }
     if (round == kRounds) break;
-    const MeasuredSolid here =
-        meter_.measure(pose, std::max(solution.bound, meter_.floor() + options_.gap), kLooked, contacts);
+    const auto here =
+        measured_unless_stopped(meter_, pose, std::max(solution.bound, meter_.floor() + options_.gap),
+                                kLooked, options_.run, contacts);
+    if (!here) break;
     ++found.work;
-    if (here.better_than(found.best)) found.best = here;
+    if (here->better_than(found.best)) found.best = *here;
     std::stable_sort(contacts.begin(), contacts.end(),
                      [](const SolidContact& a, const SolidContact& b) { return a.margin() < b.margin(); });
     std::size_t added = 0;
@@ -179,8 +188,11 @@ void SolidSearch::learn(Node& node, Found& found) {
   for (KnownSolid& known : found.known) known_.push_back(std::move(known));
   if (!found.best.better_than(best_)) return;
   best_ = found.best;
+  if (options_.run.stop_requested()) return;
+  RunControl climbing;
+  climbing.stop = options_.run.stop;
   const MeasuredSolid climbed =
-      climb(meter_, best_.pose, size(node.cell), kWorthClimbing * options_.gap, options_.run, work_);
+      climb(meter_, best_.pose, size(node.cell), kWorthClimbing * options_.gap, climbing, work_);
   if (climbed.better_than(best_)) best_ = climbed;
 }
 
@@ -253,12 +265,13 @@ void SolidSearch::run() {
     for (Node& node : batch) {
       if (closed(node.upper)) {
         keep(node);
-        report(node.cell);
+        count_closed(node.cell);
       } else {
         open.push_back(std::move(node));
         std::push_heap(open.begin(), open.end(), lower);
       }
     }
+    tell(kClimbShare + (1 - kClimbShare) * std::min(1.0, closed_share_));
     batch.clear();
     if (open.empty() || closed(open.front().upper)) break;
     if (work_ >= options_.run.work_limit || options_.run.stop_requested()) {
@@ -362,17 +375,18 @@ SolidProof SolidSearch::proof() const {
   return made;
 }
 
-void SolidSearch::report(const SolidCell& closed_cell) {
-  if (!options_.run.progress) return;
+void SolidSearch::tell(double fraction) const {
+  if (options_.run.progress) options_.run.progress({work_, fraction});
+}
+
+/// Adds the share that a closed box has of the window.
+void SolidSearch::count_closed(const SolidCell& closed_cell) {
   const auto share = [](Vector part, Vector whole) {
     const auto of = [](double a, double b) { return b > 0 ? a / b : 1.0; };
     return of(part.x, whole.x) * of(part.y, whole.y) * of(part.z, whole.z);
   };
   const FramedPose whole = meter_.frame().window.half(), closed = closed_cell.half();
   closed_share_ += share(closed.at, whole.at) * share(closed.x, whole.x);
-  if (work_ < next_report_) return;
-  next_report_ = work_ + kReportEvery;
-  options_.run.progress({work_, std::min(1.0, closed_share_)});
 }
 
 }  // namespace lekalo::locate

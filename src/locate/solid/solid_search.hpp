@@ -61,7 +61,8 @@ class SolidSearch {
     if (best_.inside) return upper <= best_.value + options_.gap;
     return upper <= meter_.floor() + options_.gap || (meter_.has_demands() && upper < options_.min_allowance);
   }
-  void report(const SolidCell& closed_cell);
+  void tell(double fraction) const;
+  void count_closed(const SolidCell& closed_cell);
 
   const SolidMeter& meter_;
   const SolidOptions& options_;
@@ -74,7 +75,7 @@ class SolidSearch {
   MeasuredSolid best_;
   double upper_ = 0;
   bool finished_ = false;
-  std::uint64_t work_ = 0, boxes_ = 0, next_report_ = 0;
+  std::uint64_t work_ = 0, boxes_ = 0;
   double closed_share_ = 0;
 };
 
