@@ -236,6 +236,7 @@ class TriangleFinder {
   [[nodiscard]] std::vector<std::uint32_t> all_corners(const Holds& holds) const {
     std::vector<std::uint32_t> made;
     for (std::uint32_t t = 0; t < count(); ++t) {
+      ask();
       const solid::Corners at = corners(t);
       if (std::all_of(at.begin(), at.end(), holds)) made.push_back(t);
     }
