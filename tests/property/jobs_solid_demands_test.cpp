@@ -1,0 +1,69 @@
+// Random demands by face of random solids: the checker, which rebuilds them from the file, confirms each
+// result.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "lekalo/jobs/locate_solid.hpp"
+#include "support/cases.hpp"
+#include "support/solid_cases.hpp"
+#include "support/solid_files.hpp"
+
+namespace lekalo::jobs::jobs_solid_demands_test {
+namespace {
+
+/// Triangles dealt out to three features, or to none; one feature may be as cast.
+std::string features_of(std::size_t triangles, bool as_cast, Random& random) {
+  std::vector<std::string> numbers(4);
+  for (std::size_t t = 0; t < triangles; ++t) {
+    std::string& list = numbers[random.below(4)];
+    list += (list.empty() ? "" : ", ") + std::to_string(t);
+  }
+  std::string features;
+  for (std::size_t k = 0; k < 3; ++k)
+    features += fmt::format(R"({}{{"name": "{}", "triangles": [{}], {}}})", k == 0 ? "" : ", ", k, numbers[k],
+                            k == 2 && as_cast ? std::string(R"("as_cast": true)")
+                                              : fmt::format(R"("minimum": {:.3f}, "scale": {:.2f})",
+                                                            random.uniform(0, 1), random.uniform(0.5, 2)));
+  return fmt::format(R"({{"minimum": {:.3f}, "features": [{}]}})", random.uniform(0, 0.5), features);
+}
+
+TEST(SolidDemands, EveryResultIsConfirmed) {
+  Random random(cases::seed(), 71);
+  std::size_t inside = 0, met = 0;
+  for (std::uint64_t k = 0; k < cases::case_count(3); ++k) {
+    cases::SolidCase pair = k % 4 == 0   ? cases::convex_in_convex(random, 14, random.uniform(0.2, 1.5))
+                            : k % 4 == 1 ? cases::turned_part(random, 8)
+                            : k % 4 == 2 ? cases::wavy_part(random, 5)
+                                         : cases::cored_block(random, 2);
+    SCOPED_TRACE(pair.kind);
+    SolidLocateJob job;
+    // Some triangles look into the material, and are turned round.
+    for (solid::Triangle& t : pair.part.triangles)
+      if (random.below(4) == 0) std::swap(t[1], t[2]);
+    job.part = {"part.stl", solid_files::stl_text(pair.part)};
+    job.blank = {"casting.stl", solid_files::stl_binary(pair.blank)};
+    job.features =
+        File{"features.json", features_of(pair.part.triangles.size(), random.below(2) == 0, random)};
+    job.options.gap = 0.1;
+    RunControl run;
+    run.work_limit = 2000;
+    const Result<LocatedSolid> located = locate_solid(job, run);
+    ASSERT_TRUE(located.has_value()) << located.error().message;
+    const io::SolidDocument& d = located->document;
+    ASSERT_TRUE(d.demands.has_value());
+    ASSERT_TRUE(d.demands->margin_bound.has_value());
+    inside += d.inside() ? 1 : 0;
+    met += located->holds() ? 1 : 0;
+  }
+  EXPECT_GT(inside, 0U);
+  if (cases::case_count(3) > 20) {
+    EXPECT_GT(met, 0U);
+  }
+}
+
+}  // namespace
+}  // namespace lekalo::jobs::jobs_solid_demands_test
