@@ -127,7 +127,7 @@ TEST(SolidCertificate, CornersOverFacesProveItWhereTheirFeetStay) {
 TEST(SolidCertificate, EdgesProveItWhereTheyPassEachOther) {
   constexpr double kSpare = 1e-14;  // the direction is a little shorter than 1
   EXPECT_EQ(by_edges(2 + kSpare).told(), "confirmed");
-  EXPECT_TRUE(says(by_edges(2 - kSpare).told(), "do not prove"));
+  EXPECT_TRUE(says(by_edges(std::nextafter(2, 0)).told(), "do not prove"));
   // The part's edge is at y = -5 from x = -5 to 5, those of the cores at x = 3 from y = -8 to 8, 2 off.
   const auto between = [](const char* axis, double low, double high) {
     SolidResultFiles files = by_edges(2 + kSpare);
@@ -138,6 +138,21 @@ TEST(SolidCertificate, EdgesProveItWhereTheyPassEachOther) {
     EXPECT_EQ(between(axis, low + 0.001, high - 0.001), "confirmed") << axis;
     EXPECT_TRUE(says(between(axis, low, high - 0.001), "do not prove")) << axis;
     EXPECT_TRUE(says(between(axis, low + 0.001, high), "do not prove")) << axis;
+  }
+  // One of them, and the top of the blank: each end of each edge counts.
+  const auto alone = [&](const char* axis, double low, double high) {
+    SolidResultFiles files = by_edges(8.5 + kSpare);
+    Json& certificate = files.result["certificate"];
+    certificate["part_balls"] = Json::array({{0, 0, 5, 0}});
+    certificate["planes"] = Json::array({{0, 0, -1, -20}});
+    certificate["trees"][0]["nodes"][0][1] = {"plane", 0, 0, 1};
+    certificate["trees"][0][axis] = {low, high};
+    return files.told();
+  };
+  for (const auto& [axis, low, high] : {std::tuple{"x", -2.0, 8.0}, {"y", -3.0, 13.0}, {"z", -2.0, 50.0}}) {
+    EXPECT_EQ(alone(axis, low + 0.001, high - 0.001), "confirmed") << axis;
+    EXPECT_TRUE(says(alone(axis, low, high - 0.001), "do not prove")) << axis;
+    EXPECT_EQ(says(alone(axis, low + 0.001, high), "do not prove"), high < 50) << axis;
   }
   // The others are parallel, do not cross, or are not there.
   for (int edge = 0; edge < 36; ++edge) {

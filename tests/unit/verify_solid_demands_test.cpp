@@ -79,6 +79,37 @@ TEST(SolidDemands, EachTermCountsWithTheDemandOfItsTriangle) {
   }
 }
 
+/// Edges of the bottom's first triangle and of the top pass cores 2 below and above them.
+TEST(SolidDemands, AnEdgeCountsWithTheTriangleThatItIsNamedBy) {
+  const Json features{
+      {"minimum", 0.125},
+      {"features", Json::array({Json{{"name", "half"}, {"triangles", {0}}, {"minimum", 0.5}, {"scale", 2}},
+                                Json{{"name", "rough"}, {"triangles", {4}}, {"as_cast", true}}})}};
+  const auto with = [&](int edge, double bound) {
+    SolidResultFiles files = with_demands(
+        features,
+        Json::array({demand_of_result("half", 1, 0.5, 2), demand_of_result("rough", 1, nullptr, nullptr)}),
+        one_leaf(Json::array({{"edges", edge, 45, 1}, {"edges", 6, 77, 1}}), Json::array(), Json::array(),
+                 Json::array()),
+        0.75, bound);
+    solid::Mesh blank = cases::block({-20, -20, -20}, {20, 20, 20});
+    cases::append(blank, cases::block({-9, -8, -8}, {3, 8, -7}));
+    cases::append(blank, cases::block({-9, -8, 7}, {3, 8, 8}));
+    files.blank = solid_files::stl_binary(blank);
+    files.result["inputs"][1]["triangles"] = 36, files.result["contacts"] = Json::array();
+    return files.told();
+  };
+  // Half of 1.5 is left below and 1.875 above: with shifts by z the sum of both is 3.375 / 3 for each.
+  EXPECT_EQ(with(2, 1.125 + 1e-12), "confirmed");
+  EXPECT_TRUE(says(with(2, 1.125 - 1e-12), "do not prove"));
+  // The same edge by its other triangle, which is as cast.
+  EXPECT_TRUE(
+      says(with(12, 1.125 + 1e-12), "nodes[0] has a term of the part's triangle 4, which is as cast"));
+  // The diagonal by the bottom's other triangle, which demands as the top does.
+  EXPECT_EQ(with(3, 1.875 + 1e-12), "confirmed");
+  EXPECT_TRUE(says(with(3, 1.875 - 1e-12), "do not prove"));
+}
+
 TEST(SolidDemands, BallsOfThePartNeedThatNothingIsAsCast) {
   Json balls = one_leaf(Json::array({{"plane", 0, 0, 1}, {"plane", 1, 1, 1}}),
                         Json::array({{0, 0, 5, 0}, {0, 0, -5, 0}}), Json::array(),
@@ -192,6 +223,10 @@ TEST(SolidDemands, WhatIsAsCastMayStickOut) {
   cases::append(cored, cases::block({-1, -1, -1}, {1, 1, 1}));
   EXPECT_TRUE(
       says(in(cored), "all of the blank's surface that hangs together at (-1, -1, -1) lies within the part"));
+  // Corners on the part's surface do not stick out of it.
+  cored = shorter;
+  cases::append(cored, cases::block({-1, -1, -1}, {1, 1, 5}));
+  EXPECT_TRUE(says(in(cored), "hangs together at (-1, -1, -1) lies within the part"));
   cored = shorter;
   cases::append(cored, cases::block({-1, -1, -1}, {1, 1, 5.5}));
   EXPECT_EQ(in(cored), "confirmed");
