@@ -279,8 +279,10 @@ INSTANTIATE_TEST_SUITE_P(
                 kSolids + Words{"--mirror", "yes", "--trim", "1", "--seed", "4"},
                 2,
                 {"--trim, --mirror and --seed are for outlines"}},
-        Refused{
-            "a method of the plane", kSolids + Words{"--method", "icp"}, 2, {"--method icp is for outlines"}},
+        Refused{"a method of the plane",
+                kSolids + Words{"--method", "ipopt"},
+                2,
+                {"--method ipopt is for outlines"}},
         Refused{"words of solids",
                 kOutlines + Words{"--freedom", "xyz", "--shift", "3", "--tilt", "2"},
                 2,
