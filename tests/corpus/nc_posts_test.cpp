@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,22 +26,24 @@ const std::vector<std::string> kRefused{"06", "08", "21", "30", "32", "34", "37"
 
 verify::Decimal decimal(double value) { return *verify::parse_decimal(fmt::format("{:.17g}", value)); }
 
-/// Empty when the program is rewritten and the checker confirms it; else why not.
-std::string fault_of(const fs::path& file, double theta) {
+/// Empty when the program is rewritten, with this shift along Z if it is a solid's, and the checker confirms
+/// it; else why not.
+std::string fault_of(const fs::path& file, double theta, std::optional<double> z = std::nullopt) {
   const auto bytes = disk::read_file(file.string());
   if (!bytes) return bytes.error().message;
-  const auto made = nc::rewrite_program(*bytes, file.filename().string(), 12.7, -25.4, theta, {});
+  nc::RewriteOptions options;
+  options.z = z;
+  const auto made = nc::rewrite_program(*bytes, file.filename().string(), 12.7, -25.4, theta, options);
   if (!made) return made.error().message;
-  const verify::ProgramVerdict verdict = verify::check_moved_program({{"original", *bytes},
-                                                                      {"written", made->program},
-                                                                      decimal(12.7),
-                                                                      decimal(-25.4),
-                                                                      decimal(theta),
-                                                                      decimal(made->rounding_mm),
-                                                                      "coordinates",
-                                                                      1,
-                                                                      made->control,
-                                                                      {}});
+  verify::ProgramClaim claim{{"original", *bytes}, {"written", made->program},
+                             decimal(12.7),        decimal(-25.4),
+                             decimal(theta),       decimal(made->rounding_mm),
+                             "coordinates",        1,
+                             made->control,        {}};
+  if (z)
+    claim.solid = verify::ProgramClaim::Solid{decimal(*z),
+                                              {decimal(std::cos(theta / 2)), decimal(std::sin(theta / 2))}};
+  const verify::ProgramVerdict verdict = verify::check_moved_program(claim);
   if (verdict.fault) return "CHECKER: " + *verdict.fault;
   return verdict.open ? "CHECKER: " + *verdict.open : "";
 }
@@ -55,7 +59,8 @@ TEST(NcPosts, FusionsProgramsAreRewritten) {
   if (cases::shared_data().empty()) GTEST_SKIP() << "no shared data";
   for (const double theta : {0.0, 0.58})
     for (const fs::path& file : files_of(cases::shared_data() + "/nc/fusion"))
-      EXPECT_EQ(fault_of(file, theta), "") << file;
+      for (const std::optional<double> z : {std::optional<double>(), std::optional(30.5)})
+        EXPECT_EQ(fault_of(file, theta, z), "") << file;
 }
 
 TEST(NcPosts, VariantsAreRewrittenOrRefusedAsTheTableSays) {
@@ -65,6 +70,8 @@ TEST(NcPosts, VariantsAreRewrittenOrRefusedAsTheTableSays) {
     const bool refused = std::ranges::find(kRefused, number) != kRefused.end();
     EXPECT_EQ(fault.empty(), !refused) << file << " " << fault;
     EXPECT_EQ(fault.starts_with(file.filename().string() + ":"), refused) << fault;
+    // 09 feeds after a cycle without a Z.
+    EXPECT_EQ(fault_of(file, 0.58, 30.5).empty(), !refused && number != "09") << file;
   }
 }
 
