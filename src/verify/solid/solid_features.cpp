@@ -195,12 +195,12 @@ class FeatureReader {
     Fields file(root, "", complaint_);
     refuse_other_words(file, {"units", "minimum", "features"});
     if (has(file, "units")) {
-      constexpr std::array<std::string_view, 3> kUnits{"mm", "inch", "m"};
-      const auto unit = std::ranges::find(kUnits, file.text("units"));
-      if (unit == kUnits.end())
+      constexpr std::array<std::string_view, 3> kWords{"mm", "inch", "m"};
+      const auto unit = std::ranges::find(kWords, file.text("units"));
+      if (unit == kWords.end())
         file.complain("field units is none of \"mm\", \"inch\" and \"m\"");
       else
-        unit_ = static_cast<SolidUnit>(unit - kUnits.begin());
+        unit_ = static_cast<SolidUnit>(unit - kWords.begin());
     }
     demands.minimum = length(file, "minimum");
     if (has(file, "features"))
