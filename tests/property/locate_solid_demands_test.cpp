@@ -169,7 +169,7 @@ TEST(SolidDemands, AFaceOutsideOfTheBlankIsNotInside) {
 
 TEST(SolidDemands, TheSameOfAllIsTheClearanceLessIt) {
   Random random(cases::seed(), 74);
-  const cases::SolidCase pair = cases::wavy_part(random, 6);
+  const cases::SolidCase pair = cases::convex_in_convex(random, 16, 1.5);
   SolidProblem problem{pair.part, pair.blank, {}};
   const auto plain = locate_solid(problem, {.gap = 0.05, .run = {}});
   ASSERT_TRUE(plain) << plain.error().message;
