@@ -4,6 +4,7 @@
 #include <boost/asio/write.hpp>
 #include <functional>
 #include <sstream>
+#include <thread>
 
 #include "lekalo/base/random.hpp"
 #include "serve_client.hpp"
@@ -211,6 +212,25 @@ TEST(ServeAttack, MemoryThatEndsLosesNothingThatWasAcknowledged) {
     EXPECT_EQ(check.status, 0) << check.out << check.err;
   }
   for (const auto& [status, count] : ends) std::printf("status %d: %d of %zu\n", status, count, tried);
+}
+
+TEST(ServeAttack, WhoIsSlowLosesThePlace) {
+  const TemporaryFolder folder;
+  const ServerProcess server(folder.path());
+  asio::io_context io;
+  tcp::socket dripping = connected(io, server.port());
+  asio::write(dripping, asio::buffer("POST /api/layouts?name=half HTTP/1.1\r\nHost: " + server.host() +
+                                     "\r\nContent-Length: 1000000\r\n\r\n"));
+  const auto begin = Clock::now();
+  const auto since = [&] { return std::chrono::duration<double, std::milli>(Clock::now() - begin).count(); };
+  beast::error_code error;
+  while (!error && since() < 60'000) {
+    asio::write(dripping, asio::buffer(" ", 1), error);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  std::printf("one byte each 0.1 s: cut after %.1f s\n", since() / 1000);
+  EXPECT_TRUE(error);
+  EXPECT_GE(since(), 4'000);
 }
 
 }  // namespace
