@@ -7,6 +7,8 @@
 #include <atomic>
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +17,7 @@
 #include "lekalo/locate/solid_reference.hpp"
 #include "lekalo/solid/mesh_clearance.hpp"
 #include "support/castings.hpp"
+#include "support/solid_files.hpp"
 
 namespace {
 
@@ -95,9 +98,17 @@ double median(std::vector<double> of) {
 
 }  // namespace
 
+/// bench_castings write NUMBER FOLDER
 /// bench_castings [FIRST] [COUNT] [SECONDS] [POINTS] [SEED]
 /// With POINTS the blanks are scanned; the seconds are processor time of one thread.
 int main(int argc, char** argv) {
+  if (argc > 3 && std::string_view(argv[1]) == "write") {
+    const cases::SolidCase drawn = cases::casting(std::strtoull(argv[2], nullptr, 10));
+    const std::string folder = argv[3];
+    std::ofstream(folder + "/part.stl", std::ios::binary) << solid_files::stl_binary(drawn.part);
+    std::ofstream(folder + "/blank.stl", std::ios::binary) << solid_files::stl_binary(drawn.blank);
+    return 0;
+  }
   const auto number = [&](int k, std::uint64_t otherwise) {
     return argc > k ? std::strtoull(argv[k], nullptr, 10) : otherwise;
   };
