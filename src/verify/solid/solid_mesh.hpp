@@ -28,9 +28,9 @@ struct SolidMesh {
 
   /// Returns the triangle that has this number in the file; nothing where it is left out, or none.
   [[nodiscard]] std::optional<std::uint32_t> triangle_of_file(std::size_t number) const {
-    const auto found = std::ranges::equal_range(numbers, number);
-    if (found.empty()) return std::nullopt;
-    return static_cast<std::uint32_t>(found.begin() - numbers.begin());
+    const auto [found, end] = std::equal_range(numbers.begin(), numbers.end(), number);
+    if (found == end) return std::nullopt;
+    return static_cast<std::uint32_t>(found - numbers.begin());
   }
   [[nodiscard]] Span width(std::uint32_t triangle) const {
     return widths.empty() ? just(0) : widths[triangle];

@@ -43,7 +43,8 @@ template <class Number>
   constexpr double kMost = std::numeric_limits<double>::max();
   const double cut = std::clamp(cut_to_double(value), -kMost, kMost);
   const auto off = [&](double at) { return Fraction(abs(value - Fraction(at))); };
-  return std::ranges::min({cut, std::max(-kMost, step_down(cut)), std::min(kMost, step_up(cut))}, {}, off);
+  const std::array all{cut, std::max(-kMost, step_down(cut)), std::min(kMost, step_up(cut))};
+  return *std::ranges::min_element(all, {}, off);
 }
 
 }  // namespace lekalo::verify
