@@ -139,6 +139,28 @@ TEST(SolidPly, WithoutFacesItHoldsPoints) {
   }
 }
 
+TEST(SolidDeviation, IsThatOfAMeshOfAStepFile) {
+  const auto with = [](const std::string& comments) {
+    std::string bytes = solid_files::ply<double>(block(), solid_files::PlyForm::little);
+    return bytes.replace(bytes.find("comment made by a test\n"), 23, comments);
+  };
+  const std::string made = "comment lekalo-step 1\n";
+  const SolidFile file = parsed(with(made + "comment units mm\ncomment deviation 1.25e-2\n"), {});
+  EXPECT_EQ(file.deviation, 0.0125);
+  for (const std::string& notice : file.notices) EXPECT_EQ(notice.find("unit"), std::string::npos) << notice;
+  EXPECT_FALSE(parsed(with("comment deviation 1\n")).deviation);
+  EXPECT_FALSE(parsed(with("comment other\n" + made + "comment deviation 1\n")).deviation);
+  const auto refusal = [](const std::string& bytes, const SolidOptions& options = {}) {
+    const auto parsed = parse_solid(bytes, "a", options);
+    return parsed ? std::string() : parsed.error().message;
+  };
+  EXPECT_EQ(refusal(with(made)), "a: lekalo-step made it, but its header has no deviation; make it again");
+  EXPECT_EQ(refusal(with(made + "comment deviation -1\n")), "a: the deviation -1 is below 0");
+  EXPECT_EQ(refusal(with(made + "comment deviation much\n")).find("a: deviation: "), 0u);
+  EXPECT_EQ(refusal(with(made + "comment deviation 1\n"), {SolidUnit::inch}),
+            "a: lekalo-step made it in mm; leave --units out, or give the other file in mm, too");
+}
+
 TEST(SolidUnits, AreMillimetresUnlessSizesSuggestSomethingElse) {
   const auto notice = [](const Mesh& mesh) {
     const SolidFile file = parsed(solid_files::obj(mesh), {});
@@ -196,7 +218,10 @@ TEST(SolidRefusal, EveryBadFileGivesOneSentenceWithItsPlaceAndTheWayOut) {
   const std::string export_it = "; export it as STL, PLY or OBJ from the program that it comes from";
   const std::vector<Bad> all{
       // other kinds
-      {"STEP", "a.stp", "ISO-10303-21;\n", "this is a STEP model" + export_it},
+      {"STEP", "a.stp", "ISO-10303-21;\n",
+       "this is a STEP model; make a mesh of it that says how far it is from the model at most: lekalo-step "
+       "FILE "
+       "-o FILE.ply (tools/setup.sh --step installs what that program needs)"},
       {"IGES", "a.igs", iges, "this is an IGES model" + export_it},
       {"OFF", "a.off", "OFF\n8 6 12\n0 0 0\n", "this is an OFF model" + export_it},
       {"gzip", "a.stl", "\x1f\x8b\x08", "this file is compressed by gzip; unpack it first: gunzip, or 7-Zip"},

@@ -417,6 +417,40 @@ TEST(JobsLocateSolid, ADemandThatIsMissedIsNoYes) {
   EXPECT_GE(*located.document.shortfall(), 0.5);
 }
 
+TEST(JobsLocateSolid, WhatAMeshDeviatesIsTakenOffAndAddedOn) {
+  SolidLocateJob job = convex_job();
+  const auto with = [](std::string bytes, const std::string& deviation) {
+    const std::string was = "comment made by a test\n";
+    return bytes.replace(bytes.find(was), was.size(),
+                         "comment lekalo-step 1\ncomment deviation " + deviation + "\n");
+  };
+  Random random(3);
+  const solid::Mesh part = cases::convex_in_convex(random, 20, 2).part;
+  const std::string ply = solid_files::ply<double>(part, solid_files::PlyForm::little);
+  job.part = {"part.ply", ply};
+  const LocatedSolid plain = made(job);
+  job.part.bytes = with(ply, "0.125");
+  job.blank.bytes = with(job.blank.bytes, "0.0625");
+  const LocatedSolid off = made(job);
+  EXPECT_NEAR(*off.document.clearance, *plain.document.clearance - 0.1875, 1e-9);
+  EXPECT_NEAR(*off.document.upper_bound, *plain.document.upper_bound + 0.1875, 1e-9);
+  EXPECT_TRUE(says(off.result, "\"deviation\": 0.125"));
+  EXPECT_EQ(verdict(job, off), verify::Verdict::confirmed);
+  // A demand between what is proved for the triangles and for the bodies is missed, not out of reach.
+  job.options.min_allowance = *plain.document.clearance;
+  EXPECT_GT(*made(job).document.shortfall(), 0.18);
+  // Another deviation in the file is another claim.
+  SolidLocateJob other = job;
+  other.part.bytes = with(ply, "0.126");
+  EXPECT_EQ(verdict(other, off), verify::Verdict::refuted);
+  // More than there is room for: nothing says that the body is inside.
+  job.options.min_allowance = 0;
+  job.part.bytes = with(ply, "5");
+  const LocatedSolid beyond = made(job);
+  EXPECT_FALSE(beyond.document.inside());
+  EXPECT_EQ(beyond.document.status, "stopped");
+}
+
 TEST(JobsLocateSolid, InchesAreMillimetresInside) {
   SolidLocateJob job = block_job();
   job.part.bytes = solid_files::stl_text(cases::block({-0.75, -0.5, -0.25}, {0.75, 0.5, 0.25}));

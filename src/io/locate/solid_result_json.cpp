@@ -24,6 +24,7 @@ void write(JsonWriter& json, const SolidInputRecord& input) {
     json.field("points", input.points);
   else if (input.unit)
     json.field("triangles", input.triangles);
+  if (input.deviation) json.field("deviation", *input.deviation);
   json.end();
 }
 

@@ -141,7 +141,13 @@ Result<void> PlyFile::read_header() {
         return refuse(name_, "this is no PLY file: the first line is not 'ply'");
       continue;
     }
-    if (words_.empty() || words_[0] == "comment" || words_[0] == "obj_info") continue;
+    if (words_.empty() || words_[0] == "obj_info") continue;
+    if (words_[0] == "comment") {
+      const char* const begin = words_.size() > 1 ? words_[1].data() : words_.back().data();
+      comments_.emplace_back(begin,
+                             words_.size() > 1 ? words_.back().data() + words_.back().size() - begin : 0);
+      continue;
+    }
     if (words_[0] == "end_header") break;
     LEKALO_CHECK(words_[0] == "format"     ? read_format(has_format)
                  : words_[0] == "element"  ? read_element()

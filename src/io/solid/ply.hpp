@@ -45,6 +45,8 @@ class PlyFile {
 
   [[nodiscard]] Result<void> read_header();
   [[nodiscard]] const std::vector<PlyElement>& elements() const noexcept { return elements_; }
+  /// The comments of the header, without the word and the blanks around them.
+  [[nodiscard]] const std::vector<std::string_view>& comments() const noexcept { return comments_; }
   /// The element called so; none: nullptr.
   [[nodiscard]] const PlyElement* element(std::string_view name) const noexcept;
   /// No more rows than this can follow, whatever the header says.
@@ -88,7 +90,7 @@ class PlyFile {
   std::size_t line_ = 0;
   Encoding encoding_ = Encoding::ascii;
   std::vector<PlyElement> elements_;
-  std::vector<std::string_view> words_;
+  std::vector<std::string_view> comments_, words_;
   std::vector<std::size_t> begins_;
 };
 

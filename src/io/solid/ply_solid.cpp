@@ -13,7 +13,8 @@
 namespace lekalo::io {
 namespace {
 
-constexpr std::string_view kVertices = "vertex", kFaces = "face", kStrips = "tristrips";
+constexpr std::string_view kVertices = "vertex", kFaces = "face", kStrips = "tristrips",
+                           kBodyFaces = "body_face";  // of lekalo-step
 
 class PlySolid {
  public:
@@ -22,6 +23,7 @@ class PlySolid {
   Result<void> read() {
     LEKALO_CHECK(ply_.read_header());
     LEKALO_TRY(axes_, read_heads());
+    LEKALO_CHECK(read_deviation());
     for (const PlyElement& element : ply_.elements()) {
       if (element.name == kVertices) {
         LEKALO_CHECK(read_vertices(element));
@@ -51,9 +53,27 @@ class PlySolid {
     if (has(kFaces) && ply_.element(kFaces)->rows > kMostSolidTriangles)
       return refuse(made_.name(), too_many_triangles());
     for (const PlyElement& element : ply_.elements())
-      if (element.name != kVertices && element.name != kFaces && element.rows > 0)
+      if (element.name != kVertices && element.name != kFaces && element.name != kBodyFaces &&
+          element.rows > 0)
         made_.tell(fmt::format("{} of the element {} are ignored", element.rows, excerpt(element.name)));
     return ply_.axes_of(*vertices, true);
+  }
+
+  /// Takes what lekalo-step says of the body that it made the triangles of.
+  Result<void> read_deviation() {
+    constexpr std::string_view kMaker = "lekalo-step 1", kDeviation = "deviation ";
+    const std::vector<std::string_view>& comments = ply_.comments();
+    if (comments.empty() || comments.front() != kMaker) return {};
+    for (const std::string_view comment : comments)
+      if (comment.starts_with(kDeviation)) {
+        const std::string_view word = comment.substr(kDeviation.size());
+        const auto read = read_millimetres(word, {});
+        if (!read) return refuse(made_.name(), "deviation: " + number_sentence(read.error(), word));
+        if (!(read->value >= 0))
+          return refuse(made_.name(), fmt::format("the deviation {} is below 0", word));
+        return made_.set_deviation(read->value);
+      }
+    return refuse(made_.name(), "lekalo-step made it, but its header has no deviation; make it again");
   }
 
   Result<void> read_vertices(const PlyElement& element) {

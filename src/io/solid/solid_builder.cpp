@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "io/text/refusal.hpp"
 #include "lekalo/base/counted.hpp"
 
 namespace lekalo::io {
@@ -34,6 +35,14 @@ SolidBuilder::SolidBuilder(const std::string& name, std::string_view format, Sol
   file_.name = name;
   file_.format = format;
   file_.unit = unit;
+}
+
+Result<void> SolidBuilder::set_deviation(double millimetres) {
+  if (file_.unit != SolidUnit::millimetre)
+    return refuse(file_.name,
+                  "lekalo-step made it in mm; leave --units out, or give the other file in mm, too");
+  file_.deviation = millimetres;
+  return {};
 }
 
 void SolidBuilder::reserve(std::size_t vertices, std::size_t triangles) {

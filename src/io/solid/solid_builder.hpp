@@ -23,6 +23,8 @@ class SolidBuilder {
   [[nodiscard]] std::size_t vertices() const noexcept { return file_.mesh.vertices.size(); }
   [[nodiscard]] std::size_t triangles() const noexcept { return file_.mesh.triangles.size(); }
 
+  /// Fails where the file was asked to be read in another unit than mm.
+  [[nodiscard]] Result<void> set_deviation(double millimetres);
   void reserve(std::size_t vertices, std::size_t triangles);
   /// \param error  of each coordinate, mm
   void add_vertex(solid::Vector p, double error);

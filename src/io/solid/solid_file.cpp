@@ -26,12 +26,17 @@ using namespace std::string_view_literals;
 
 /// How files of solids of other kinds begin, and what they are.
 constexpr std::pair<std::string_view, const char*> kOtherSolids[] = {
-    {"ISO-10303-21"sv, "this is a STEP model"}, {"glTF"sv, "this is a glTF model"},
-    {"Kaydara FBX"sv, "this is an FBX model"},  {"# vtk DataFile"sv, "this is a VTK file"},
-    {"#VRML"sv, "this is a VRML model"},        {"OFF"sv, "this is an OFF model"},
-    {"COFF"sv, "this is an OFF model"},         {"DBRep_DrawableShape"sv, "this is a BREP model"},
-    {"# .PCD"sv, "these are points in PCD"},    {"ASTM-E57"sv, "these are points in E57"},
-    {"LASF"sv, "these are points in LAS"},      {"<?xml"sv, "this is XML (AMF, COLLADA or X3D)"},
+    {"glTF"sv, "this is a glTF model"},
+    {"Kaydara FBX"sv, "this is an FBX model"},
+    {"# vtk DataFile"sv, "this is a VTK file"},
+    {"#VRML"sv, "this is a VRML model"},
+    {"OFF"sv, "this is an OFF model"},
+    {"COFF"sv, "this is an OFF model"},
+    {"DBRep_DrawableShape"sv, "this is a BREP model"},
+    {"# .PCD"sv, "these are points in PCD"},
+    {"ASTM-E57"sv, "these are points in E57"},
+    {"LASF"sv, "these are points in LAS"},
+    {"<?xml"sv, "this is XML (AMF, COLLADA or X3D)"},
 };
 
 /// IGES has lines of 80 characters, the last eight of which say section and number.
@@ -45,6 +50,9 @@ bool is_iges(std::string_view bytes) {
 std::string other_kind(std::string_view bytes) {
   if (bytes.starts_with("\x1f\x8b"sv))
     return "this file is compressed by gzip; unpack it first: gunzip, or 7-Zip";
+  if (bytes.starts_with("ISO-10303-21"sv))
+    return "this is a STEP model; make a mesh of it that says how far it is from the model at most: "
+           "lekalo-step FILE -o FILE.ply (tools/setup.sh --step installs what that program needs)";
   if (bytes.starts_with("PK\x03\x04"sv))
     return bytes.find("3D/"sv) != std::string_view::npos
                ? "this is a 3MF model; export it as STL, PLY or OBJ, which its program can, too"
@@ -152,7 +160,7 @@ Result<SolidFile> parse_solid(std::string_view bytes, const std::string& name, c
   SolidBuilder made(name, format->file->name, options.units.value_or(SolidUnit::millimetre));
   LEKALO_CHECK(format->read(bytes, made));
   SolidFile file = made.take();
-  if (!options.units)
+  if (!options.units && !file.deviation)
     file.notices.push_back(fmt::format("{}: the file does not say its unit; it is read as mm{}", name,
                                        suggestion(file.mesh.vertices)));
   return file;

@@ -37,7 +37,7 @@ std::vector<io::SolidInputRecord> input_records(const SolidLocateJob& job, const
   for (const auto& [role, file, read] :
        {std::tuple{"part", &job.part, &in.part}, {"blank", &blank, &in.blank}}) {
     io::SolidInputRecord record = record_of(role, *file);
-    record.unit = read->unit, record.triangles = read->triangles;
+    record.unit = read->unit, record.triangles = read->triangles, record.deviation = read->deviation;
     records.push_back(std::move(record));
   }
   if (in.meshed) {
@@ -90,7 +90,8 @@ double decimals_lose(const locate::SolidPlacement& found, const SolidInputs& in,
 std::optional<double> safe_clearance(const locate::SolidPlacement& found, const SolidInputs& in,
                                      double share) {
   if (!found.inside) return std::nullopt;
-  const double safe = difference_rounded_down(found.clearance, decimals_lose(found, in, share));
+  const double of_meshes = difference_rounded_down(found.clearance, decimals_lose(found, in, share));
+  const double safe = difference_rounded_down(of_meshes, in.deviation());
   if (!(safe > 0)) return std::nullopt;
   return safe;
 }
@@ -112,8 +113,9 @@ struct Found {
 };
 
 Result<Found> found_by_method(const SolidInputs& in, const SolidLocateOptions& o, const RunControl& run) {
-  // Margins are counted from what is demanded.
-  const locate::SolidOptions how{o.gap, in.demands ? 0 : o.min_allowance, o.threads, run};
+  // Margins are counted from what is demanded, and that from the bodies that the meshes stand for.
+  const double least = in.demands ? 0 : difference_rounded_down(o.min_allowance, in.deviation());
+  const locate::SolidOptions how{o.gap, least, o.threads, run};
   Found found;
   switch (o.method) {
     case SolidMethod::climb: {
@@ -130,8 +132,8 @@ Result<Found> found_by_method(const SolidInputs& in, const SolidLocateOptions& o
     }
     case SolidMethod::certified: {
       LEKALO_TRY(locate::SolidResult result, locate::locate_solid(in.problem, how));
-      found = {io::name_of(result.status), std::move(result.best), result.upper_bound,
-               std::move(result.proof)};
+      const double bound = difference_rounded_up(result.upper_bound, -in.deviation());
+      found = {io::name_of(result.status), std::move(result.best), bound, std::move(result.proof)};
       break;
     }
   }
@@ -240,6 +242,8 @@ io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&
   }
   d.scan = in.scan;
   d.status = found.status;
+  if (d.status == io::name_of(locate::Status::infeasible) && !(*d.upper_bound < d.min_allowance))
+    d.status = io::name_of(locate::Status::stopped);  // by a rounding
   if (d.status == io::name_of(locate::Status::optimal) && !d.inside())
     d.status = io::name_of(locate::Status::stopped);
   if (d.inside())

@@ -45,7 +45,7 @@ tl::unexpected<Error> refuse_pair(const std::string& solid, const std::string& o
 Result<void> close_solid(const File& file, io::SolidFile parsed, solid::Mesh& mesh, double& error,
                          ReadSolid& read, std::vector<std::string>& notices) {
   error = parsed.coordinate_error, read.unit = parsed.unit;
-  read.triangles = parsed.mesh.triangles.size();
+  read.triangles = parsed.mesh.triangles.size(), read.deviation = parsed.deviation;
   Result<solid::ClosedMesh> closed = solid::closed_mesh(std::move(parsed.mesh));
   if (!closed) return failure(closed.error().code, fmt::format("{}: {}", file.name, closed.error().message));
   for (const std::string& notice : closed->notices) notices.push_back(file.name + ": " + notice);
@@ -216,10 +216,23 @@ Result<bool> are_solids(const File& part, const File& blank) {
   return true;
 }
 
+double SolidInputs::deviation() const noexcept {
+  if (!part.deviation && !blank.deviation) return 0;
+  // Rounded up: the numbers are the doubles nearest to those of the files.
+  return (part.deviation.value_or(0) + blank.deviation.value_or(0)) * (1 + 0x1p-51) + 0x1p-1074;
+}
+
 Result<SolidInputs> read_inputs(const SolidLocateJob& job) {
   SolidInputs in;
   LEKALO_CHECK(read_part(job, in));
   LEKALO_CHECK(read_blank(job, in));
+  if (in.demands && in.deviation() > 0)
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format(
+            "{}: faces of a mesh by lekalo-step have no demands of their own yet; say --min-allowance "
+            "for all of them, or give part and blank as STL, OBJ or another PLY",
+            job.features->name));
   if (job.options.scan) LEKALO_CHECK(read_scan(*job.options.scan, in));
   if (in.meshed) LEKALO_CHECK(hold_against_points(job, in));
   LEKALO_CHECK(read_start(job.start, in.problem.start));

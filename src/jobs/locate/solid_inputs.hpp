@@ -13,7 +13,8 @@ namespace lekalo::jobs {
 /// A file of a solid has this beside its triangles.
 struct ReadSolid {
   io::SolidUnit unit = io::SolidUnit::millimetre;
-  std::size_t triangles = 0;  ///< of the file
+  std::size_t triangles = 0;        ///< of the file
+  std::optional<double> deviation;  ///< of a mesh by lekalo-step, mm
   /// The number in the file of each triangle of the mesh, and which are turned round.
   std::vector<std::uint32_t> numbers;
   std::vector<bool> turned;
@@ -41,6 +42,9 @@ struct SolidInputs {
   std::vector<std::uint32_t> unknown;  ///< triangles of the scan that no assumption covers
   /// The demands of a file of features, without what comes of them.
   std::optional<io::SolidDemandRecord> demands;
+  /// The bodies that the meshes stand for differ from them by no more than this together, mm: it is taken off
+  /// clearances and added to bounds.
+  [[nodiscard]] double deviation() const noexcept;
   std::vector<std::string> notices;
 };
 

@@ -109,7 +109,8 @@ constexpr Known kPlacement[] = {{"format", kFormat},
                                 {"run"},
                                 // A file of a certificate has these.
                                 {"intervals", kIntervals}};
-constexpr Known kSolidInputs[] = {{"role"}, {"path"}, {"sha256"}, {"units"}, {"triangles"}, {"points"}};
+constexpr Known kSolidInputs[] = {{"role"},      {"path"},   {"sha256"},   {"units"},
+                                  {"triangles"}, {"points"}, {"deviation"}};
 constexpr Known kSolidWindow[] = {{"quaternion"}, {"x"}, {"y"}, {"z"}, {"pivot"}, {"shift"}, {"turn_deg"}};
 constexpr Known kSolidContacts[] = {{"part_point"},     {"blank_point"}, {"part_triangle"},
                                     {"blank_triangle"}, {"distance"},    {"multiplier"}};

@@ -90,11 +90,23 @@ class PlyReader {
   }
 
   Result<void> read_header() {
-    bool has_format = false;
+    bool has_format = false, by_lekalo_step = false, has_deviation = false;
+    std::size_t comments = 0;
     while (true) {
       const auto line = lines_.next();
       if (!line || lines_.number() > kMostHeaderLines) return bad("the header of this PLY does not end");
       split(*line, words_);
+      if (words_.size() > 1 && words_[0] == "comment") {
+        by_lekalo_step = by_lekalo_step || (comments++ == 0 && words_.size() == 3 &&
+                                            words_[1] == "lekalo-step" && words_[2] == "1");
+        if (by_lekalo_step && !has_deviation && words_[1] == "deviation") {
+          auto number = words_.size() == 3 ? parse_decimal(words_[2]) : std::nullopt;
+          if (!number || sgn(number->digits) < 0 || made_.unit() != SolidUnit::millimetre)
+            return bad_header();
+          made_.set_deviation(*std::move(number));
+          has_deviation = true;
+        }
+      }
       if (lines_.number() == 1 || words_.empty() || words_[0] == "comment" || words_[0] == "obj_info")
         continue;
       if (words_[0] == "end_header") break;
@@ -118,6 +130,7 @@ class PlyReader {
       }
     }
     if (!has_format) return bad("the header of this PLY does not say its format");
+    if (by_lekalo_step && !has_deviation) return bad("lekalo-step made it, but its header has no deviation");
     return {};
   }
 

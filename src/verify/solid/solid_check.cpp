@@ -64,6 +64,10 @@ class SolidCheck {
       check_scan(*blank);
       LEKALO_CHECK(check_points(*blank));
     }
+    if (d_.demands && sgn(deviation_.digits) != 0) {
+      open_ = true;
+      note("what the faces of a mesh by lekalo-step demand of the body that it stands for was not rechecked");
+    }
     if (part && blank) {
       LEKALO_TRY(const SolidPair pair, SolidPair::make(*part, *blank, d_.pose));
       if (!d_.demands)
@@ -120,6 +124,8 @@ class SolidCheck {
   SolidDocument d_;
   std::optional<SolidDemands> demands_;
   bool open_ = false;
+  /// The bodies that the meshes stand for may differ from them by so much together, mm.
+  Decimal deviation_;
   LocateReport report_;
 };
 
@@ -136,6 +142,18 @@ Result<std::optional<SolidMesh>> SolidCheck::read_input(const char* role, const 
   if (reading.mesh.triangles.size() != written.triangles)
     find("the {} is said to have {} triangles, but {} has {}", role, written.triangles, document.name,
          reading.mesh.triangles.size());
+  const auto& [is, said] = std::tie(reading.deviation, written.deviation);
+  if (is.has_value() != said.has_value() || (is && compare(*is, *said) != 0))
+    find("the {} is said to deviate {} from the body that it stands for, but {} says {}", role,
+         said ? fmt::format("by {} mm", approximate(*said)) : "by nothing", document.name,
+         is ? fmt::format("{} mm", approximate(*is)) : "nothing");
+  if (is) {
+    note(fmt::format(
+        "{} says that its triangles are within {} mm of the STEP model that lekalo-step made them of; "
+        "that was proved there, and is not rechecked",
+        document.name, approximate(*is)));
+    deviation_ = deviation_ - (Decimal{} - *is);
+  }
   if (d_.demands && &written == &d_.part) LEKALO_CHECK(read_demands(reading));
   LEKALO_TRY(SolidMesh made, closed(std::move(reading.mesh), document.name));
   return made;
@@ -256,13 +274,18 @@ Result<void> SolidCheck::check_points(const SolidMesh& blank) {
 /// A part that touches the blank's surface is not inside.
 void SolidCheck::check_clearance(const SolidPair& pair) {
   const bool is_number = d_.clearance && sgn(d_.clearance->digits) > 0;
-  const SolidAnswer answer = pair.check(is_number ? *d_.clearance : Decimal{});
+  const Decimal of_triangles = (is_number ? *d_.clearance : Decimal{}) - (Decimal{} - deviation_);
+  const SolidAnswer answer = pair.check(of_triangles);
   if (!d_.inside) {
     if (!answer.fault && !answer.open) find("inside is false, but the part lies in the blank");
     return;
   }
-  report_.clearance_low = fmt::format("{}", answer.least.low);
-  report_.clearance_high = fmt::format("{}", answer.least.high);
+  const Span off = enclosed(deviation_);
+  const Span least = sgn(deviation_.digits) == 0
+                         ? answer.least
+                         : outwards(answer.least.low - off.high, answer.least.high + off.high);
+  report_.clearance_low = fmt::format("{}", least.low);
+  report_.clearance_high = fmt::format("{}", least.high);
   if (answer.fault) find("{}", *answer.fault);
   if (answer.open) find("inside is true, but the part touches the blank's surface");
 }
@@ -369,7 +392,9 @@ void SolidCheck::check_contacts(const SolidPair& pair, const SolidMesh& part, co
 Result<void> SolidCheck::check_certificate(Json certificate, const SolidMesh& part, const SolidMesh& blank) {
   PartBounds bounds;
   if (demands_) bounds = bounds_of(part);
-  SolidCertificate proof(part, blank, d_.window, *bound(), demands_ ? &bounds : nullptr, report_.findings);
+  // It is about the triangles.
+  const Decimal of_meshes = *bound() - deviation_;
+  SolidCertificate proof(part, blank, d_.window, of_meshes, demands_ ? &bounds : nullptr, report_.findings);
   LEKALO_CHECK(proof.check(certificate, d_.boxes_in_file ? inputs_.certificate->name : inputs_.result.name));
   report_.intervals = proof.leaves();
   report_.bound_high = fmt::format("{}", enclosed(*bound()).high);

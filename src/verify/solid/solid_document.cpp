@@ -105,7 +105,8 @@ class Reader {
       const std::string_view role = kRoles[word_of(input, "role", kRoles)];
       for (const auto& [key, is_said] :
            {std::pair("units", role == "part" || role == "blank" || role == "points"),
-            std::pair("triangles", role == "part" || role == "blank"), std::pair("points", role == "points")})
+            std::pair("triangles", role == "part" || role == "blank"),
+            std::pair("deviation", role == "part" || role == "blank"), std::pair("points", role == "points")})
         if (!is_said && !input.get(key).text.empty())
           input.complain(fmt::format("field {} is said of the file of the role {}", input.name(key), role));
       features += role == "features" ? 1 : 0;
@@ -118,6 +119,7 @@ class Reader {
       WrittenSolid& solid = role == "part" ? d_.part : d_.blank;
       solid.unit = static_cast<SolidUnit>(word_of(input, "units", kUnits));
       solid.triangles = input.index("triangles");
+      if (!input.get("deviation").text.empty()) solid.deviation = length(input, "deviation");
     });
     if (parts != 1 || blanks != 1)
       fields_.complain(fmt::format("inputs name {} part and {} blank, not one each", parts, blanks));

@@ -18,6 +18,7 @@ namespace lekalo::verify {
 struct WrittenSolid {
   SolidUnit unit = SolidUnit::millimetre;
   std::size_t triangles = 0;
+  std::optional<Decimal> deviation = std::nullopt;
 };
 
 /// Points that the blank's mesh was made from.

@@ -53,6 +53,8 @@ struct SolidReading {
   /// where there are none.
   std::vector<std::string> groups;
   std::vector<std::uint32_t> group_of;
+  /// A mesh by lekalo-step says how far the body may be from the triangles at most, mm.
+  std::optional<Decimal> deviation;
   /// Says what is not read here, and so not rechecked; the mesh is of no use then.
   std::optional<std::string> open;
 };

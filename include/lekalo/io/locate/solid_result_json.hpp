@@ -20,9 +20,10 @@ namespace lekalo::io {
 struct SolidInputRecord {
   std::string role;  ///< "part", "blank", "points", "start", "features", "nc" or "allow"
   FileRecord file;
-  std::optional<SolidUnit> unit;  ///< of a solid, or of points
-  std::size_t triangles = 0;      ///< of a solid
-  std::size_t points = 0;         ///< of the points that the blank was made from
+  std::optional<SolidUnit> unit;                   ///< of a solid, or of points
+  std::size_t triangles = 0;                       ///< of a solid
+  std::size_t points = 0;                          ///< of the points that the blank was made from
+  std::optional<double> deviation = std::nullopt;  ///< of a mesh by lekalo-step, mm
 };
 
 /// The poses that were looked at: see locate::SolidProblem.

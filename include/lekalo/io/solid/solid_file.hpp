@@ -39,6 +39,9 @@ struct SolidFile {
   std::vector<std::uint32_t> group_of_triangle;
   /// Every coordinate is within this of the number in the file, mm.
   double coordinate_error = 0;
+  /// A mesh by lekalo-step has one: no point of a triangle is farther from the body that it stands for, and
+  /// back, mm.
+  std::optional<double> deviation;
   std::vector<std::string> notices;
 };
 
