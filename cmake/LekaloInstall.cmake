@@ -9,6 +9,10 @@ if(TARGET lekalo)
   install(TARGETS lekalo RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
+if(TARGET lekalo-step)
+  install(TARGETS lekalo-step RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
 configure_package_config_file(cmake/lekaloConfig.cmake.in ${PROJECT_BINARY_DIR}/lekaloConfig.cmake
   INSTALL_DESTINATION ${package_dir})
 # Before 1.0 a minor version may change any header.

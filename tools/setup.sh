@@ -4,7 +4,8 @@
 #
 #   tools/setup.sh --build  compilers, CMake and libraries: enough for demo.sh
 #   tools/setup.sh          also the browser and the other programs that test.sh compares with
-#   tools/setup.sh --full   also clang and what else test.sh --full needs
+#   tools/setup.sh --step   also OCCT, for lekalo-step, which makes meshes of STEP files
+#   tools/setup.sh --full   all of it, clang and what else test.sh --full needs
 set -euo pipefail
 . "$(dirname -- "${BASH_SOURCE[0]}")/common.sh"
 
@@ -33,7 +34,12 @@ test_packages=(
 )
 full_packages=(
   clang libclang-rt-14-dev lld llvm libbenchmark-dev
+  occt-misc netgen-doc # solids of others, which lekalo-step reads
   libpolyclipping-dev libcgal-dev # rivals and oracle of Booleans; CGAL is under the GPL and linked by nothing that is shipped
+)
+
+step_packages=(
+  libocct-data-exchange-dev libocct-modeling-algorithms-dev
 )
 
 # Node from elsewhere than Debian brings its own npm, and refuses Debian's.
@@ -42,8 +48,9 @@ command -v npm >/dev/null || packages+=(npm)
 case "${1-}" in
   --build) ;;
   "") packages+=("${test_packages[@]}") ;;
-  --full) packages+=("${test_packages[@]}" "${full_packages[@]}") ;;
-  *) fail "tools/setup.sh: unknown argument '$1'; it takes --build, --full or nothing." ;;
+  --step) packages+=("${test_packages[@]}" "${step_packages[@]}") ;;
+  --full) packages+=("${test_packages[@]}" "${full_packages[@]}" "${step_packages[@]}") ;;
+  *) fail "tools/setup.sh: unknown argument '$1'; it takes --build, --step, --full or nothing." ;;
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

@@ -1,0 +1,191 @@
+#include "convert.hpp"
+
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
+#include <IMeshTools_Parameters.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <STEPControl_Reader.hxx>
+#include <StepRepr_RepresentationItem.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include <fmt/core.h>
+
+#include "lekalo/base/counted.hpp"
+#include "lekalo/base/limits.hpp"
+
+namespace lekalo::step {
+namespace {
+
+tl::unexpected<Error> refuse(const std::string& sentence) { return failure(ErrorCode::bad_input, sentence); }
+
+/// The name of a face in its STEP file, in the letters that a comment of a PLY can have.
+std::string name_of(const STEPControl_Reader& reader, const TopoDS_Shape& face) {
+  const auto entity = reader.WS()->TransferReader()->EntityFromShapeResult(face, 1);
+  const auto item = Handle(StepRepr_RepresentationItem)::DownCast(entity);
+  if (item.IsNull() || item->Name().IsNull()) return {};
+  std::string name = item->Name()->ToCString();
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  constexpr std::size_t kLongest = 200;
+  return name.substr(0, kLongest);
+}
+
+/// Triangulates all faces anew, no coarser than the deflection as OCCT understands it.
+void triangulate(const TopoDS_Shape& shape, double deflection) {
+  BRepTools::Clean(shape);
+  IMeshTools_Parameters how;
+  how.Deflection = deflection;
+  how.Angle = 0.5;
+  how.MinSize = deflection / 10;
+  how.AllowQualityDecrease = true;
+  const BRepMesh_IncrementalMesh done(shape, how);
+}
+
+/// Coordinates and what is computed from them are rounded; this is far above it.
+double rounding(const solid::Mesh& mesh) {
+  double largest = 0;
+  for (const solid::Vector p : mesh.vertices)
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return 0x1p-36 * largest;
+}
+
+std::string place_of(std::size_t face, const FaceRecord& record) {
+  return record.name.empty() ? fmt::format("face {}", face) : fmt::format("face {} ({})", face, record.name);
+}
+
+Result<Converted> bounded(const TopoDS_Shape& shape, const std::vector<std::string>& names) {
+  Converted made;
+  MeshBuilder builder;
+  std::size_t number = 0;
+  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next()) {
+    ++made.solids;
+    for (TopExp_Explorer face(solid.Current(), TopAbs_FACE); face.More(); face.Next(), ++number) {
+      FaceRecord record = builder.add(TopoDS::Face(face.Current()));
+      record.name = names[number];
+      if (!record.fault.empty())
+        return refuse(
+            fmt::format("{}: {}, so that nothing is proved of its triangles; export a mesh (STL, "
+                        "PLY, OBJ) instead",
+                        place_of(number, record), record.fault));
+      made.deviation = std::max(made.deviation, record.deviation);
+      made.faces.push_back(std::move(record));
+      if (builder.mesh().triangles.size() > limits::kMostSolidItems)
+        return refuse(
+            fmt::format("more than {} triangles; ask for a larger --deviation", limits::kMostSolidItems));
+    }
+  }
+  made.mesh = builder.mesh();
+  made.face_of_triangle = builder.face_of_triangle();
+  made.deviation += rounding(made.mesh);
+  return made;
+}
+
+}  // namespace
+
+Result<Converted> convert(const std::string& path, double deviation) {
+  Message::DefaultMessenger()->ChangePrinters().Clear();
+  STEPControl_Reader reader;
+  Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
+    return refuse("this is no STEP file that can be read");
+  reader.TransferRoots();
+  const TopoDS_Shape shape = reader.NbShapes() > 0 ? reader.OneShape() : TopoDS_Shape();
+  std::vector<std::string> names;
+  std::size_t solids = 0;
+  for (TopExp_Explorer solid(shape, TopAbs_SOLID); !shape.IsNull() && solid.More(); solid.Next()) {
+    ++solids;
+    for (TopExp_Explorer face(solid.Current(), TopAbs_FACE); face.More(); face.Next())
+      names.push_back(name_of(reader, face.Current()));
+  }
+  if (solids == 0)
+    return refuse("there is no solid in this STEP file; export the body as a solid, not as surfaces");
+  TopTools_IndexedMapOfShape all, within;
+  TopExp::MapShapes(shape, TopAbs_FACE, all);
+  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next())
+    TopExp::MapShapes(solid.Current(), TopAbs_FACE, within);
+
+  constexpr int kMostRounds = 8;
+  double deflection = 0.5 * deviation;
+  Result<Converted> best = refuse("nothing is proved of its triangles");
+  for (int round = 0; round < kMostRounds; ++round) {
+    triangulate(shape, deflection);
+    Result<Converted> made = bounded(shape, names);
+    if (!made) return made;
+    const double reached = made->deviation;
+    if (!best || reached < best->deviation) best = std::move(made);
+    // A face that its triangles do not follow by now is not followed by finer ones.
+    constexpr int kRoundsToFollow = 3;
+    if (reached <= deviation || (!std::isfinite(reached) && round >= kRoundsToFollow)) break;
+    constexpr double kLeast = 0.25, kMost = 0.8;
+    deflection *= std::clamp(0.9 * deviation / reached, kLeast, kMost);
+  }
+  if (!best) return best;
+  if (!std::isfinite(best->deviation)) {
+    const auto face = std::find_if(best->faces.begin(), best->faces.end(),
+                                   [](const FaceRecord& f) { return !std::isfinite(f.deviation); });
+    return refuse(
+        fmt::format("{}: OCCT's triangles of this {} do not follow it, however fine they are; export a mesh "
+                    "(STL, PLY, OBJ) instead",
+                    place_of(static_cast<std::size_t>(face - best->faces.begin()), *face), face->kind));
+  }
+  const Result<solid::ClosedMesh> closed = solid::closed_mesh(best->mesh);
+  if (!closed) return refuse(closed.error().message);
+  best->notices = closed->notices;
+  if (solids > 1) best->notices.push_back(fmt::format("the file has {} solids; all are read", solids));
+  if (all.Extent() > within.Extent())
+    best->notices.push_back(fmt::format("{} no solid and left out",
+                                        counted(static_cast<std::size_t>(all.Extent() - within.Extent()),
+                                                "face belongs to", "faces belong to")));
+  return best;
+}
+
+std::string written(const Converted& converted, std::string_view name, std::string_view sha256) {
+  // Not below the deviation, with six digits.
+  const auto rounded = [](double millimetres) {
+    return fmt::format("{:.6e}", millimetres * (1 + 1e-6) + std::numeric_limits<double>::min());
+  };
+  std::string text = fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment lekalo-step 1\ncomment units mm\ncomment deviation "
+      "{}\ncomment "
+      "source {} {}\n",
+      rounded(converted.deviation), sha256, name);
+  text += fmt::format(
+      "element vertex {}\nproperty double x\nproperty double y\nproperty double z\nelement face {}\nproperty "
+      "list "
+      "uchar uint vertex_indices\nproperty uint face\nelement body_face {}\nproperty double "
+      "deviation\nproperty list uchar "
+      "uchar kind\nproperty list uchar uchar name\nend_header\n",
+      converted.mesh.vertices.size(), converted.mesh.triangles.size(), converted.faces.size());
+  const auto put = [&](std::uint64_t bits, int bytes) {
+    for (int k = 0; k < bytes; ++k) text += static_cast<char>(bits >> (8 * k) & 0xff);
+  };
+  for (const solid::Vector p : converted.mesh.vertices)
+    for (const double x : {p.x, p.y, p.z}) put(std::bit_cast<std::uint64_t>(x), 8);
+  for (std::size_t t = 0; t < converted.mesh.triangles.size(); ++t) {
+    put(3, 1);
+    for (const std::uint32_t v : converted.mesh.triangles[t]) put(v, 4);
+    put(converted.face_of_triangle[t], 4);
+  }
+  for (const FaceRecord& face : converted.faces) {
+    put(std::bit_cast<std::uint64_t>(face.deviation), 8);
+    for (const std::string* word : {&face.kind, &face.name}) {
+      put(word->size(), 1);
+      text += *word;
+    }
+  }
+  return text;
+}
+
+}  // namespace lekalo::step
