@@ -286,7 +286,11 @@ TEST(JobsLocateSolid, FacesHaveTheirOwnDemands) {
   SolidLocateJob job = block_job();
   job.options.method = SolidMethod::certified;
   job.features = features_of_block(1);
+  job.outputs.picture = SolidPictureForm::html;
   const LocatedSolid located = made(job);
+  for (const char* words : {"left over the demands", "proven: no more than"})
+    EXPECT_TRUE(says(located.picture, words)) << words;
+  EXPECT_FALSE(says(located.picture, "not proved"));
   const auto json = cases::Json::parse(located.result);
   EXPECT_EQ(json["status"], "optimal");
   EXPECT_EQ(json["inputs"][2]["role"], "features");

@@ -24,6 +24,12 @@ struct SolidScene {
   /// Its contacts are numbered from 1 in the order given. A part that is not inside has none.
   locate::SolidPlacement placement;
   std::optional<double> upper_bound;  ///< mm; none where nothing is proved
+  /// With demands by face: what is left over all of them, and what it is proved to be at most, mm.
+  struct Margin {
+    std::optional<double> is, bound;
+  };
+  /// Counts in place of upper_bound.
+  std::optional<Margin> margin;
   /// The demand and what is missing of it, mm.
   double min_allowance = 0, shortfall = 0;
   /// At each vertex of the part, mm, negative outside the blank; or none.

@@ -160,14 +160,16 @@ std::vector<SolidFigure> figures_of(const SolidScene& scene, const SolidLook& lo
     return decimal(mm, look.decimals, rounding) + " mm";
   };
   std::vector<SolidFigure> figures;
-  if (scene.upper_bound) {
-    figures.push_back({"proven upper bound", length(*scene.upper_bound, Rounding::up), "upper-bound"});
-    if (scene.placement.inside) {
-      const double gap = difference_rounded_up(*scene.upper_bound, scene.placement.clearance);
-      figures.push_back({"gap", short_number_up(gap) + (std::isfinite(gap) ? " mm" : ""), "gap"});
-    }
-  } else {
-    figures.push_back({"proven upper bound", "not proved", "upper-bound"});
+  std::optional<double> reached = scene.margin ? scene.margin->is : std::nullopt;
+  if (!scene.margin && scene.placement.inside) reached = scene.placement.clearance;
+  if (scene.margin && reached)
+    figures.push_back({"left over the demands", length(*reached, Rounding::down), "margin"});
+  const std::optional<double>& bound = scene.margin ? scene.margin->bound : scene.upper_bound;
+  const char* const name = scene.margin ? "proven: no more than" : "proven upper bound";
+  figures.push_back({name, bound ? length(*bound, Rounding::up) : "not proved", "upper-bound"});
+  if (bound && reached) {
+    const double gap = difference_rounded_up(*bound, *reached);
+    figures.push_back({"gap", short_number_up(gap) + (std::isfinite(gap) ? " mm" : ""), "gap"});
   }
   if (scene.min_allowance > 0) figures.push_back({"demanded", length(scene.min_allowance), "min-allowance"});
   if (scene.shortfall > 0)
