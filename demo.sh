@@ -52,9 +52,10 @@ show "$lekalo" verify demo-out/housing.json
 show "$lekalo" locate --part $solid/part.stl --blank $solid/casting.stl --start demo-out/housing.json --method climb \
   --picture demo-out/housing.html
 # Its program of three axes there, and the same place in the words of a control.
-show "$lekalo" locate --part $solid/part.stl --blank $solid/casting.stl --freedom c-xyz --method climb \
+show "$lekalo" locate --part $solid/part.stl --blank $solid/casting.stl --freedom c-xyz --min-allowance 1.5 \
   --nc $solid/part.nc --nc-out demo-out/housing.nc --control linuxcnc --offset linuxcnc \
-  --offset-out demo-out/housing-offset.ngc -o demo-out/housing-nc.json
+  --offset-out demo-out/housing-offset.txt -o demo-out/housing-nc.json
+show "$lekalo" verify demo-out/housing-nc.json
 
 # Shoes on a hide: pieces put down by commands, checked, drawn.
 layouts=examples/layouts

@@ -10,7 +10,7 @@
 
 #include "verify/locate/document.hpp"
 #include "verify/locate/pose_document.hpp"
-#include "verify/locate/program_check.hpp"
+#include "verify/pocket/program_check.hpp"
 
 namespace lekalo::verify::verify_result_document_test {
 namespace {

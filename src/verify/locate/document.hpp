@@ -8,8 +8,8 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
 #include "lekalo/verify/verify.hpp"
-#include "program_check.hpp"
 #include "verify/number/exact.hpp"
+#include "verify/pocket/program_check.hpp"
 #include "verify/read/contour.hpp"
 #include "verify/read/json.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "demand_check.hpp"
-#include "program_check.hpp"
+#include "verify/pocket/program_check.hpp"
 #include "verify/read/json.hpp"
 #include "verify/shape/shape.hpp"
 

@@ -17,7 +17,7 @@
 #include "solid_number.hpp"
 #include "solid_window.hpp"
 #include "triangle_distance.hpp"
-#include "verify/locate/program_check.hpp"
+#include "verify/pocket/program_check.hpp"
 
 namespace lekalo::verify {
 namespace {

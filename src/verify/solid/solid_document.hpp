@@ -7,7 +7,7 @@
 
 #include "lekalo/base/limits.hpp"
 #include "solid_clearance.hpp"
-#include "verify/locate/program_check.hpp"
+#include "verify/pocket/program_check.hpp"
 #include "verify/read/fields.hpp"
 #include "verify/read/json.hpp"
 

@@ -5,8 +5,8 @@
 
 #include "lekalo/base/nc_words.hpp"
 #include "lekalo/verify/verify.hpp"
+#include "moved_program.hpp"
 #include "verify/number/exact.hpp"
-#include "verify/pocket/moved_program.hpp"
 #include "verify/read/json.hpp"
 
 namespace lekalo::verify {
