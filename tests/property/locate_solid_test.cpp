@@ -246,7 +246,7 @@ TEST(LocateSolid, ProgressIsToldFromTheBeginningAndAStopIsSeenWithinAMeasurement
   const cases::SolidCase pair = cases::convex_in_convex(random, 16, 1.25);
   const locate::SolidProblem problem{pair.part, pair.blank, {}};
   // Before any box is closed there were calls: before the trees, behind them, at each step of the climb.
-  for (std::size_t stop_at = 0; stop_at < 12; ++stop_at) {
+  for (std::size_t stop_at = 0; stop_at < 8; ++stop_at) {
     SCOPED_TRACE(stop_at);
     std::atomic<bool> stop = false;
     std::size_t calls = 0;

@@ -110,6 +110,7 @@ inline SolidResultFiles cube_in_cube(Json certificate = nullptr, double bound = 
                                                 {"blank_triangle", 10},
                                                 {"distance", 1},
                                                 {"multiplier", 1}}})},
+                 {"demands", nullptr},
                  {"scan", nullptr},
                  {"unknown_area_mm2", 0},
                  {"certificate", std::move(certificate)},

@@ -192,7 +192,7 @@ TEST(VerifyDistance, CutsBesideAPointAndNearAnEndMakeUpTheWhole) {
         const auto off = with_end_cut_off(side, first);
         joined(off);
         const Side &shorter = off[first ? 0 : 1], &longer = off[first ? 1 : 0];
-        EXPECT_NEAR(length(shorter.to - shorter.from).low / length(end - begin).low, 1.0 / 256, 1e-3);
+        EXPECT_NEAR(length(shorter.to - shorter.from).low / length(end - begin).low, 1.0 / 16, 0.01);
         EXPECT_GT(length(longer.to - longer.from).low, 0.9 * length(end - begin).low);
       }
     }

@@ -113,7 +113,11 @@ void write_placement(JsonWriter& json, const SolidDocument& d) {
                {"gap", gap},
                {"min_allowance", d.min_allowance},
                {"shortfall", d.shortfall()}});
-  if (d.demands) write(line_of(json, "demands"), *d.demands);
+  line_of(json, "demands");
+  if (d.demands)
+    write(json, *d.demands);
+  else
+    json.value(nullptr);
   list_of_lines(line_of(json, "contacts"), d.contacts,
                 [&](const locate::SolidTouch& one) { write(json, one); });
   line_of(json, "scan");

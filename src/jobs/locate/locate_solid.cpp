@@ -242,7 +242,8 @@ io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&
   }
   d.scan = in.scan;
   d.status = found.status;
-  if (d.status == io::name_of(locate::Status::infeasible) && !(*d.upper_bound < d.min_allowance))
+  if (d.status == io::name_of(locate::Status::infeasible) && d.upper_bound &&
+      !(*d.upper_bound < d.min_allowance))
     d.status = io::name_of(locate::Status::stopped);  // by a rounding
   if (d.status == io::name_of(locate::Status::optimal) && !d.inside())
     d.status = io::name_of(locate::Status::stopped);

@@ -63,7 +63,7 @@ class Reader {
     for (const auto& value : {d_.clearance, d_.upper_bound, d_.gap, d_.shortfall})
       if (value && is_beyond_all_sizes(*value)) fields_.complain("a length is beyond all sizes");
     fields_.each("contacts", [&](Json item, const std::string& path) { read_contact(item, path); });
-    fields_.require({"warnings", "seed", "work", "version", "method", "scan", "certificate",
+    fields_.require({"warnings", "seed", "work", "version", "method", "demands", "scan", "certificate",
                      "certificate_file", "nc", "offset", "run"});
     read_demands();
     read_scan();
@@ -153,7 +153,7 @@ class Reader {
   /// A result without them may leave the word out.
   void read_demands() {
     const Json written = fields_.get("demands");
-    if (written.text.empty() || written.is_null() || !complaint_.empty()) return;
+    if (written.is_null() || !complaint_.empty()) return;
     Fields fields(written, "demands", complaint_);
     WrittenSolidDemands& demands = d_.demands.emplace();
     demands.minimum = length(fields, "minimum");
