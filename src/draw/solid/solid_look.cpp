@@ -160,16 +160,20 @@ std::vector<SolidFigure> figures_of(const SolidScene& scene, const SolidLook& lo
     return decimal(mm, look.decimals, rounding) + " mm";
   };
   std::vector<SolidFigure> figures;
-  std::optional<double> reached = scene.margin ? scene.margin->is : std::nullopt;
-  if (!scene.margin && scene.placement.inside) reached = scene.placement.clearance;
-  if (scene.margin && reached)
-    figures.push_back({"left over the demands", length(*reached, Rounding::down), "margin"});
-  const std::optional<double>& bound = scene.margin ? scene.margin->bound : scene.upper_bound;
-  const char* const name = scene.margin ? "proven: no more than" : "proven upper bound";
-  figures.push_back({name, bound ? length(*bound, Rounding::up) : "not proved", "upper-bound"});
-  if (bound && reached) {
+  const auto add_bound = [&](const char* name, const std::optional<double>& bound, const double* reached) {
+    figures.push_back({name, bound ? length(*bound, Rounding::up) : "not proved", "upper-bound"});
+    if (!bound || reached == nullptr) return;
     const double gap = difference_rounded_up(*bound, *reached);
     figures.push_back({"gap", short_number_up(gap) + (std::isfinite(gap) ? " mm" : ""), "gap"});
+  };
+  if (scene.margin) {
+    const double* const left = scene.margin->is ? &*scene.margin->is : nullptr;
+    if (left != nullptr)
+      figures.push_back({"left over the demands", length(*left, Rounding::down), "margin"});
+    add_bound("proven: no more than", scene.margin->bound, left);
+  } else {
+    add_bound("proven upper bound", scene.upper_bound,
+              scene.placement.inside ? &scene.placement.clearance : nullptr);
   }
   if (scene.min_allowance > 0) figures.push_back({"demanded", length(scene.min_allowance), "min-allowance"});
   if (scene.shortfall > 0)
