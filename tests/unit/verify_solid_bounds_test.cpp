@@ -240,6 +240,7 @@ TEST(SolidScan, OneUnknownTriangleLeavesItIncomplete) {
                {"widest", 9.5 - std::sqrt(9.5 * 9.5 - 75)},
                {"unknown_triangles", 1},
                {"proved", false},
+               {"left_out", Json::array()},
                {"assumptions", {"it is so"}}};
   r["unknown_area_mm2"] = 7.5 * 2 * s;
   r["unknown_area_mm2"] = 15 * s;
