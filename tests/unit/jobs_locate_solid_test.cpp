@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "lekalo/base/angle.hpp"
 #include "lekalo/io/text/sha256.hpp"
@@ -549,6 +550,30 @@ TEST(JobsLocateSolid, AnyNumberOfThreadsGivesTheSameBytes) {
   }
   EXPECT_EQ(results[0], results[1]);
   EXPECT_EQ(results[0], results[2]);
+}
+
+TEST(JobsLocateSolid, TheSurfaceInColoursIsAMeshThatOthersRead) {
+  SolidLocateJob job = block_job();
+  job.options.freedom = SolidFreedom::xyz;
+  job.options.shift = 0;
+  job.outputs.picture = SolidPictureForm::ply;
+  const std::string ply = made(job).picture;
+  EXPECT_TRUE(says(ply, "property double quality\nproperty uchar red\n"));
+  const auto read = io::parse_solid(ply, "where.ply", {io::SolidUnit::millimetre});
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_TRUE(solid::closed_mesh(read->mesh));
+  const solid::Box box = solid::box_of(read->mesh.vertices);
+  EXPECT_EQ(box.low, (solid::Vector{-20, -15, -10}));
+  EXPECT_EQ(box.high, (solid::Vector{20, 15, 10}));
+  // The first vertex is a corner of the part, 1 mm below the blank's top or 2 mm beside its sides.
+  const std::size_t at = ply.find("end_header\n") + 11;
+  double allowance = 0;
+  std::memcpy(&allowance, ply.data() + at + 24, 8);
+  EXPECT_NEAR(allowance, 2, 1);
+  // Red is where less than demanded is left.
+  job.options.min_allowance = 1.5;
+  const std::string missing = made(job).picture;
+  EXPECT_TRUE(says(missing, std::string("\xd0\x00\x1b", 3)));
 }
 
 TEST(JobsLocateSolid, TheAllowanceOfEveryCornerIsATable) {

@@ -46,8 +46,9 @@ Result<jobs::SolidLocateJob> read_solids(const LocateOptions& o, jobs::File part
   job.outputs.allowances = o.outputs.allowances;
   job.outputs.report = o.outputs.report;
   if (!o.picture.empty())
-    job.outputs.picture =
-        o.picture.ends_with(".html") ? jobs::SolidPictureForm::html : jobs::SolidPictureForm::png;
+    job.outputs.picture = o.picture.ends_with(".html")  ? jobs::SolidPictureForm::html
+                          : o.picture.ends_with(".ply") ? jobs::SolidPictureForm::ply
+                                                        : jobs::SolidPictureForm::png;
   return job;
 }
 

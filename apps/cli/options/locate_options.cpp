@@ -291,8 +291,8 @@ void read_outputs(const LocateWords& words, WordReader& read, LocateOptions& o) 
   o.json = words.json;
   const std::string ending = std::filesystem::path(o.picture).extension().string();
   read.require(
-      o.picture.empty() || ending == ".svg" || ending == ".png" || ending == ".html",
-      fmt::format("--picture: the name \"{}\" ends neither in .svg nor in .png nor in .html", o.picture));
+      o.picture.empty() || ending == ".svg" || ending == ".png" || ending == ".html" || ending == ".ply",
+      fmt::format("--picture: the name \"{}\" ends in none of .svg, .png, .html and .ply", o.picture));
   o.outputs.picture = jobs::picture_form(o.picture);
   const std::string page = std::filesystem::path(o.report).extension().string();
   read.require(
@@ -373,7 +373,8 @@ void read_for_either(const LocateWords& words, const std::vector<FormOption>& op
   read.choice("--units", words.units, kLocateUnits, unit);
   if (!unit.outline) of_solids.push_back("--units " + words.units);
   if (words.picture.ends_with(".svg")) of_outlines.push_back("--picture " + words.picture);
-  if (words.picture.ends_with(".html")) of_solids.push_back("--picture " + words.picture);
+  if (words.picture.ends_with(".html") || words.picture.ends_with(".ply"))
+    of_solids.push_back("--picture " + words.picture);
   if (!words.units.empty()) o.job.part.units = unit.outline, o.solid.units = unit.solid;
   o.not_for_outlines = only_for(of_solids, "solids, and the files are outlines in the plane");
   o.not_for_solids = only_for(of_outlines, "outlines in the plane, and the files are solids");
@@ -570,7 +571,7 @@ void add_output_options(Form& form, LocateWords& w) {
   const OptionAdder add(form, "Output");
   add("-o,--output", w.output, "FILE", "Write the result as JSON to this file");
   add("--picture", w.picture, "FILE",
-      "Draw blank, part and allowance: .svg or .png; solids as .png or .html");
+      "Draw blank, part and allowance: .svg or .png; solids as .png, .html or .ply");
   add("--report", w.report, "FILE",
       "One page with placement, features, histogram, contacts and what is proved: .svg, .pdf or .png");
   add("--drawing", w.drawing, "FILE",

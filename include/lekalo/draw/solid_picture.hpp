@@ -55,6 +55,10 @@ struct SolidScene {
 [[nodiscard]] Result<std::string> solid_png(const SolidScene& scene, int width_px = 1600,
                                             unsigned threads = kUsualThreads);
 
+/// The surface of the placed part as PLY for other viewers, in the frame of the blank: at each vertex the
+/// allowance, mm, as `quality`, and its colour in the picture. \pre there are allowances
+[[nodiscard]] std::string solid_surface(const SolidScene& scene);
+
 /// The scene as one page of HTML without links, which turns with mouse, finger and keys (WebGL2): part,
 /// blank, contacts, what nobody measured, where material is missing, and a section. It shows places to
 /// 1/65,535 of the size; figures are printed as in the picture. Whatever the texts hold is shown as text.

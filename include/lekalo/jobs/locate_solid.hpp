@@ -66,8 +66,8 @@ struct SolidLocateOptions {
   unsigned threads = kUsualThreads;
 };
 
-/// A picture, or a page that turns in a browser.
-enum class SolidPictureForm { png, html };
+/// A picture, a page that turns in a browser, or the part's surface in colours for another viewer.
+enum class SolidPictureForm { png, html, ply };
 
 /// The documents that are made beside the result.
 struct SolidLocateOutputs {

@@ -56,6 +56,7 @@ draw::SolidScene scene_of(const SolidLocateJob& job, const SolidInputs& in, cons
 
 Result<std::string> picture_of(const draw::SolidScene& scene, SolidPictureForm form, unsigned threads) {
   if (form == SolidPictureForm::html) return draw::solid_page(scene);
+  if (form == SolidPictureForm::ply) return draw::solid_surface(scene);
   return draw::solid_png(scene, 1600, threads);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -64,7 +65,14 @@ struct SolidFile {
 [[nodiscard]] Result<SolidFile> parse_solid(std::string_view bytes, const std::string& name,
                                             const SolidOptions& options = {});
 
-/// The mesh as binary PLY, little-endian: every coordinate is the double itself. \pre at most 2^31 vertices
-[[nodiscard]] std::string ply_text(const solid::Mesh& mesh);
+/// A number and a colour at each vertex of a mesh, for other viewers.
+struct PlyLook {
+  std::vector<double> quality;
+  std::vector<std::array<std::uint8_t, 3>> colours;  ///< red, green, blue
+};
+
+/// The mesh as binary PLY, little-endian: every coordinate is the double itself. \pre at most 2^31 vertices;
+/// a look has one entry of each kind for each of them, or none
+[[nodiscard]] std::string ply_text(const solid::Mesh& mesh, const PlyLook& look = {});
 
 }  // namespace lekalo::io
