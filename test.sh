@@ -10,8 +10,7 @@
 set -euo pipefail
 . "$(dirname -- "${BASH_SOURCE[0]}")/tools/common.sh"
 
-# One more than processors: tests with a browser or a server wait as much as they compute.
-jobs=$(($(nproc) + 1))
+jobs=$(nproc)
 
 # run_ctest PRESET [ctest arguments...]: without the lines that only say that a test starts.
 run_ctest() {
