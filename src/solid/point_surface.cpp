@@ -102,7 +102,7 @@ class Surface {
   }
 
   void find_squares() {
-    const auto [nx, ny, nz] = grid_.counts();
+    const std::int32_t nx = grid_.counts().x, ny = grid_.counts().y;
     width_ = nx + 1;
     inner_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(ny + 1));
     // Counts of the corners that are not inner, summed over both directions, tell whole squares that are.
@@ -162,7 +162,7 @@ class Surface {
     std::vector<std::uint64_t> corners;
     for (const auto& side : sides) corners.insert(corners.end(), side.begin(), side.end());
     std::ranges::sort(corners);
-    corners.erase(std::ranges::unique(corners).begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     for (const std::uint64_t c : corners)
       mesh_.vertices.push_back(c < kOnFloor ? grid_.point(static_cast<std::uint32_t>(c))
                                             : on_floor(c - kOnFloor));

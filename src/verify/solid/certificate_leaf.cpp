@@ -348,10 +348,10 @@ class LeafProof {
       return made;
     };
     /// The half-space beside the blank's edge, for an end of the part's.
+    const Number foot = dot(beside, q);
     const auto over = [&](const Point& end, double weight) {
       Form<Number> form{end, beside};
-      form.slope = beside, form.level = number<Number>(0) - dot(beside, q),
-      form.weight = number<Number>(weight);
+      form.slope = beside, form.level = number<Number>(0) - foot, form.weight = number<Number>(weight);
       return std::vector<Form<Number>>{form};
     };
     const Number width = number<Number>(frame_.blank.width(term.blank / 3).low);

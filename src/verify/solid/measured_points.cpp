@@ -97,7 +97,7 @@ std::vector<std::string> faults_of_points(const Points& points, const SolidMesh&
   for (std::size_t k = 0; k < points.size(); ++k)
     if (out[k] == 0) counted.push_back(points[k]);
   std::ranges::sort(counted);
-  counted.erase(std::ranges::unique(counted).begin(), counted.end());
+  counted.erase(std::unique(counted.begin(), counted.end()), counted.end());
   if (auto fault = unmeasured(counted, blank, scan)) faults.push_back(*std::move(fault));
 
   // Nothing is promised where something is unknown.
