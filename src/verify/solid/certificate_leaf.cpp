@@ -347,8 +347,8 @@ class LeafProof {
       for (Form<Number>& form : made) form.weight = number<Number>(weight);
       return made;
     };
-    /// The half-space beside the blank's edge, for an end of the part's.
     const Number foot = dot(beside, q);
+    /// The half-space beside the blank's edge, for an end of the part's.
     const auto over = [&](const Point& end, double weight) {
       Form<Number> form{end, beside};
       form.slope = beside, form.level = number<Number>(0) - foot, form.weight = number<Number>(weight);
