@@ -147,6 +147,14 @@ inline SolidResultFiles with_demands(const Json& features, const Json& of_result
   files.features = features.dump();
   return files;
 }
+/// What a result says of a scan without an underside whose surface dips by up to `dip` between its points:
+/// all widths are `guard` and that.
+inline Json scan_by_dip(double guard, double dip, double widest) {
+  return {{"guard", guard},       {"min_radius", nullptr},     {"max_dip", dip},
+          {"underside", nullptr}, {"widest", widest},          {"unknown_triangles", 0},
+          {"proved", true},       {"left_out", Json::array()}, {"assumptions", {"it is so"}}};
+}
+
 /// Changes a number of a tree of values: by a digit, its sign, or to another one.
 inline Json changed(Json certificate, Random& random) {
   std::vector<Json*> numbers;

@@ -716,6 +716,8 @@ TEST(JobsLocateSolid, APointInTheMaterialContradictsWhatIsSaid) {
   const LocatedSolid located = made(job);
   EXPECT_TRUE(located.holds());
   EXPECT_EQ(cases::Json::parse(located.result)["scan"]["left_out"], cases::Json{9});
+  EXPECT_EQ(cases::Json::parse(located.result)["scan"]["assumptions"].back(),
+            "the 1 points that are left out are none of the surface");
   EXPECT_TRUE(warns(located, "scan.xyz: 1 points have no other within 2.5 mm and are left out"));
   EXPECT_EQ(verdict(job, located), verify::Verdict::unproved);
 }
@@ -743,6 +745,15 @@ TEST(JobsLocateSolid, PointsNeedAReach) {
   job = points_job(points);
   job.outputs.mesh.clear();
   EXPECT_TRUE(says(refusal(job).message, "--min-radius MM and --mesh FILE.ply"));
+  // A dip is a statement about triangles, and these nobody has seen.
+  job = points_job(points);
+  job.options.scan->max_dip = 0.1;
+  EXPECT_TRUE(
+      says(refusal(job).message, "a dip is said of the triangles of a mesh, and points have none yet"));
+  job = points_job(points);
+  job.options.scan->uncertainty = 3;
+  EXPECT_EQ(refusal(job).code, ErrorCode::usage);
+  EXPECT_TRUE(says(refusal(job).message, "a smallest radius of 5 mm must be above 6 mm"));
   job = points_job(points);
   job.options.scan->underside.reset();
   // Nobody has measured the underside, so it is bridged and unknown.

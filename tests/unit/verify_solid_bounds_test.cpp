@@ -177,15 +177,7 @@ TEST(SolidFields, AContactIsOnATriangleThatCounts) {
 SolidResultFiles scanned(const Json& certificate = nullptr, double bound = 0.5) {
   SolidResultFiles files = cube_in_cube(certificate, bound, "xyz", 0);
   Json& r = files.result;
-  r["scan"] = {{"guard", 0.25},
-               {"min_radius", nullptr},
-               {"max_dip", 0.25},
-               {"underside", nullptr},
-               {"widest", 0.5},
-               {"unknown_triangles", 0},
-               {"proved", true},
-               {"left_out", Json::array()},
-               {"assumptions", {"it is so"}}};
+  r["scan"] = cases::scan_by_dip(0.25, 0.25, 0.5);
   r["clearance"] = 0.5, r["contacts"][0]["distance"] = 0.5;
   if (!certificate.is_null()) r["gap"] = bound - 0.5;
   return files;

@@ -22,15 +22,7 @@ constexpr const char* kCorners = "-6 -6 -6\n6 -6 -6\n6 6 -6\n-6 6 -6\n-6 -6 6\n6
 SolidResultFiles measured() {
   SolidResultFiles files = cube_in_cube();
   Json& r = files.result;
-  r["scan"] = {{"guard", 0.1},
-               {"min_radius", nullptr},
-               {"max_dip", 0.2},
-               {"underside", nullptr},
-               {"widest", 0.3},
-               {"unknown_triangles", 0},
-               {"proved", true},
-               {"left_out", Json::array()},
-               {"assumptions", {"it is so"}}};
+  r["scan"] = cases::scan_by_dip(0.1, 0.2, 0.3);
   r["clearance"] = 0.699999, r["contacts"][0]["distance"] = 0.7;
   r["inputs"].push_back({{"role", "points"}, {"path", "p"}, {"sha256", ""}, {"units", "mm"}, {"points", 8}});
   files.points = kCorners;

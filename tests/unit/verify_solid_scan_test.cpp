@@ -38,15 +38,7 @@ Json faces() {
 SolidResultFiles scanned(const Json& certificate = nullptr, double bound = kBound, double shift = 0.5) {
   SolidResultFiles files = cube_in_cube(certificate, bound, "xyz", shift);
   Json& r = files.result;
-  r["scan"] = {{"guard", 0.1},
-               {"min_radius", nullptr},
-               {"max_dip", 0.2},
-               {"underside", nullptr},
-               {"widest", 0.3},
-               {"unknown_triangles", 0},
-               {"proved", true},
-               {"left_out", Json::array()},
-               {"assumptions", {"it is so"}}};
+  r["scan"] = cases::scan_by_dip(0.1, 0.2, 0.3);
   r["clearance"] = kLeft, r["contacts"][0]["distance"] = 0.7;
   if (!certificate.is_null()) r["gap"] = bound - kLeft;
   return files;

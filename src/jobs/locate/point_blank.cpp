@@ -22,14 +22,16 @@ tl::unexpected<Error> bad(const File& file, const std::string& sentence) {
 /// The part of the radius that the ball of the mesh may have: what it does not pass is then small enough for
 /// the assumption to cover.
 constexpr double kBall = 0.8;
+
 /// Looks, in coarse cells, for a larger ball that does not fall in between the points.
 bool widen(const std::vector<Vector>& points, solid::PointSurfaceOptions& how) {
-  constexpr double kWider = 1.15, kCells = 6, kSafety = 1.1;
+  // The first ball is not smaller than a share of the whole, so that no trial has many cells.
+  constexpr double kWider = 1.15, kCells = 6, kSafety = 1.1, kSmallest = 1.0 / 24;
   const solid::Box box = solid::box_of(points);
   const Vector size = box.high - box.low;
+  const double largest = std::max({size.x, size.y, size.z});
   solid::PointSurfaceOptions trial = how;
-  for (const double largest = std::max({size.x, size.y, size.z}); trial.ball < largest;
-       trial.ball *= kWider) {
+  for (trial.ball = std::max(how.ball, kSmallest * largest); trial.ball < largest; trial.ball *= kWider) {
     trial.step = trial.ball / kCells;
     const Result<solid::PointSurface> made = solid::surface_through(points, trial);
     if (!made || !made->encloses) continue;
@@ -49,6 +51,15 @@ Result<void> mesh_points(const SolidLocateJob& job, const io::SolidFile& file, S
         "points are not a closed surface, so nothing says where the material is; with --uncertainty MM, "
         "--min-radius MM and --mesh FILE.ply they are meshed first, and --underside z=LEVEL --flat MM closes "
         "the side on which the blank stands");
+  if (scan->max_dip)
+    return bad(job.blank,
+               "a dip is said of the triangles of a mesh, and points have none yet; leave --max-dip out");
+  const double guard = scan->coverage_factor * scan->uncertainty;
+  if (!(*scan->min_radius > guard))
+    return failure(
+        ErrorCode::usage,
+        fmt::format("a smallest radius of {} mm must be above {} mm, what the points are uncertain by",
+                    *scan->min_radius, guard));
   std::vector<Vector> points = file.mesh.vertices;
   if (scan->drop_outliers) {
     in.left_out = solid::lonely_points(points, *scan->drop_outliers);
@@ -65,9 +76,8 @@ Result<void> mesh_points(const SolidLocateJob& job, const io::SolidFile& file, S
                                        job.blank.name, in.left_out.size(), *scan->drop_outliers));
     points = std::move(kept);
   }
-  const double guard = scan->coverage_factor * scan->uncertainty;
   solid::PointSurfaceOptions how;
-  how.ball = std::max(kBall * (*scan->min_radius - guard), 0.1 * *scan->min_radius);
+  how.ball = kBall * (*scan->min_radius - guard);
   how.step = scan->step;
   if (scan->underside) how.floor = scan->underside->z;
   const double first = how.ball;

@@ -178,6 +178,9 @@ Result<void> read_scan(const SolidScanOptions& how, SolidInputs& in) {
   scan.guard = how.coverage_factor * how.uncertainty + kDiagonal * scan.coordinate_error;
   scan.min_radius = how.min_radius, scan.max_dip = how.max_dip, scan.underside = how.underside;
   LEKALO_TRY(locate::GuaranteedSolid made, locate::guaranteed_solid(p.blank, scan));
+  if (!in.left_out.empty())
+    made.assumptions.push_back(
+        fmt::format("the {} points that are left out are none of the surface", in.left_out.size()));
   in.scan = io::SolidScanRecord{scan.guard,
                                 scan.min_radius,
                                 scan.max_dip,
