@@ -373,7 +373,9 @@ class Solids:
         key = self.files[entry["path"]], entry["units"], blank, json.dumps(scan.scan, default=str, sort_keys=True)
         if key not in self.measured:
             points = points_of(*key[:2])
-            self.measured[key] = entry["points"] == len(points) and nothing_measured_is_material(points, blank, scan)
+            # Nobody has seen the triangles between them, so that nothing is said of how far those dip.
+            self.measured[key] = (entry["points"] == len(points) and scan.scan["max_dip"] is None and
+                                  nothing_measured_is_material(points, blank, scan))
         return self.measured[key]
 
     def clearance_holds(self, document, part, blank, scan):

@@ -17,12 +17,13 @@ using cases::SolidResultFiles;
 
 constexpr const char* kCorners = "-6 -6 -6\n6 -6 -6\n6 6 -6\n-6 6 -6\n-6 -6 6\n6 -6 6\n6 6 6\n-6 6 6\n";
 
-/// The material begins 0.3 within the triangles: the points are off by up to 0.1, and the surface dips by
-/// 0.2.
+/// The material begins 0.3 within the triangles: the points are off by up to 0.1, and a ball of 180.2 sinks
+/// by 0.2 more, 180.1 less the root of 180.1^2 - 72.
 SolidResultFiles measured() {
   SolidResultFiles files = cube_in_cube();
   Json& r = files.result;
-  r["scan"] = cases::scan_by_dip(0.1, 0.2, 0.3);
+  r["scan"] = cases::scan_by_dip(0.1, 0, 0.3);
+  r["scan"]["max_dip"] = nullptr, r["scan"]["min_radius"] = 180.2;
   r["clearance"] = 0.699999, r["contacts"][0]["distance"] = 0.7;
   r["inputs"].push_back({{"role", "points"}, {"path", "p"}, {"sha256", ""}, {"units", "mm"}, {"points", 8}});
   files.points = kCorners;
@@ -83,6 +84,13 @@ TEST(SolidPoints, ThoseLeftOutDoNotCount) {
     files.points.reset(), files.result["inputs"].erase(2), files.result["scan"]["left_out"] = {3};
   });
   EXPECT_TRUE(says(alone, "scan.left_out names points, but there is no file of points")) << alone;
+}
+
+TEST(SolidPoints, ADipIsSaidOfTrianglesThatWereMeasured) {
+  const std::string dip = told([](SolidResultFiles& files) { files.result["scan"]["max_dip"] = 0.2; });
+  EXPECT_TRUE(
+      says(dip, "refuted; the blank was made from points, but scan.max_dip is said of measured triangles"))
+      << dip;
 }
 
 TEST(SolidPoints, TheFileHasToBeThereAndToBeRead) {

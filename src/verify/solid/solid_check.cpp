@@ -255,6 +255,8 @@ Result<void> SolidCheck::check_points(const SolidMesh& blank) {
     find("the blank was made from points, but scan is null");
     return {};
   }
+  if (d_.scan->max_dip)
+    find("the blank was made from points, but scan.max_dip is said of measured triangles");
   LEKALO_TRY(const SolidReading reading, read_measured_points(*inputs_.points, d_.points->unit));
   if (reading.open) {
     open_ = true;
