@@ -189,10 +189,13 @@ std::string program_lines(const std::optional<io::NcRecord>& nc) {
   return text;
 }
 
+bool has_datums(const io::SolidDocument& d) { return d.demands && !d.demands->datums.empty(); }
+
 std::string headline(const io::SolidDocument& d) {
   if (d.status == "infeasible" && d.demands)
-    return std::string("No placement in the window meets the demands; this is proved.") +
-           (d.inside() ? " The one that misses least:" : "");
+    return fmt::format("No placement in the window meets the demands{}; this is proved.{}",
+                       has_datums(d) ? " and keeps the datums" : "",
+                       d.inside() ? " The one that misses least:" : "");
   if (d.status == "infeasible")
     return d.min_allowance > 0
                ? fmt::format(
@@ -200,12 +203,19 @@ std::string headline(const io::SolidDocument& d) {
                      "proved.",
                      d.min_allowance)
                : "No placement in the window has the part inside the blank; this is proved.";
-  if (!d.inside()) return "No placement was found that has the part inside the blank.";
+  if (!d.inside())
+    return fmt::format("No placement was found that has the part inside the blank{}.",
+                       has_datums(d) ? " and keeps the datums" : "");
   if (d.scan && !d.scan->proved())
     return "A placement was found, but parts of the blank are unknown, so it is not proved to hold.";
   if (d.status == "optimal") return "The best placement was found and proved.";
   if (d.status == "stopped") return "Stopped early: a placement that holds, maybe not the best.";
   return fmt::format("The placement that --method {} found; it proves nothing about others.", d.method);
+}
+
+bool all_kept(const io::SolidDocument& d) {
+  return !d.demands || std::all_of(d.demands->datums.begin(), d.demands->datums.end(),
+                                   [](const io::SolidDatumRecord& one) { return one.kept(); });
 }
 
 /// The rotation as people turn things: by an angle about an axis.
@@ -222,7 +232,19 @@ std::string pose_lines(const io::SolidDocument& d) {
   const solid::Vector at = d.pose.shift;
   return fmt::format("  the part lies at   x = {:.6f} mm, y = {:.6f} mm, z = {:.6f} mm\n", at.x, at.y, at.z) +
          turn_line(d.pose.quaternion) + "  minimum allowance  " +
-         (d.clearance ? mm_down(*d.clearance) : "none: the part is not inside the blank") + "\n";
+         (d.clearance ? mm_down(*d.clearance)
+                      : fmt::format("none: {}", all_kept(d) ? "the part is not inside the blank"
+                                                            : "a datum is not kept")) +
+         "\n";
+}
+
+std::string datum_lines(const io::SolidDocument& d) {
+  std::string text;
+  if (d.demands)
+    for (const io::SolidDatumRecord& one : d.demands->datums)
+      text += fmt::format("  datum              \"{}\" is {} within {} mm: the part is off it by up to {}\n",
+                          one.name, one.kept() ? "kept" : "not kept", one.within, mm_up(one.off));
+  return text;
 }
 
 std::string window_text(const io::SolidDocument& d) {
@@ -262,10 +284,11 @@ std::string missing_place(const io::SolidDocument& d) {
 
 std::string demands_line(const io::SolidDocument& d) {
   const io::SolidDemandRecord& r = *d.demands;
-  const std::string bound = !r.margin_bound ? ""
-                                            : fmt::format("; no placement {} has a margin above {}",
-                                                          window_text(d), mm_up(*r.margin_bound));
-  if (!r.margin && r.margin_bound && *r.margin_bound < 0)
+  const std::string bound =
+      !r.margin_bound ? ""
+                      : fmt::format("; no placement {}{} has a margin above {}", window_text(d),
+                                    has_datums(d) ? " that keeps the datums" : "", mm_up(*r.margin_bound));
+  if (!r.margin && r.margin_bound && *r.margin_bound < 0 && !has_datums(d))
     return fmt::format("  demands            at least {} are missing, wherever in the window the part lies\n",
                        mm_down(-*r.margin_bound));
   if (!r.margin) return fmt::format("  demands            not met{}\n", bound);
@@ -276,7 +299,7 @@ std::string demands_line(const io::SolidDocument& d) {
 }
 
 std::string demand_line(const io::SolidDocument& d) {
-  const std::string demands = d.demands ? demands_line(d) : "";
+  const std::string demands = d.demands ? datum_lines(d) + demands_line(d) : "";
   if (!d.inside())
     return demands +
            "  to be tried        a wider window (--shift, --tilt), another start (--start), other --units\n";

@@ -1,15 +1,8 @@
 // The published schema accepts what we write and the example file, and refuses what the reader refuses, as
 // python3-jsonschema reads it.
 
-#include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -19,6 +12,7 @@
 #include "support/json.hpp"
 #include "support/layout_documents.hpp"
 #include "support/places.hpp"
+#include "support/schemas.hpp"
 
 namespace lekalo::io::layout_schema_test {
 namespace {
@@ -27,37 +21,12 @@ using cases::Json;
 
 const std::string kExample = cases::source_dir() + "/tests/corpus/data/layouts/order.json";
 
-std::string python_with_jsonschema() {
-  for (const char* name : {"python3", "/usr/bin/python3"})
-    if (std::system(fmt::format("{} -c 'import jsonschema' >/dev/null 2>&1", name).c_str()) == 0) return name;
-  return "";
-}
-
-/// What the schema says of each text.
 std::vector<std::string> verdicts(const std::vector<std::string>& texts) {
-  const auto folder = std::filesystem::temp_directory_path() /
-                      fmt::format("lekalo-schema-{}", static_cast<unsigned long>(::getpid()));
-  std::filesystem::create_directories(folder);
-  std::string command =
-      fmt::format("{0} {1}/tests/support/check_schema.py {1}/docs/schema/lekalo-layout-1.schema.json",
-                  python_with_jsonschema(), cases::source_dir());
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    const std::string path = (folder / fmt::format("{}.json", i)).string();
-    std::ofstream(path) << texts[i];
-    command += " " + path;
-  }
-  std::vector<std::string> lines;
-  FILE* pipe = ::popen(command.c_str(), "r");
-  char line[1000];
-  while (pipe != nullptr && std::fgets(line, sizeof line, pipe) != nullptr)
-    lines.emplace_back(line, std::string_view(line).find_last_not_of('\n') + 1);
-  if (pipe != nullptr) ::pclose(pipe);
-  std::filesystem::remove_all(folder);
-  return lines;
+  return cases::schema_verdicts("lekalo-layout-1.schema.json", texts);
 }
 
 TEST(LayoutSchema, AcceptsWhatIsWrittenAndTheExample) {
-  ASSERT_NE(python_with_jsonschema(), "")
+  ASSERT_NE(cases::python_with_jsonschema(), "")
       << "python3-jsonschema is not installed (tools/setup.sh installs it)";
   std::vector<std::string> texts{disk::read_file(kExample).value()};
   const auto example = read_layout(texts[0], "order.json");
@@ -75,7 +44,7 @@ TEST(LayoutSchema, AcceptsWhatIsWrittenAndTheExample) {
 }
 
 TEST(LayoutSchema, RefusesWhatTheReaderRefuses) {
-  ASSERT_NE(python_with_jsonschema(), "")
+  ASSERT_NE(cases::python_with_jsonschema(), "")
       << "python3-jsonschema is not installed (tools/setup.sh installs it)";
   const Json example = Json::parse(disk::read_file(kExample).value());
   struct Wrong {

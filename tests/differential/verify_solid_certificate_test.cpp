@@ -118,6 +118,62 @@ SolidResultFiles with_demands(Random& random) {
   return files;
 }
 
+/// The cube in the cube, held by a datum farther along one of its normals than its margin likes.
+SolidResultFiles with_datum(Random& random) {
+  const auto row = [](const std::array<double, 3>& p) { return Json{p[0], p[1], p[2]}; };
+  const std::size_t axis = random.below(3), other = (axis + 1) % 3;
+  const double side = random.below(2) == 0 ? 1 : -1;
+  // Whole numbers of 1/1024, so that nothing is rounded.
+  const auto number = [&](std::uint32_t from, std::uint32_t to) {
+    return static_cast<double>(from + random.below(to - from)) / 1024;
+  };
+  const double least = number(50, 300), within = number(50, 200);
+  std::array<double, 3> n{}, through{}, along{}, u{};
+  n[axis] = side, through[axis] = side * (least + within);
+  Json datum{{"name", "seat"}, {"within", within}};
+  Json point{0, 0};
+  u[axis] = -side * number(1, 4000);
+  switch (random.below(3)) {
+    case 0:
+      datum["feature"] = "face";
+      for (std::size_t k = 0; k < 3; ++k)
+        along[k] = n[k] * number(1, 4000), u[k] += k == axis ? 0 : number(0, 999);
+      through[axis] += 5 * side, through[other] = number(0, 9999);
+      datum["plane"] = {{"normal", row(along)}, {"through", row(through)}};
+      // The faces of cases::block are those of z, y and x, two triangles each.
+      point = {0, 3 * (4 * (2 - axis) + (side > 0 ? 2 : 0)) + random.below(6)};
+      break;
+    case 1:
+      datum["points"] = Json::array({{0, 0, 0}, {0, 0, 0}});
+      datum["points"][1][other] = 3;
+      along[other] = number(1, 4000), through[other] = number(0, 9999), u[other] = number(0, 999);
+      datum["axis"] = {{"along", row(along)}, {"through", row(through)}};
+      point = {0, random.below(2)};
+      break;
+    default:
+      datum["points"] = Json::array({{0, 0, 0}});
+      datum["point"] = row(through);
+  }
+  const auto face = static_cast<int>(4 * (2 - axis) + (side > 0 ? 2 : 0));
+  const Json features{{"minimum", 0},
+                      {"features", Json::array({Json{{"name", "face"}, {"triangles", {face, face + 1}}}})},
+                      {"datums", Json::array({datum})}};
+  Json certificate =
+      cases::one_leaf(Json::array({{"point_plane", 0, 0, 1}, {"datum", 0, 0, 1 / std::abs(u[axis])}}),
+                      Json::array(), Json::array(), Json::array({{-n[0], -n[1], -n[2], -6}}));
+  certificate["part_points"] = Json::array({{face, 0.25, 0.5}});
+  certificate["datum_points"] = Json::array({point});
+  certificate["directions"] = Json::array({row(u)});
+  SolidResultFiles files =
+      cases::with_demands(features, Json::array({cases::demand_of_result("face", 2, 0, 1)}), certificate,
+                          1 - least, 1 - least + 1e-3);
+  files.result["clearance"] = 1 - least, files.result["contacts"] = Json::array();
+  for (std::size_t k = 0; k < 3; ++k) files.result[std::string(1, "xyz"[k])] = least * n[k];
+  files.result["demands"]["datums"] =
+      Json::array({Json{{"name", "seat"}, {"within", within}, {"off", within}}});
+  return files;
+}
+
 TEST(SolidCertificate, AStrangerSaysTheSame) {
   Random random(8);
   std::vector<SolidResultFiles> all;
@@ -150,15 +206,15 @@ TEST(SolidCertificate, AStrangerSaysTheSame) {
       if (other.report()) all.push_back(other);
     }
   }
-  for (std::uint64_t k = 0; k < cases::case_count(8); ++k) {
-    const SolidResultFiles honest = with_demands(random);
+  for (std::uint64_t k = 0; k < cases::case_count(12); ++k) {
+    const SolidResultFiles honest = k % 3 == 2 ? with_datum(random) : with_demands(random);
     EXPECT_EQ(honest.told(), "confirmed") << *honest.features;
     all.push_back(honest);
     SolidResultFiles other = honest;
     Json& certificate = other.result["certificate"];
-    const char* const tables[]{"part_points", "blank_balls", "planes"};
-    const std::size_t which = random.below(4);
-    if (which < 3)
+    const char* const tables[]{"part_points", "blank_balls", "planes", "datum_points", "directions"};
+    const std::size_t which = random.below(6);
+    if (which < 5 && !certificate[tables[which]].empty())
       certificate[tables[which]] = changed(certificate[tables[which]], random);
     else
       certificate["trees"][0]["nodes"] = changed(certificate["trees"][0]["nodes"], random);

@@ -204,6 +204,12 @@ def of_solids():
     inches = [["locate", "--part", "part.obj", "--blank", "blank.obj", "--units", "inch", "--shift", "1", "--tilt", "1",
                "--gap", "0.1", "-o", "r.json"]]
     yield placed("placement, solids, inches", [], inches, written=boxes, inputs=list(boxes))
+    for name, spare in (("features", "0.2"), ("datums", "0.3")):
+        file = f"{name}.json"
+        asked = [near + ["--shift", "1", "--tilt", "1", "--features", file, "--gap", spare]]
+        kind = functools.partial(placed, files=meshes + ["examples/solid/" + file], commands=[start] + asked)
+        yield kind(f"placement, solids, {name}", inputs=stl + [file])
+        yield kind(f"{name} of solids", target=file, oracle=solids.features, report_of="r.json")
     for role, file in (("part", "part.stl"), ("blank", "casting.stl")):
         yield Kind(f"placement, solids, another {role}", meshes, [start, turned + ["--gap", "0.1"]], file, of_r,
                    solids.mesh(role), form="stl", report_of="r.json")

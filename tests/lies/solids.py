@@ -20,6 +20,7 @@ import check_solid_certificate as proof
 import nc_reader
 import exact
 import exact_solids as space
+import solid_faces
 import truth
 from exact_solids import cross, dot, plus, sub, times
 
@@ -27,7 +28,8 @@ INFORMATION = [r"/(seed|work|version|method|run|warnings)(/.*)?$", r"/inputs/\d+
                r"/contacts/\d+/multiplier$", r"/scan/assumptions/\d+$", r"/nc/(motions|scan_frame|notes)(/.*)?$",
                r"/(nc|offset)/output/path$"]
 # Items that each say something for themselves; a term, a ball or a node is missed where it is needed.
-MAY_GO = r"/(contacts|inputs)/\d+$|/certificate/(part_balls|blank_balls|planes)/\d+$|/certificate/trees/\d+/nodes/\d+(/\d+)?$"
+MAY_GO = r"/(contacts|inputs)/\d+$|/certificate/(part_balls|part_points|datum_points|directions|blank_balls|planes)/\d+$|" \
+         r"/certificate/trees/\d+/nodes/\d+(/\d+)?$"
 UNITS = {"mm": F(1), "inch": F(254, 10), "m": F(1000)}
 SLACK = F(4, 10 ** 15)  # of numbers of poses that were computed in doubles
 
@@ -97,16 +99,23 @@ class Mesh:
         return 0 in squares or space.inside(p, above) == wanted
 
     def one_of_each_component(self):
-        parent = {}
+        return [corners[0] for corners in components(self.kept)]
 
-        def root(p):
-            while parent.setdefault(p, p) != p:
-                p = parent[p]
-            return p
-        for corners in ([tuple(p) for p in t] for t in self.kept):
-            for p in corners[1:]:
-                parent[root(p)] = root(corners[0])
-        return [list(p) for p in {root(p) for p in list(parent)}]
+
+def components(triangles):
+    """The corners of each surface that hangs together by its corners."""
+    parent, made = {}, collections.defaultdict(list)
+
+    def root(p):
+        while parent.setdefault(p, p) != p:
+            p = parent[p]
+        return p
+    for corners in ([tuple(p) for p in t] for t in triangles):
+        for p in corners[1:]:
+            parent[root(p)] = root(corners[0])
+    for p in list(parent):
+        made[root(p)].append(list(p))
+    return list(made.values())
 
 
 # Distances. ----------------------------------------------------------------------------------------------------
@@ -330,7 +339,7 @@ class Solids:
     """What a placement of solids claims. Meshes, clearances and leaves that were looked at before are kept, also from
     one kind to the next, many of which are of the same meshes and proof."""
 
-    meshes, clearances, leaves, measured = {}, {}, {}, {}
+    meshes, clearances, leaves, measured, margins = {}, {}, {}, {}, {}
 
     def __init__(self, files):
         self.files = files
@@ -352,7 +361,9 @@ class Solids:
                 return False
         roles = {entry["role"]: entry for entry in document["inputs"]}
         if len(roles) != len(document["inputs"]) or not {"part", "blank"} <= roles.keys() <= {
-                "part", "blank", "start", "points", "nc", "allow"}:
+                "part", "blank", "start", "points", "features", "nc", "allow"}:
+            return False
+        if ("features" in roles) != (document["demands"] is not None):
             return False
         part, blank = (self.mesh(roles[role]["path"], roles[role]["units"]) for role in ("part", "blank"))
         if any(roles[role]["triangles"] != len(mesh.all) for role, mesh in (("part", part), ("blank", blank))):
@@ -361,11 +372,19 @@ class Solids:
         if not (scan.is_told(document) and self.is_measured(roles.get("points"), blank, scan) if scan
                 else document["unknown_area_mm2"] == 0 and "points" not in roles):
             return False
-        return (derived(document, certificate) and pose_is_allowed(document) and
+        faces = None
+        if document["demands"]:
+            file = fractions_of(self.files[roles["features"]["path"]])
+            faces = solid_faces.Faces(file, part, document["min_allowance"])
+            if not (faces.are_told(document["demands"]) and faces.are_off(document, place, reading_slack(blank)) and
+                    solid_faces.derived(document, certificate) and self.margin_holds(document, part, blank, faces)):
+                return False
+        elif not (derived(document, certificate) and self.clearance_holds(document, part, blank, scan)):
+            return False
+        return (pose_is_allowed(document) and
                 program_holds(document, self.files) and offset_holds(document, self.files) and
                 all(contact_holds(document, contact, part, blank, scan) for contact in document["contacts"]) and
-                self.clearance_holds(document, part, blank, scan) and
-                self.is_proved(document, certificate, part, blank))
+                self.is_proved(document, certificate, part, blank, faces))
 
     def is_measured(self, entry, blank, scan):
         if entry is None:
@@ -395,13 +414,41 @@ class Solids:
             return least is not None and decimal_of(document["clearance"]) <= least
         return least is not None and document["clearance"] ** 2 <= least
 
-    def is_proved(self, document, certificate, part, blank):
+    def margin_holds(self, document, part, blank, faces):
+        """Each triangle that has a demand lies in the blank, as far from its surface as is said."""
+        groups = faces.demanded()
+        if not document["inside"]:
+            return not faces.are_kept(document) or any(
+                space.inside(place(document, p), blank.kept) is False for t in sum(groups.values(), [])[:48] for p in t)
+        key = part, blank, str(groups), tuple(document["quaternion"]), tuple(document[axis] for axis in "xyz")
+        if key not in self.margins:
+            there = [[place(document, p) for p in t] for t in part.kept]
+
+            def sticks_out(p):
+                return not space.inside(p, there) and all(space.squared_distance(p, t) > 0 for t in there)
+            found = {}
+            for demand, triangles in groups.items():
+                of = [[place(document, p) for p in t] for t in triangles]
+                least = least_distance(of, blank.kept)
+                lies_in = least and all(space.inside(corners[0], blank.kept) for corners in components(of))
+                found[demand] = least if lies_in else None
+            if not all(any(map(sticks_out, corners)) for corners in components(blank.kept)):
+                found = {demand: None for demand in groups}
+            self.margins[key] = found
+        margin, clearance = document["demands"]["margin"], document["clearance"]
+        return all(least is not None and max(F(0), clearance, low + scale * margin) ** 2 <= least
+                   for (low, scale), least in self.margins[key].items())
+
+    def is_proved(self, document, certificate, part, blank, faces):
+        bound = document["demands"]["margin_bound"] if faces else document["upper_bound"]
         if certificate is None:
-            return document["upper_bound"] is None
+            return bound is None
         if certificate["pivot"] != document["window"]["pivot"]:
             return False
-        rows = [row for table in ("part_balls", "blank_balls", "planes") for row in certificate[table]]
-        if any(len(row) != 4 for row in rows) or any(
+        rows = [(len(row), width) for table, width in (("part_balls", 4), ("blank_balls", 4), ("planes", 4), ("part_points", 3),
+                                                       ("datum_points", 2), ("directions", 3))
+                for row in certificate.get(table, [])]
+        if any(length != width for length, width in rows) or any(
                 ball[3] < 0 for table in ("part_balls", "blank_balls") for ball in certificate[table]):
             return False
         leaves = 0
@@ -420,29 +467,33 @@ class Solids:
                     cells += [cell[:k] + [half] + cell[k + 1:] for half in ([at, cell[k][1]], [cell[k][0], at])]
                     continue
                 leaves += 1
-                if not self.leaf_holds(node, cell, tree, certificate, document["upper_bound"], part, blank):
+                if not self.leaf_holds(node, cell, tree, certificate, bound, part, blank, faces):
                     return False
             if cells:
                 return False
         return covers and (not document["certificate_file"] or document["certificate_file"]["boxes"] == leaves)
 
-    def leaf_holds(self, leaf, cell, tree, certificate, bound, part, blank):
+    def leaf_holds(self, leaf, cell, tree, certificate, bound, part, blank, faces):
         def edges(mesh):
             return [(t[k], t[k - 2]) for t in mesh.all for k in range(3)]
-        first = {"part_face": part.all, "edges": edges(part)}
-        second = {"face": blank.all, "plane": certificate["planes"], "edges": edges(blank)}
+        points = certificate.get("part_points", [])
+        first = {"part_face": part.all, "edges": edges(part), "datum": certificate.get("datum_points", []),
+                 "point": points, "point_plane": points, "point_face": points}
+        second = {"face": blank.all, "plane": certificate["planes"], "edges": edges(blank), "point_face": blank.all,
+                  "point_plane": certificate["planes"], "datum": certificate.get("directions", [])}
         used = []
         for kind, i, j, m in leaf:
             one, other = first.get(kind, certificate["part_balls"]), second.get(kind, certificate["blank_balls"])
-            if kind not in ("ball", "plane", "face", "part_face", "edges") or m < 0 or any(
+            if kind not in ("ball", "plane", "face", *first) or m < 0 or any(
                     k != int(k) or not 0 <= k < len(rows) for k, rows in ((i, one), (j, other))):
                 return False
             used.append((kind, str(one[int(i)]), str(other[int(j)]), m))
-        key = part, blank, str(used), str(cell), str(tree["quaternion"]), str(certificate["pivot"]), bound
+        asked = str((faces.of, faces.datums)) if faces else ""
+        key = part, blank, str(used), str(cell), str(tree["quaternion"]), str(certificate["pivot"]), bound, asked
         if key not in self.leaves:
             self.leaves[key] = any(m > 0 for *_, m in leaf) and proof.wrong_with(
-                leaf, cell, tree["quaternion"], certificate, [bound] * len(part.all), part.all, blank.all,
-                holds=lambda ball, _, wanted: (part if wanted else blank).ball_holds(ball, wanted)) is None
+                leaf, cell, tree["quaternion"], certificate, faces.bounds(bound) if faces else [bound] * len(part.all),
+                part.all, blank.all, faces.datums if faces else [], holds=lambda ball, _, wanted: (part if wanted else blank).ball_holds(ball, wanted)) is None
         return self.leaves[key]
 
 
@@ -491,9 +542,13 @@ def offset_holds(document, files):
     return document["offset"] is None or all(document[k] == last[k] for k in ("quaternion", "x", "y", "z"))
 
 
-def contact_holds(document, contact, part, blank, scan):
+def reading_slack(blank):
     sizes = [max(p[k] for t in blank.all for p in t) - min(p[k] for t in blank.all for p in t) for k in range(3)]
-    slack = max(F(1), *sizes) / 10 ** 6
+    return max(F(1), *sizes) / 10 ** 6
+
+
+def contact_holds(document, contact, part, blank, scan):
+    slack = reading_slack(blank)
     for role, mesh in (("part", part), ("blank", blank)):
         number, point = contact[f"{role}_triangle"], contact[f"{role}_point"]
         if number != int(number) or not 0 <= number < len(mesh.all) or len(point) != 3 or \
@@ -551,6 +606,19 @@ def certificate(context):
             return None
         claims.files, document = of_another_file(context, change.text())
         return decide(claims, document)
+    return holds
+
+
+def features(context):
+    """Another file of features, whose digest the result has."""
+    before = json.loads(context.text)
+
+    def holds(change):
+        after = json.loads(change.text())
+        if change.how == "given twice" or not truth.may_hold(change, before, after, MAY_GO):
+            return None
+        files, document = of_another_file(context, change.text())
+        return decide(Solids(files), document)
     return holds
 
 

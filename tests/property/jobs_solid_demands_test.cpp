@@ -15,10 +15,29 @@
 namespace lekalo::jobs::jobs_solid_demands_test {
 namespace {
 
+/// Up to two datums: points of the part lie where they are in its file, more or less.
+std::string datums_of(const solid::Mesh& part, Random& random) {
+  std::string datums;
+  for (std::size_t k = random.below(3); k > 0; --k) {
+    const solid::Vector p = part.vertices[random.below(part.vertices.size())],
+                        q = p + random.uniform(-0.2, 0.2) * cases::direction(random),
+                        n = cases::direction(random);
+    const std::string place = fmt::format("[{}, {}, {}]", q.x, q.y, q.z),
+                      way = fmt::format("[{}, {}, {}]", n.x, n.y, n.z);
+    const std::string on[]{fmt::format(R"("plane": {{"normal": {}, "through": {}}})", way, place),
+                           fmt::format(R"("axis": {{"along": {}, "through": {}}})", way, place),
+                           fmt::format(R"("point": {})", place)};
+    datums += fmt::format(R"({}{{"name": "datum {}", "points": [[{}, {}, {}]], {}, "within": {}}})",
+                          datums.empty() ? "" : ", ", k, p.x, p.y, p.z, on[random.below(3)],
+                          random.uniform(0.1, 1));
+  }
+  return datums;
+}
+
 /// Triangles dealt out to three features, or to none; one feature may be as cast.
-std::string features_of(std::size_t triangles, bool as_cast, Random& random) {
+std::string features_of(const solid::Mesh& part, bool as_cast, Random& random) {
   std::vector<std::string> numbers(4);
-  for (std::size_t t = 0; t < triangles; ++t) {
+  for (std::size_t t = 0; t < part.triangles.size(); ++t) {
     std::string& list = numbers[random.below(4)];
     list += (list.empty() ? "" : ", ") + std::to_string(t);
   }
@@ -28,7 +47,8 @@ std::string features_of(std::size_t triangles, bool as_cast, Random& random) {
                             k == 2 && as_cast ? std::string(R"("as_cast": true)")
                                               : fmt::format(R"("minimum": {:.3f}, "scale": {:.2f})",
                                                             random.uniform(0, 1), random.uniform(0.5, 2)));
-  return fmt::format(R"({{"minimum": {:.3f}, "features": [{}]}})", random.uniform(0, 0.5), features);
+  return fmt::format(R"({{"minimum": {:.3f}, "features": [{}], "datums": [{}]}})", random.uniform(0, 0.5),
+                     features, datums_of(part, random));
 }
 
 TEST(SolidDemands, EveryResultIsConfirmed) {
@@ -46,8 +66,7 @@ TEST(SolidDemands, EveryResultIsConfirmed) {
       if (random.below(4) == 0) std::swap(t[1], t[2]);
     job.part = {"part.stl", solid_files::stl_text(pair.part)};
     job.blank = {"casting.stl", solid_files::stl_binary(pair.blank)};
-    job.features =
-        File{"features.json", features_of(pair.part.triangles.size(), random.below(2) == 0, random)};
+    job.features = File{"features.json", features_of(pair.part, random.below(2) == 0, random)};
     job.options.gap = 0.1;
     RunControl run;
     run.work_limit = 2000;

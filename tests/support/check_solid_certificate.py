@@ -4,7 +4,7 @@
 Prints for each "proved", or what does not hold. Fractions throughout: every answer is exact, and slow."""
 import json, math, sys
 from exact_solids import F, ball_holds, cross, dot, normal, plus, root, stl, sub, times, turned
-from solid_demands import demands
+from solid_demands import datums, demands, straight_off
 
 def read(path): return json.load(open(path), parse_float=F, parse_int=F)
 AXES = ("x", "y", "z", "turn_x", "turn_y", "turn_z")
@@ -29,12 +29,22 @@ def largest(forms, cell):  # the largest Bernstein coefficient of their sum
             values.append(c + dot(linear, x) + dot(square, xx) + dot(mixed, [x[k - 2] * x[k - 1] for k in range(3)]))
     return max(values)
 
-def wrong_with(leaf, cell, q, c, bounds, part, blank, holds=ball_holds):  # with a bound for each triangle of the part
+def wrong_with(leaf, cell, q, c, bounds, part, blank, held=(), holds=ball_holds):  # with a bound for each triangle of the part
     forms, middle = [], [(lo + hi) / 2 for lo, hi in cell]
     def from_pivot(v): return turned(q, sub(v, c["pivot"]))
     def turn_there(v): return turned([F(1)] + middle[3:], turned(q, v))
     def place_there(v): return plus(turn_there(sub(v, c["pivot"])), middle)
-    for kind, i, j, m in ((kind, int(i), int(j), m) for kind, i, j, m in leaf if m > 0):
+    terms = [(kind, int(i), int(j), m) for kind, i, j, m in leaf if m > 0]
+    for kind, i, j, m in terms:
+        if kind == "datum":
+            d, k = c["datum_points"][i]
+            if d != int(d) or not 0 <= d < len(held) or k not in held[int(d)]["points"]: return f"datum point {i}"
+            datum = held[int(d)]
+            u = straight_off(datum, c["directions"][j])
+            if not any(u): return f"direction {j}"
+            room = datum["within"] * root(dot(u, u), True) + dot(u, datum["through"])
+            forms.append(height(m, from_pivot(datum["points"][k]), times(u, -1), room))
+            continue
         a = c["part_balls"][i] if kind in ("ball", "plane", "face") else None
         b = c["blank_balls"][j] if kind in ("ball", "part_face", "point") else None
         if a and not holds(a, part, True): return f"part ball {i}"
@@ -85,14 +95,15 @@ def wrong_with(leaf, cell, q, c, bounds, part, blank, holds=ball_holds):  # with
             forms.append(over(n, -dot(n, t[0]) - ball[3] - beta, m))
             conditions = [over(times(n, -1), dot(n, t[0]) - ball[3])] + [over(times(e, -1), dot(e, v)) for e, v in feet]
             if any(largest([one], cell) > 0 for one in conditions): return "a face that it may leave"
-    return None if largest(forms, cell) <= 0 else "a leaf proves too little"
+    most = largest(forms, cell)  # terms of datums are not below 0, and all others are above 0
+    return None if most < 0 or most == 0 and any(t[0] != "datum" for t in terms) else "a leaf proves too little"
 
 def check(part, blank, result, certificate, features):
     part, blank, r = stl(part), stl(blank), read(result)
     c = r["certificate"] or read(certificate)["certificate"]
-    bounds = [r["upper_bound"]] * len(part)
+    bounds, held = [r["upper_bound"]] * len(part), []
     if r.get("demands"):
-        of = demands(read(features), part, r["min_allowance"])
+        held, of = datums(read(features), part), demands(read(features), part, r["min_allowance"])
         bounds = [one and one[0] + one[1] * r["demands"]["margin_bound"] for one in of]
     for tree in c["trees"]:
         open_ = [[tree[k] for k in AXES]]
@@ -102,7 +113,7 @@ def check(part, blank, result, certificate, features):
                 k = AXES.index(node[0])
                 if not cell[k][0] <= node[1] <= cell[k][1]: return "a split beside its box"
                 open_ += [cell[:k] + [half] + cell[k + 1:] for half in ([node[1], cell[k][1]], [cell[k][0], node[1]])]
-            elif wrong := wrong_with(node, cell, tree["quaternion"], c, bounds, part, blank): return wrong
+            elif wrong := wrong_with(node, cell, tree["quaternion"], c, bounds, part, blank, held): return wrong
         if open_: return "the tree ends early"
     return "proved"
 

@@ -1,5 +1,5 @@
 """The triangles of a file of features for solids, and what they demand, written from docs/formats.md alone."""
-from exact_solids import F, dot, normal, squared_distance
+from exact_solids import F, dot, normal, squared_distance, sub, times
 
 UNITS = {"mm": F(1), "inch": F(254, 10), "m": F(1000)}
 
@@ -38,3 +38,23 @@ def demands(file, mesh, least):
         one = None if feature.get("as_cast") else (mm(feature.get("minimum", 0)), F(float(feature.get("scale", 1))))
         for f in triangles_of(feature, unit, mesh): of[f] = one
     return of
+
+def datums(file, mesh):
+    """Of each datum what it lies on, the double nearest to its tolerance, and its points by their numbers."""
+    unit, made = UNITS[file.get("units", "mm")], []
+    def mm(p): return [x * unit for x in p]
+    for datum in file.get("datums", []):
+        on = next(word for word in ("plane", "axis", "point") if word in datum)
+        place = datum[on] if on != "point" else {"through": datum[on]}
+        points = dict(enumerate(mm(p) for p in datum.get("points", [])))
+        for feature in file.get("features", []):
+            if feature["name"] == datum.get("feature"):
+                points.update((3 * f + k, mesh[f][k]) for f in triangles_of(feature, unit, mesh) for k in range(3))
+        made.append({"on": on, "through": mm(place["through"]), "points": points, "direction":
+                     place.get("normal") or place.get("along"), "within": F(float(unit) * float(datum["within"]))})
+    return made
+
+def straight_off(datum, way):
+    n = datum["direction"]
+    along = n and times(n, dot(way, n) / dot(n, n))
+    return {"plane": along, "axis": n and sub(way, along), "point": way}[datum["on"]]

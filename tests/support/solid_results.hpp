@@ -139,11 +139,9 @@ inline SolidResultFiles with_demands(const Json& features, const Json& of_result
   result["inputs"].push_back(Json{{"role", "features"}, {"path", "features"}, {"sha256", ""}});
   result["upper_bound"] = result["gap"] = nullptr;
   result["shortfall"] = std::max(0.0, -margin);
-  result["demands"] = {{"minimum", features["minimum"]},
-                       {"features", of_result},
-                       {"margin", margin},
-                       {"margin_bound", bound},
-                       {"margin_gap", bound - margin}};
+  result["demands"] = {{"minimum", features["minimum"]}, {"features", of_result},
+                       {"datums", Json::array()},        {"margin", margin},
+                       {"margin_bound", bound},          {"margin_gap", bound - margin}};
   files.features = features.dump();
   return files;
 }

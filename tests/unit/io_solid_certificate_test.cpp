@@ -17,15 +17,18 @@ locate::SolidProof sample() {
   proof.part_points = {{1, 0.25, 0.5}};
   proof.blank_balls = {{{10, 0.1, 0}, 2}};
   proof.planes = {{{0, 0, 1}, -7.5}};
+  proof.datum_points = {{1, 5}};
+  proof.directions = {{0, 1, 0}};
   SolidTree tree;
   tree.low = {-5, -5, -5, 0, 0, -0.125};
   tree.high = {5, 5, 5, 0, 0, 0.125};
   tree.nodes = {
-      {SolidTree::Axis::turn_z, 0, 0, 0}, {SolidTree::Axis::leaf, 0, 0, 1}, {SolidTree::Axis::leaf, 0, 1, 7}};
+      {SolidTree::Axis::turn_z, 0, 0, 0}, {SolidTree::Axis::leaf, 0, 0, 1}, {SolidTree::Axis::leaf, 0, 1, 8}};
   tree.terms = {{SolidTerm::Kind::plane, 0, 0, 1},       {SolidTerm::Kind::ball, 0, 0, 3},
                 {SolidTerm::Kind::face, 0, 1, 2},        {SolidTerm::Kind::part_face, 1, 0, 5},
                 {SolidTerm::Kind::edges, 5, 3, 7},       {SolidTerm::Kind::point, 0, 0, 1},
-                {SolidTerm::Kind::point_plane, 0, 0, 2}, {SolidTerm::Kind::point_face, 0, 1, 3}};
+                {SolidTerm::Kind::point_plane, 0, 0, 2}, {SolidTerm::Kind::point_face, 0, 1, 3},
+                {SolidTerm::Kind::datum, 0, 0, 4}};
   proof.trees = {tree};
   return proof;
 }
@@ -39,6 +42,10 @@ TEST(SolidCertificate, IsWrittenAsTheFormatSays) {
     [0.5, 0, -1, 0.25]
   ], "part_points": [
     [1, 0.5, 0.25]
+  ], "datum_points": [
+    [1, 5]
+  ], "directions": [
+    [0, 1, 0]
   ], "blank_balls": [
     [10, 0.1, 0, 2]
   ], "planes": [
@@ -48,7 +55,8 @@ TEST(SolidCertificate, IsWrittenAsTheFormatSays) {
     ["turn_z", 0],
     [["plane", 0, 0, 1]],
     [["ball", 0, 0, 3], ["face", 0, 6, 2], ["part_face", 1, 0, 5], ["edges", 3, 18, 7], )"
-            R"(["point", 0, 0, 1], ["point_plane", 0, 0, 2], ["point_face", 0, 6, 3]]
+            R"(["point", 0, 0, 1], ["point_plane", 0, 0, 2], ["point_face", 0, 6, 3], )"
+            R"(["datum", 0, 0, 4]]
   ]}]}
 }
 )");

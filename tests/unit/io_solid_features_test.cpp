@@ -86,7 +86,7 @@ TEST(SolidFeatures, DemandsAndUnits) {
 
 TEST(SolidFeatures, WhatCannotBeUnderstoodIsRefused) {
   EXPECT_EQ(refusal(R"({"ignore": []})"),
-            R"(f.json: unknown word "ignore"; known here: units, minimum, features)");
+            R"(f.json: unknown word "ignore"; known here: units, minimum, features, datums)");
   EXPECT_EQ(refusal(R"({"units": "ft"})"), R"(f.json: "units" must be "mm", "inch" or "m")");
   EXPECT_EQ(refusal(R"({"features": [{"triangles": [0]}]})"), R"(f.json, feature 0: "name" must be a text)");
   EXPECT_EQ(refusal_of(R"("minimum": 1)"),
@@ -111,6 +111,72 @@ TEST(SolidFeatures, WhatCannotBeUnderstoodIsRefused) {
             R"(f.json, feature "a": a feature that is as cast has no "scale")");
   EXPECT_EQ(refusal(R"({"features": [{"name": "a", "triangles": [0, 1]}, {"name": "b", "triangles": [1]}]})"),
             R"(f.json, feature "b": triangle 1 is also of the feature "a"; it can be of one)");
+}
+
+Result<std::vector<locate::SolidDatum>> datums(const std::string& datum, const char* unit = "mm") {
+  const SolidFile part = block();
+  const std::string text =
+      std::string(R"({"units": ")") + unit +
+      R"(", "features": [{"name": "low", "triangles": [1, 0]}, {"name": "twice", "triangles": [2]},
+                              {"name": "twice", "triangles": [3]}], "datums": [{"name": "d", )" +
+      datum + "}]}";
+  auto file = parse_solid_features(text, "f.json", {});
+  if (!file) return tl::unexpected(file.error());
+  auto features = find_solid_features(*file, part);
+  if (!features) return tl::unexpected(features.error());
+  return find_solid_datums(*file, *features, part);
+}
+
+TEST(SolidFeatures, DatumsHaveTheCornersOfAFeatureOrPoints) {
+  const auto face =
+      datums(R"("feature": "low", "plane": {"normal": [0, 0, -4], "through": [1, 2, 3]}, "within": 0.5)");
+  ASSERT_TRUE(face) << face.error().message;
+  const locate::SolidDatum& low = face->front();
+  EXPECT_EQ(low.on, locate::SolidDatum::On::plane);
+  EXPECT_EQ(low.direction, (solid::Vector{0, 0, -1}));
+  EXPECT_EQ(low.at, (solid::Vector{1, 2, 3}));
+  EXPECT_EQ(low.within, 0.5);
+  ASSERT_FALSE(low.points.empty());
+  for (const auto& point : low.points) {
+    EXPECT_EQ(point.place, block().mesh.vertices[block().mesh.triangles[point.number / 3][point.number % 3]]);
+    EXPECT_EQ(point.place.z, 0);
+  }
+  const auto hole = datums(
+      R"("points": [[0, 0, 1], [0, 2, 0]], "axis": {"along": [0, 3, 0], "through": [0, 0, 1]}, "within": 1)",
+      "inch");
+  ASSERT_TRUE(hole) << hole.error().message;
+  EXPECT_EQ(hole->front().on, locate::SolidDatum::On::axis);
+  EXPECT_EQ(hole->front().points[1].place, (solid::Vector{0, 50.8, 0}));
+  EXPECT_EQ(hole->front().points[1].number, 1u);
+  EXPECT_EQ(hole->front().at, (solid::Vector{0, 0, 25.4}));
+  EXPECT_EQ(hole->front().within, 25.4);
+}
+
+TEST(SolidFeatures, DatumsThatCannotBeUnderstoodAreRefused) {
+  const auto refused = [](const std::string& datum) {
+    const auto found = datums(datum);
+    return found ? "found" : found.error().message;
+  };
+  const std::string there = R"("point": [0, 0, 0], "within": 1)";
+  EXPECT_EQ(refused(R"("feature": "top", )" + there),
+            R"(f.json, datum "d": there is no feature named "top")");
+  EXPECT_EQ(refused(R"("feature": "twice", )" + there),
+            R"(f.json, datum "d": there are several features named "twice")");
+  EXPECT_EQ(refused(there),
+            R"(f.json, datum "d": one of "feature" and "points" must say what of the part it holds)");
+  EXPECT_EQ(refused(R"("points": [], )" + there),
+            R"(f.json, datum "d": "points" must be a list of 1 to 1000 points [x, y, z])");
+  EXPECT_EQ(refused(R"("points": [[0, 0, 2e9]], )" + there),
+            R"(f.json, datum "d": "points" must be a point [x, y, z] within 1e+09 mm)");
+  EXPECT_EQ(
+      refused(R"("feature": "low", "within": 1)"),
+      R"(f.json, datum "d": one of "plane", "axis" and "point" must say where in the blank's frame it is)");
+  EXPECT_EQ(refused(R"("feature": "low", "point": [0, 0, 0])"),
+            R"(f.json, datum "d": "within" must be a length above 0)");
+  EXPECT_EQ(refused(R"("feature": "low", "axis": {"along": [0, 0, 0], "through": [0, 0, 0]}, "within": 1)"),
+            R"(f.json, datum "d", axis: "along" must be a direction [x, y, z])");
+  EXPECT_EQ(refused(R"("feature": "low", "plane": {"normal": [0, 0, 1]}, "within": 1)"),
+            R"(f.json, datum "d", plane: "through" must be a point [x, y, z] within 1e+09 mm)");
 }
 
 TEST(SolidFeatures, WhatRoundingLeavesOpenIsRefused) {

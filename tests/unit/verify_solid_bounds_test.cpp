@@ -480,7 +480,8 @@ TEST(SolidBounds, BallsAndHalfSpacesOfAFineBlankTakeLittleWork) {
                   blank = cases::checked(fine_block(6, 16));
   std::vector<std::string> findings;
   std::string complaint;
-  CertificateTables tables(*parse_json(text, "tables"), part, blank, findings, complaint);
+  const std::vector<SolidDatum> datums;
+  CertificateTables tables(*parse_json(text, "tables"), part, blank, datums, findings, complaint);
   const auto takes_at_most = [](std::size_t work, const auto& act) {
     RunControl run;
     run.work_limit = work;

@@ -39,6 +39,21 @@ struct SolidDemand {
   friend bool operator==(const SolidDemand&, const SolidDemand&) = default;
 };
 
+/// A demand on the place of the part: none of some points of it is farther from a plane, a line or a point of
+/// the blank's frame than a tolerance. All between the points keeps it, too.
+struct SolidDatum {
+  enum class On : std::uint8_t { plane, axis, point };
+  struct Point {
+    solid::Vector place;       ///< part coordinates
+    std::uint32_t number = 0;  ///< by which a certificate names it
+  };
+  On on = On::plane;
+  solid::Vector at;         ///< a point of the plane or the line, or the point; blank coordinates
+  solid::Vector direction;  ///< the plane's normal, or along the line, of length 1
+  double within = 0;        ///< mm, > 0
+  std::vector<Point> points;
+};
+
 struct SolidProblem {
   solid::Mesh part, blank;  ///< closed (solid::closed_mesh)
   SolidPose start;
@@ -59,6 +74,8 @@ struct SolidProblem {
   /// The demand of each triangle of the part; one that is as cast has none and may stick out of the blank.
   /// Then the least margin is maximised. Empty: the allowance counts, everywhere alike.
   std::vector<std::optional<SolidDemand>> demands = {};
+  /// Poses that do not keep these count for nothing.
+  std::vector<SolidDatum> datums = {};
 };
 
 struct SolidOptions {
@@ -84,7 +101,8 @@ struct SolidTouch {
 struct SolidPlacement {
   SolidPose pose;
   /// True if the part lies inside the blank there; else there is no clearance. With demands it is true if the
-  /// triangles that have one do so, and no surface of the blank lies in the part as a whole.
+  /// triangles that have one do so, and no surface of the blank lies in the part as a whole; and with datums
+  /// if all of them are kept, too.
   bool inside = false;
   /// The least allowance at that very pose, of triangles that have a demand, mm, never above the exact one;
   /// above 0 where it is inside.
@@ -93,13 +111,16 @@ struct SolidPlacement {
   std::uint64_t work = 0;
   /// The least margin there, mm, never above the exact one; the clearance, where there are no demands.
   double margin = 0;
+  /// No point of each datum is farther off there, mm.
+  std::vector<double> off = {};
 };
 
 struct SolidResult {
   /// It is `stopped`, too, where no pose was found inside and none has more than the gap.
   Status status = Status::stopped;
   SolidPlacement best;
-  /// No placement of the window has more margin, which is the clearance without demands; rounded up.
+  /// No placement of the window that keeps the datums has more margin, which is the clearance without
+  /// demands; rounded up. Where none keeps them it is below all margins of poses inside.
   double upper_bound = 0;
   /// The reason why, also of a search that was stopped. Triangles are numbered as in the problem.
   SolidProof proof;

@@ -10,7 +10,8 @@ namespace lekalo::locate {
 
 /// The reason why no pose of a window has more clearance than a bound: a subdivision of the window into
 /// boxes, each with terms whose weighted sum is not above 0 anywhere in it, though each of them would be
-/// where the clearance, or with demands the margin, is above the bound. docs/formats.md ("Certificate of
+/// where the clearance, or with demands the margin, is above the bound. Those of datums would not be below 0
+/// where the datums are kept. docs/formats.md ("Certificate of
 /// solids") has the terms.
 
 /// A ball in the part's material (part coordinates), or one whose inside has none of the blank's (blank
@@ -32,6 +33,11 @@ struct SolidPoint {
   double u = 0, v = 0;
 };
 
+/// A point of a datum, by the numbers of both.
+struct SolidDatumPoint {
+  std::uint32_t datum = 0, point = 0;
+};
+
 struct SolidTerm {
   enum class Kind : std::uint8_t {
     ball,         ///< a part ball and a blank ball
@@ -41,7 +47,8 @@ struct SolidTerm {
     edges,        ///< an edge of the part and one of the blank
     point,        ///< a point of the part and a blank ball
     point_plane,  ///< a point of the part and a plane
-    point_face    ///< a point of the part over a triangle of the blank
+    point_face,   ///< a point of the part over a triangle of the blank
+    datum         ///< a point of a datum and a direction
   };
   Kind kind = Kind::ball;
   /// The numbers of what the term is made of, in the tables of the proof or among the triangles of a mesh.
@@ -74,6 +81,8 @@ struct SolidProof {
   solid::Vector pivot;  ///< part coordinates
   std::vector<SolidBall> part_balls, blank_balls;
   std::vector<SolidPoint> part_points;
+  std::vector<SolidDatumPoint> datum_points;
+  std::vector<solid::Vector> directions;  ///< blank coordinates, of length 1 within rounding
   std::vector<SolidPlane> planes;
   /// They cover the window. Empty when nothing is proved.
   std::vector<SolidTree> trees;

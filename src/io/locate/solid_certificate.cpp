@@ -28,6 +28,8 @@ const char* name_of(SolidTerm::Kind kind) {
       return "point_plane";
     case SolidTerm::Kind::point_face:
       return "point_face";
+    case SolidTerm::Kind::datum:
+      return "datum";
     case SolidTerm::Kind::part_face:
       break;
   }
@@ -89,6 +91,14 @@ void write_solid_certificate(JsonWriter& json, const locate::SolidProof& proof, 
       const bool turned = numbers.part_turned[p.triangle];
       json.list({numbers.part[p.triangle], turned ? p.v : p.u, turned ? p.u : p.v});
     });
+  if (!proof.datum_points.empty()) {
+    json.key("datum_points").list_of_lines(proof.datum_points, 4, 2, [&](const locate::SolidDatumPoint& p) {
+      json.list({p.datum, p.point});
+    });
+    json.key("directions").list_of_lines(proof.directions, 4, 2, [&](Vector u) {
+      json.list({u.x, u.y, u.z});
+    });
+  }
   balls("blank_balls", proof.blank_balls);
   json.key("planes").list_of_lines(proof.planes, 4, 2,
                                    [&](const locate::SolidPlane& p) { write(json, p.normal, p.least); });

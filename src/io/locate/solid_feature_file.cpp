@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 
 #include "feature_words.hpp"
 #include "io/solid/solid_builder.hpp"
@@ -155,6 +156,85 @@ class SpecReader {
   double scale_;
 };
 
+class DatumReader {
+ public:
+  DatumReader(std::string name, double scale) : name_(std::move(name)), scale_(scale) {}
+
+  Result<SolidDatumSpec> read(JsonValue json, std::size_t index) {
+    where_ = fmt::format("{}, datum {}", name_, index);
+    LEKALO_CHECK(detail::expect_object(json, where_,
+                                       {"name", "feature", "points", "plane", "axis", "point", "within"}));
+    SolidDatumSpec spec;
+    const auto name = json.find("name");
+    if (!name || !is_word(*name)) return refuse(where_, "\"name\" must be a text");
+    spec.name = name->text();
+    where_ = fmt::format("{}, datum \"{}\"", name_, spec.name);
+    LEKALO_CHECK(take_points(json, spec));
+    LEKALO_CHECK(take_place(json, spec.datum));
+    LEKALO_CHECK(
+        detail::take_length(json, "within", scale_, where_, [&](double v) { spec.datum.within = v; }));
+    if (!(spec.datum.within > 0)) return refuse(where_, "\"within\" must be a length above 0");
+    return spec;
+  }
+
+ private:
+  Result<void> take_points(JsonValue json, SolidDatumSpec& spec) const {
+    const auto feature = json.find("feature"), points = json.find("points");
+    if (feature.has_value() == points.has_value())
+      return refuse(where_, "one of \"feature\" and \"points\" must say what of the part it holds");
+    if (feature) {
+      if (!is_word(*feature)) return refuse(where_, "\"feature\" must be the name of a feature");
+      spec.which = std::string(feature->text());
+      return {};
+    }
+    if (points->kind() != JsonKind::list || points->size() == 0 || points->size() > kMostDatumPoints)
+      return refuse(where_,
+                    fmt::format("\"points\" must be a list of 1 to {} points [x, y, z]", kMostDatumPoints));
+    std::vector<Vector> made;
+    for (const JsonValue point : *points)
+      LEKALO_CHECK(take_point(point, "points", where_, made.emplace_back()));
+    spec.which = std::move(made);
+    return {};
+  }
+
+  Result<void> take_place(JsonValue json, locate::SolidDatum& datum) const {
+    const auto plane = json.find("plane"), axis = json.find("axis"), point = json.find("point");
+    if (plane.has_value() + axis.has_value() + point.has_value() != 1)
+      return refuse(where_,
+                    "one of \"plane\", \"axis\" and \"point\" must say where in the blank's frame it is");
+    if (point) {
+      datum.on = locate::SolidDatum::On::point;
+      return take_point(point, "point", where_, datum.at);
+    }
+    datum.on = plane ? locate::SolidDatum::On::plane : locate::SolidDatum::On::axis;
+    const char* const key = plane ? "normal" : "along";
+    const JsonValue said = plane ? *plane : *axis;
+    const std::string where = where_ + (plane ? ", plane" : ", axis");
+    LEKALO_CHECK(detail::expect_object(said, where, {key, "through"}));
+    const auto direction = said.find(key), through = said.find("through");
+    if (const auto n = direction ? three_numbers(*direction) : std::nullopt) datum.direction = *n;
+    const double length = norm(datum.direction);
+    if (!(length > 1e-9 && length < 1e9))
+      return refuse(where, fmt::format("\"{}\" must be a direction [x, y, z]", key));
+    datum.direction = 1 / length * datum.direction;
+    return take_point(through, "through", where, datum.at);
+  }
+
+  Result<void> take_point(std::optional<JsonValue> said, const char* key, const std::string& where,
+                          Vector& point) const {
+    if (const auto p = said ? three_numbers(*said) : std::nullopt;
+        p && norm(scale_ * *p) <= limits::kLargestCoordinate) {
+      point = scale_ * *p;
+      return {};
+    }
+    return refuse(where, fmt::format("\"{}\" must be a point [x, y, z] within {:g} mm", key,
+                                     limits::kLargestCoordinate));
+  }
+
+  std::string name_, where_;
+  double scale_;
+};
+
 Result<SolidUnit> unit_of(JsonValue root, const std::string& name, std::optional<SolidUnit> said) {
   const auto units = root.find("units");
   if (!units) return said.value_or(SolidUnit::millimetre);
@@ -162,6 +242,23 @@ Result<SolidUnit> unit_of(JsonValue root, const std::string& name, std::optional
        {std::pair{"mm", SolidUnit::millimetre}, {"inch", SolidUnit::inch}, {"m", SolidUnit::metre}})
     if (units->text_is(word)) return unit;
   return refuse(name, "\"units\" must be \"mm\", \"inch\" or \"m\"");
+}
+
+/// Reads a list by an item reader, if there is one.
+template <class Reader, class Item>
+Result<void> take_list(JsonValue root, const char* key, std::size_t most, Reader reader,
+                       const std::string& name, std::vector<Item>& items) {
+  const auto list = root.find(key);
+  if (!list) return {};
+  if (list->kind() != JsonKind::list) return refuse(name, fmt::format("\"{}\" must be a list", key));
+  if (list->size() > most)
+    return refuse(
+        name, fmt::format("there are {} {}; at most {} are looked for in a solid", list->size(), key, most));
+  for (const JsonValue item : *list) {
+    LEKALO_TRY(auto read, reader.read(item, items.size()));
+    items.push_back(std::move(read));
+  }
+  return {};
 }
 
 /// Finds triangles in the file of a part.
@@ -351,22 +448,13 @@ Result<SolidFeatureFile> parse_solid_features(std::string_view bytes, const std:
                                               std::optional<SolidUnit> unit) {
   LEKALO_TRY(const auto tree, detail::JsonTree::parse(bytes, name));
   const JsonValue root = tree.root();
-  LEKALO_CHECK(detail::expect_object(root, name, {"units", "minimum", "features"}));
+  LEKALO_CHECK(detail::expect_object(root, name, {"units", "minimum", "features", "datums"}));
   LEKALO_TRY(const SolidUnit file_unit, unit_of(root, name, unit));
   const double scale = value_of(decimal_factor(file_unit));
-  SolidFeatureFile file{name, {}, {}};
+  SolidFeatureFile file{name, {}, {}, {}};
   LEKALO_CHECK(detail::take_length(root, "minimum", scale, name, [&](double v) { file.minimum = v; }));
-  const auto features = root.find("features");
-  if (!features) return file;
-  if (features->kind() != JsonKind::list) return refuse(name, "\"features\" must be a list");
-  if (features->size() > kMostSolidFeatures)
-    return refuse(name, fmt::format("there are {} features; at most {} are looked for in a solid",
-                                    features->size(), kMostSolidFeatures));
-  SpecReader reader(name, scale);
-  for (const JsonValue item : *features) {
-    LEKALO_TRY(auto spec, reader.read(item, file.features.size()));
-    file.features.push_back(std::move(spec));
-  }
+  LEKALO_CHECK(take_list(root, "features", kMostSolidFeatures, SpecReader(name, scale), name, file.features));
+  LEKALO_CHECK(take_list(root, "datums", kMostDatums, DatumReader(name, scale), name, file.datums));
   return file;
 }
 
@@ -391,6 +479,32 @@ Result<std::vector<SolidFeature>> find_solid_features(const SolidFeatureFile& fi
     features.push_back({spec.name, std::move(triangles), spec.demand});
   }
   return features;
+}
+
+Result<std::vector<locate::SolidDatum>> find_solid_datums(const SolidFeatureFile& file,
+                                                          const std::vector<SolidFeature>& features,
+                                                          const SolidFile& part) {
+  std::vector<locate::SolidDatum> datums;
+  for (const SolidDatumSpec& spec : file.datums) {
+    datums.push_back(spec.datum);
+    std::vector<locate::SolidDatum::Point>& points = datums.back().points;
+    if (const auto* const given = std::get_if<std::vector<Vector>>(&spec.which)) {
+      for (const Vector p : *given) points.push_back({p, static_cast<std::uint32_t>(points.size())});
+      continue;
+    }
+    const std::string& wanted = std::get<std::string>(spec.which);
+    const auto is_it = [&](const SolidFeature& one) { return one.name == wanted; };
+    if (const auto count = std::count_if(features.begin(), features.end(), is_it); count != 1)
+      return refuse(fmt::format("{}, datum \"{}\"", file.name, spec.name),
+                    fmt::format("there {} named \"{}\"",
+                                count == 0 ? "is no feature" : "are several features", wanted));
+    std::set<std::uint32_t> seen;
+    for (const std::uint32_t t : std::find_if(features.begin(), features.end(), is_it)->triangles)
+      for (std::uint32_t k = 0; k < 3; ++k)
+        if (const std::uint32_t v = part.mesh.triangles[t][k]; seen.insert(v).second)
+          points.push_back({part.mesh.vertices[v], 3 * t + k});
+  }
+  return datums;
 }
 
 }  // namespace lekalo::io

@@ -77,6 +77,9 @@ void write(JsonWriter& json, const SolidDemandRecord& demands) {
     gap = difference_rounded_up(*demands.margin_bound, *demands.margin);
   json.begin_object().field("minimum", demands.minimum);
   list_of_lines(json.key("features"), demands.features, [&](const SolidFeature& one) { write(json, one); });
+  list_of_lines(json.key("datums"), demands.datums, [&](const SolidDatumRecord& one) {
+    json.object({{"name", one.name}, {"within", one.within}, {"off", one.off}});
+  });
   json.fields({{"margin", demands.margin}, {"margin_bound", demands.margin_bound}, {"margin_gap", gap}})
       .end();
 }

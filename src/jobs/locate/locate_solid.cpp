@@ -87,6 +87,13 @@ double decimals_lose(const locate::SolidPlacement& found, const SolidInputs& in,
   return share * far;
 }
 
+/// How far the part is off its datums at most, where the pose is written in decimals or words.
+void tell_datums(const locate::SolidPlacement& found, const SolidInputs& in, double share,
+                 std::vector<io::SolidDatumRecord>& datums) {
+  for (std::size_t k = 0; k < datums.size(); ++k)
+    datums[k].off = difference_rounded_up(found.off[k], -decimals_lose(found, in, share));
+}
+
 std::optional<double> safe_clearance(const locate::SolidPlacement& found, const SolidInputs& in,
                                      double share) {
   if (!found.inside) return std::nullopt;
@@ -235,6 +242,10 @@ io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&
   d.min_allowance = job.options.min_allowance;
   d.demands = std::move(in.demands);
   if (d.demands) {
+    auto& datums = d.demands->datums;
+    tell_datums(found.best, in, share, datums);
+    for (const io::SolidDatumRecord& datum : datums)
+      if (!datum.kept()) d.clearance.reset();
     d.demands->margin_bound = found.upper_bound;
     if (d.inside()) d.demands->margin = safe_margin(found.best, in, share);
   } else {

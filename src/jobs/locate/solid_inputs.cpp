@@ -94,6 +94,9 @@ Result<void> read_features(const SolidLocateJob& job, const io::SolidFile& part,
   io::SolidDemandRecord& demands = in.demands.emplace();
   demands.minimum = std::max(job.options.min_allowance, file.minimum.value_or(0));
   LEKALO_TRY(demands.features, io::find_solid_features(file, part));
+  LEKALO_TRY(in.problem.datums, io::find_solid_datums(file, demands.features, part));
+  for (const io::SolidDatumSpec& datum : file.datums)
+    demands.datums.push_back({datum.name, datum.datum.within, 0});
   return {};
 }
 

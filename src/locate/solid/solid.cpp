@@ -47,6 +47,19 @@ Result<void> check_demands(const SolidProblem& problem) {
   return {};
 }
 
+Result<void> check_datums(const std::vector<SolidDatum>& datums) {
+  for (const SolidDatum& datum : datums) {
+    const double length = datum.on == SolidDatum::On::point ? 1 : norm(datum.direction);
+    if (datum.points.empty() || !(datum.within > 0) || !(datum.within <= limits::kLargestCoordinate) ||
+        !(std::abs(length - 1) < 1e-9) || !finite(datum.at))
+      return failure(ErrorCode::usage,
+                     fmt::format("a datum with {} points within {} mm makes no sense: it must have points, a "
+                                 "tolerance above 0 up to {:g} mm, a place, and a direction of length 1",
+                                 datum.points.size(), datum.within, limits::kLargestCoordinate));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> check(const SolidProblem& problem, const SolidOptions& options) {
@@ -82,6 +95,7 @@ Result<void> check(const SolidProblem& problem, const SolidOptions& options) {
                    fmt::format("widths that are off by {} mm must be off by a number from 0 to {:g}",
                                problem.blank_width_error, limits::kLargestCoordinate));
   if (!problem.demands.empty()) LEKALO_CHECK(check_demands(problem));
+  LEKALO_CHECK(check_datums(problem.datums));
   double square = 0;
   for (const double q : problem.start.quaternion) square += q * q;
   if (!(square > 1e-6) || !(square < 1e6) || !finite(problem.start.shift) ||
@@ -113,6 +127,7 @@ void measure_at_pose(const SolidMeter& meter, SolidPlacement& made) {
   made.inside = there.inside;
   made.clearance = there.inside ? there.clearance : 0;
   made.margin = there.inside ? there.margin : 0;
+  for (const SolidDatum& datum : meter.datums()) made.off.push_back(meter.off(datum, motion_of(made.pose)));
 }
 
 SolidPlacement placement(const SolidMeter& meter, const FramedPose& found) {

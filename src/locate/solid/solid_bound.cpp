@@ -280,7 +280,26 @@ std::optional<SolidEdges> SolidBounds::edges(const SolidContact& contact) const 
                     std::max(0.0, meter_.width(contact.blank_triangle) - meter_.width_error())};
 }
 
+/// A point of a datum that is held.
+KnownSolid SolidBounds::held(const SolidContact& contact) const {
+  const Vector seen = start_.turned(contact.part - meter_.frame().pivot);
+  KnownSolid made;
+  made.held = SolidHeld{{contact.datum, contact.datum_point}, seen, -1 / kDatumWeight * contact.normal};
+  return made;
+}
+
+/// The rest that is left of the tolerance of a datum in a direction. The bound of margins has no part in it.
+PoseForm SolidBounds::form_of(const SolidHeld& held, const CellView& cell) const {
+  const SolidDatum& datum = meter_.datums()[held.point.datum];
+  const Vector u = held.direction;
+  PoseForm form = height(-u, held.seen, -(datum.within + meter_.datum_loss() + dot(u, datum.at)), cell);
+  form.size += norm(datum.at);
+  form.whole = 0;
+  return form;
+}
+
 std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const Motion& motion) const {
+  if (contact.datum != kNoTriangle) return held(contact);
   const Vector n = contact.normal;
   KnownSolid made;
   const auto seen = [&](Vector p) { return start_.turned(p - meter_.frame().pivot); };
@@ -322,6 +341,7 @@ std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const 
 
 std::optional<SolidForm> SolidBounds::form(const KnownSolid& known, SolidChoice choice,
                                            const CellView& cell) const {
+  if (known.held) return SolidForm{form_of(*known.held, cell), -kInfinity};
   auto made = form_of_allowance(known, choice, cell);
   if (!made) return std::nullopt;
   const bool of_ball = choice.kind == SolidTerm::Kind::ball || choice.kind == SolidTerm::Kind::plane ||
@@ -371,7 +391,8 @@ std::optional<SolidForm> SolidBounds::form_of_allowance(const KnownSolid& known,
       return SolidForm{height(n, p, least + part.radius() + f.width - f.loss, cell), 0};
     }
     case SolidTerm::Kind::edges:
-      return form_of(*known.edges, cell);
+      return lekalo::locate::form_of(*known.edges, cell);
+    case SolidTerm::Kind::datum:
     case SolidTerm::Kind::part_face:
       break;
   }
@@ -388,6 +409,13 @@ std::optional<SolidForm> SolidBounds::form_of_allowance(const KnownSolid& known,
 }
 
 std::optional<SolidRow> SolidBounds::row(const KnownSolid& known, const CellView& cell) const {
+  if (known.held) {
+    PoseForm above;
+    above.add(kDatumWeight, form_of(*known.held, cell));
+    above.constant += meter_.beyond_margins();
+    above.whole = 1;
+    return SolidRow{above.tangent(cell), {SolidTerm::Kind::datum, 0, 0}, 1 / kDatumWeight};
+  }
   const double y = cell.turn, slide = norm(cell.slide);
   const Vector at = cell.middle.at;
   /// The best of each kind, by what it says at the middle and about what it loses beside it.

@@ -28,6 +28,12 @@ struct SolidEdges {
   double width = 0;                             ///< of the blank's triangle, mm, the least it has
 };
 
+/// A point of a datum, from the pivot and turned as at the start, that may not go far in a direction.
+struct SolidHeld {
+  SolidDatumPoint point;
+  solid::Vector seen, direction;
+};
+
 /// A contact that was met at some pose, and what terms can be made of it. The smallest ball of each kind lies
 /// beside the point of contact itself. Which term is best depends on the box of poses.
 struct KnownSolid {
@@ -47,6 +53,8 @@ struct KnownSolid {
   SolidPlane plane;
   std::optional<SolidFace> part_face, blank_face;
   std::optional<SolidEdges> edges;
+  /// A contact of a datum has this, and nothing else.
+  std::optional<SolidHeld> held;
 };
 
 /// One term of a contact: numbers among its balls, where it is made of some.
@@ -104,6 +112,8 @@ class SolidBounds {
                                              solid::Vector direction) const;
   [[nodiscard]] std::optional<SolidFace> face(const Side& side, std::uint32_t triangle) const;
   [[nodiscard]] std::optional<SolidEdges> edges(const SolidContact& contact) const;
+  [[nodiscard]] KnownSolid held(const SolidContact& contact) const;
+  [[nodiscard]] PoseForm form_of(const SolidHeld& held, const CellView& cell) const;
   [[nodiscard]] std::optional<SolidForm> form_of_allowance(const KnownSolid& known, SolidChoice choice,
                                                            const CellView& cell) const;
   void set_point(const SolidContact& contact, KnownSolid& made) const;

@@ -123,6 +123,7 @@ std::vector<SolidTouch> holding_contacts(const SolidMeter& meter, const Measured
   const LinearSolution<6> solution = solve_cell(rows, frame.trusted(within));
   for (std::size_t j = 0; j < solution.rows; ++j) {
     const SolidContact& c = contacts[solution.row[j]];
+    if (c.datum != kNoTriangle) continue;
     touches.push_back(
         {c.part_triangle, c.blank_triangle, c.part, c.blank, c.distance, solution.multiplier[j]});
   }

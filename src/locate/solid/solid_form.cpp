@@ -141,7 +141,10 @@ void PoseForm::take_off(const SolidDemand& demand) noexcept {
 double PoseForm::most(const CellView& cell) const {
   double most = -kInfinity;
   coefficients(*this, cell, [&](double value, double scale, Vector, const auto&) {
-    most = std::max(most, scale > 0 ? (value + kFormRounding * size) / scale : kInfinity);
+    const double raised = value + kFormRounding * size;
+    // A sum in which the bound has no part proves any bound, or none.
+    const double bound = scale == 0 && raised < 0 ? -kInfinity : kInfinity;
+    most = std::max(most, scale > 0 ? raised / scale : bound);
   });
   return most;
 }

@@ -53,7 +53,8 @@ struct PoseForm {
   /// Makes a term of the allowance one of the margin.
   void take_off(const SolidDemand& demand) noexcept;
 
-  /// The least bound for which the term is nowhere in the box above 0; infinite if there is none.
+  /// The least bound for which the term is nowhere in the box above 0; infinite if there is none, and below
+  /// all numbers if it is below 0 whatever the bound.
   [[nodiscard]] double most(const CellView& cell) const;
   /// Says if the function is nowhere in the box below 0.
   [[nodiscard]] bool never_negative(const CellView& cell) const;

@@ -4,7 +4,9 @@
 #include <map>
 #include <utility>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/base/disjoint_sets.hpp"
+#include "lekalo/geom/trig.hpp"
 
 namespace lekalo::locate {
 namespace {
@@ -19,15 +21,22 @@ constexpr std::size_t kSamples = 96;
 constexpr std::size_t kMostCrossings = 16;
 /// Points nearer to each other than this part of the coordinates give no direction.
 constexpr double kNoDirection = 0x1p-40;
+/// So many points of a datum are looked at beside the one that is farthest off, and on an axis in so many
+/// directions.
+constexpr std::size_t kDatumPoints = 8, kDirections = 16;
+/// A datum is aimed at within this part of its tolerance, so that steps along it do not leave it.
+constexpr double kAimed = 1 - 1.0 / 1024;
+/// Distances of datums are rounded by less than this part of the coordinates.
+constexpr double kDatumRounding = 0x1p-44;
 /// The square root of 3, rounded up: how far a point is off at most for each of its coordinates.
 constexpr double kDiagonal = 1.7321;
 
 /// Points as far from each other as can be: each is the farthest from those before. Returns their numbers.
-std::vector<std::size_t> spread(const std::vector<Vector>& points) {
+std::vector<std::size_t> spread(const std::vector<Vector>& points, std::size_t count = kSamples) {
   std::vector<std::size_t> chosen;
   std::vector<double> apart(points.size(), std::numeric_limits<double>::infinity());
   std::size_t next = 0;
-  while (chosen.size() < std::min(kSamples, points.size())) {
+  while (chosen.size() < std::min(count, points.size())) {
     chosen.push_back(next);
     for (std::size_t k = 0; k < apart.size(); ++k) {
       const Vector way = points[k] - points[next];
@@ -67,6 +76,51 @@ std::vector<std::vector<Vector>> surfaces(const solid::Mesh& mesh) {
   return all;
 }
 
+/// How a place is off a datum: the shortest way to it from the datum.
+Vector way_off(const SolidDatum& datum, Vector place) {
+  const Vector w = place - datum.at, along = dot(w, datum.direction) * datum.direction;
+  switch (datum.on) {
+    case SolidDatum::On::plane:
+      return along;
+    case SolidDatum::On::axis:
+      return w - along;
+    case SolidDatum::On::point:
+      break;
+  }
+  return w;
+}
+
+/// A direction of length 1 across another one.
+Vector across(Vector n) {
+  const Vector axis = std::abs(n.x) < 0.6 ? Vector{1, 0, 0} : Vector{0, 1, 0}, w = cross(n, axis);
+  return 1 / norm(w) * w;
+}
+
+/// The directions in which a place may not go away from a datum farther than its tolerance, that in which it
+/// is off among them.
+std::vector<Vector> directions(const SolidDatum& datum, Vector off) {
+  const double far = norm(off);
+  if (datum.on == SolidDatum::On::plane) return {datum.direction, -datum.direction};
+  std::vector<Vector> made;
+  if (datum.on == SolidDatum::On::point) {
+    const Vector first = far > 0 ? 1 / far * off : Vector{1, 0, 0}, second = across(first),
+                 third = cross(first, second);
+    for (const double i : {0.0, 1.0, -1.0})
+      for (const double j : {0.0, 1.0, -1.0})
+        for (const double k : {0.0, 1.0, -1.0})
+          if (const Vector w = i * first + j * second + k * third; norm(w) > 0)
+            made.push_back(1 / norm(w) * w);
+    return made;
+  }
+  const Vector first = far > 0 ? 1 / far * off : across(datum.direction),
+               second = cross(datum.direction, first);
+  for (std::size_t k = 0; k < kDirections; ++k) {
+    const geom::SinCos turn = geom::sincos(static_cast<double>(k) * (2 * kPi / kDirections));
+    made.push_back(turn.cosine * first + turn.sine * second);
+  }
+  return made;
+}
+
 SolidDemand demand_in(const std::vector<std::optional<SolidDemand>>& demands, std::uint32_t triangle) {
   return demands.empty() ? SolidDemand{} : *demands[triangle];
 }
@@ -80,6 +134,7 @@ SolidMeter::SolidMeter(const SolidProblem& problem, const SolidFrame& frame)
       widths_(problem.blank_widths),
       clearance_(problem.part, problem.blank, problem.blank_widths),
       demand_of_(problem.demands),
+      datums_(problem.datums),
       part_error_(kDiagonal * problem.part_coordinate_error),
       blank_error_(kDiagonal * problem.blank_coordinate_error),
       width_error_(problem.blank_width_error) {
@@ -89,6 +144,57 @@ SolidMeter::SolidMeter(const SolidProblem& problem, const SolidFrame& frame)
   if (!widths_.empty()) narrowest_ = *std::min_element(widths_.begin(), widths_.end());
   far_ = 2 * (clearance_.part().largest() + clearance_.blank().largest()) + norm(frame.window.middle().at) +
          norm(frame.window.half().at);
+  prepare_datums();
+}
+
+void SolidMeter::prepare_datums() {
+  double far = far_, least_scale = 1;
+  for (const SolidDatum& datum : datums_) {
+    std::vector<Vector> places;
+    for (const SolidDatum::Point& point : datum.points) places.push_back(point.place);
+    of_datum_.push_back(spread(places, kDatumPoints));
+    for (const Vector p : places) far = std::max(far, norm(p));
+    far = std::max({far, norm(datum.at), datum.within});
+  }
+  for (const SolidDemand& demand : demands_) least_scale = std::min(least_scale, demand.scale);
+  datum_loss_ = part_error_ + kDatumRounding * far;
+  beyond_margins_ = far_ / least_scale;
+}
+
+double SolidMeter::off(const SolidDatum& datum, const Motion& motion) const {
+  double most = 0;
+  for (const SolidDatum::Point& point : datum.points)
+    most = std::max(most, norm(way_off(datum, motion(point.place))));
+  return most + datum_loss_;
+}
+
+/// By how much tolerances are exceeded, altogether.
+double SolidMeter::beyond_datums(const Motion& motion) const {
+  double beyond = 0;
+  for (const SolidDatum& datum : datums_) beyond += std::max(0.0, off(datum, motion) - datum.within);
+  return beyond;
+}
+
+void SolidMeter::add_datums(const Motion& motion, std::vector<SolidContact>& contacts) const {
+  for (std::uint32_t d = 0; d < datums_.size(); ++d) {
+    const SolidDatum& datum = datums_[d];
+    const auto far = [&](std::size_t k) { return norm(way_off(datum, motion(datum.points[k].place))); };
+    std::size_t farthest = 0;
+    for (std::size_t k = 1; k < datum.points.size(); ++k)
+      if (far(k) > far(farthest)) farthest = k;
+    const auto add = [&](std::size_t k) {
+      const Vector place = datum.points[k].place, off = way_off(datum, motion(place));
+      for (const Vector u : directions(datum, off)) {
+        SolidContact made{place, datum.at, -kDatumWeight * u, 0, kNoTriangle, kNoTriangle};
+        made.distance = beyond_margins_ + kDatumWeight * (kAimed * datum.within - datum_loss_ - dot(u, off));
+        made.datum = d, made.datum_point = static_cast<std::uint32_t>(k);
+        contacts.push_back(made);
+      }
+    };
+    add(farthest);
+    for (const std::size_t k : of_datum_[d])
+      if (k != farthest) add(k);
+  }
 }
 
 void SolidMeter::sort_by_demand() {
@@ -172,10 +278,13 @@ MeasuredSolid SolidMeter::measure(const FramedPose& pose, double most, std::size
     if (made.directed()) contacts.push_back(made);
   }
   measured.inside = apart > 0 && inside(motion);
-  if (measured.inside) return measured;
-  add_crossings(motion, pairs, contacts);
-  measured.value = -kNoDirection * far_;
-  for (const SolidContact& made : contacts) measured.value = std::min(measured.value, made.margin());
+  if (!measured.inside) {
+    add_crossings(motion, pairs, contacts);
+    measured.value = -kNoDirection * far_;
+    for (const SolidContact& made : contacts) measured.value = std::min(measured.value, made.margin());
+    measured.value -= beyond_datums(motion);
+  }
+  add_datums(motion, contacts);
   return measured;
 }
 
@@ -231,8 +340,9 @@ MeasuredPose SolidMeter::measure(const Motion& motion) const {
 }
 
 /// Says where the surfaces of what has a demand are apart from the blank's if it lies in the blank, and no
-/// surface of the blank in the part.
+/// surface of the blank in the part; and if datums are kept.
 bool SolidMeter::inside(const Motion& motion) const {
+  if (beyond_datums(motion) > 0) return false;
   if (!has_demands()) return clearance_.inside(motion);
   const auto lies_outside = [&](Vector q) { return !clearance_.part().holds(motion.back(q)); };
   return std::all_of(demanded_.begin(), demanded_.end(),

@@ -10,6 +10,9 @@ namespace lekalo::locate {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffff;
 
+/// A datum that is not kept counts for this much more than a margin.
+inline constexpr double kDatumWeight = 0x1p20;
+
 /// A place where part and blank come close, or cross. The normal, of length 1 and in the blank's frame,
 /// points from what is not material of the blank into the part's material; the distance, less the width of
 /// the blank's triangle, is negative where the part's point lies outside the blank, or the blank's in the
@@ -23,6 +26,9 @@ struct SolidContact {
   /// A triangle that has the part's point, and its demand, if there are demands.
   std::uint32_t demanded_triangle = kNoTriangle;
   SolidDemand demand = {};
+  /// The numbers of a datum and of a point that it holds, if it is one. Then what is left of the tolerance,
+  /// times kDatumWeight and above all margins where it is kept, counts as the distance.
+  std::uint32_t datum = kNoTriangle, datum_point = 0;
   [[nodiscard]] double margin() const { return (distance - demand.minimum) / demand.scale; }
   /// False where the two points are too near to each other to give a normal.
   [[nodiscard]] bool directed() const { return !(normal == solid::Vector{}); }
@@ -76,15 +82,22 @@ class SolidMeter {
   [[nodiscard]] const std::vector<SolidDemand>& demands() const noexcept { return demands_; }
   /// The one that asks for the least allowance at a margin.
   [[nodiscard]] const SolidDemand& least_demand(double margin) const;
+  [[nodiscard]] const std::vector<SolidDatum>& datums() const noexcept { return datums_; }
+  /// A datum's distances may be off by this, mm; and no margin is larger than that.
+  [[nodiscard]] double datum_loss() const noexcept { return datum_loss_; }
+  [[nodiscard]] double beyond_margins() const noexcept { return beyond_margins_; }
   /// No pose that is inside has less margin: allowances are above 0 there.
   [[nodiscard]] double floor() const noexcept { return floor_; }
 
   /// Measures at a pose. Where the part is inside and all has the margin `most` or more, the value is at
   /// least `most`, and nothing more is known. The contacts are those with the least margins of `count` pieces
-  /// of the part, less than `most`, and where part and blank cross the deepest points of either in the other.
+  /// of the part, less than `most`, and where part and blank cross the deepest points of either in the other;
+  /// and what holds the points of datums.
   [[nodiscard]] MeasuredSolid measure(const FramedPose& pose, double most, std::size_t count,
                                       std::vector<SolidContact>& contacts) const;
   [[nodiscard]] MeasuredPose measure(const solid::Motion& motion) const;
+  /// How far the points of a datum are off at a pose at most, mm.
+  [[nodiscard]] double off(const SolidDatum& datum, const solid::Motion& motion) const;
   /// The contact of the part's foremost point against a normal, and nothing of the blank. With demands it is
   /// the one with the least margin over a half-space there.
   [[nodiscard]] SolidContact foremost(const solid::Motion& motion, solid::Vector normal) const;
@@ -104,6 +117,9 @@ class SolidMeter {
     std::uint32_t triangle = kNoTriangle;  ///< one that has it, if there are demands
   };
   void sort_by_demand();
+  void prepare_datums();
+  void add_datums(const solid::Motion& motion, std::vector<SolidContact>& contacts) const;
+  [[nodiscard]] double beyond_datums(const solid::Motion& motion) const;
   [[nodiscard]] std::vector<Sample> samples_of_part() const;
   [[nodiscard]] std::vector<solid::NearPair> nearest(const solid::Motion& motion, double most,
                                                      std::size_t count) const;
@@ -126,6 +142,10 @@ class SolidMeter {
   /// part the triangle that demands most of those that have it.
   std::vector<std::vector<solid::Vector>> blank_surfaces_;
   std::vector<std::uint32_t> demanded_at_;
+  const std::vector<SolidDatum>& datums_;
+  /// Some points of each datum, spread over all.
+  std::vector<std::vector<std::size_t>> of_datum_;
+  double datum_loss_ = 0, beyond_margins_ = 0;
   /// Vertices spread over the surfaces.
   std::vector<Sample> of_part_;
   std::vector<solid::Vector> of_blank_;

@@ -131,7 +131,7 @@ void SolidSearch::bound(Node& node, Found& found) const {
       double all = 0;
       for (std::size_t j = 0; j < solution.rows; ++j)
         all += shares[j] = solution.multiplier[j] / rows[solution.row[j]].scale;
-      if (!meter_.has_demands()) all = 1;
+      if (!meter_.has_demands() && meter_.datums().empty()) all = 1;
       for (std::size_t j = 0; j < solution.rows; ++j)
         if (const double share = std::round(kWhole * shares[j] / all); share > 0)
           terms.push_back(
@@ -156,6 +156,7 @@ void SolidSearch::bound(Node& node, Found& found) const {
     std::size_t added = 0;
     for (const SolidContact& contact : contacts) {
       if (added == kMostNew) break;
+      if (contact.datum != kNoTriangle && contact.margin() > solution.bound) continue;
       auto made = bounds_.known(contact, frame.motion(pose));
       if (!made) continue;
       const auto row = bounds_.row(*made, view);
@@ -308,7 +309,7 @@ SolidProof SolidSearch::proof() const {
   // Each ball and plane that is used has one place in its table, in the order of their first use.
   using Kind = SolidTerm::Kind;
   using Key = std::array<double, 4>;
-  std::map<Key, std::uint32_t> part, points, blank, planes;
+  std::map<Key, std::uint32_t> part, points, blank, planes, datum_points, directions;
   const auto place = [](std::map<Key, std::uint32_t>& places, auto& table, const auto& one, Vector v,
                         double number) {
     const auto [at, added] =
@@ -324,6 +325,14 @@ SolidProof SolidSearch::proof() const {
         written.part = known.edges->part_edge;
         written.blank = known.edges->blank_edge;
         return written;
+      case Kind::datum: {
+        const auto [at, u] = std::pair(known.held->point, known.held->direction);
+        const Vector numbers{static_cast<double>(at.datum), static_cast<double>(at.point), 0};
+        const SolidDatumPoint in_file{at.datum, meter_.datums()[at.datum].points[at.point].number};
+        written.part = place(datum_points, made.datum_points, in_file, numbers, 0);
+        written.blank = place(directions, made.directions, u, u, 0);
+        return written;
+      }
       case Kind::part_face:
         written.part = known.part_face->triangle;
         break;
@@ -373,6 +382,11 @@ SolidProof SolidSearch::proof() const {
   }
   made.trees.push_back(std::move(tree));
   return made;
+}
+
+double SolidSearch::upper() const noexcept {
+  // If no pose keeps the datums any bound is proved, and one below all margins of poses inside is told.
+  return upper_ > -kInfinity ? upper_ : meter_.floor() - options_.gap;
 }
 
 void SolidSearch::tell(double fraction) const {

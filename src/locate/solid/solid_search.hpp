@@ -17,8 +17,8 @@ class SolidSearch {
   void run();
 
   [[nodiscard]] const MeasuredSolid& best() const noexcept { return best_; }
-  /// No pose of the window has more margin.
-  [[nodiscard]] double upper() const noexcept { return upper_; }
+  /// No pose of the window that keeps the datums has more margin.
+  [[nodiscard]] double upper() const noexcept;
   [[nodiscard]] bool finished() const noexcept { return finished_; }
   [[nodiscard]] std::uint64_t work() const noexcept { return work_; }
   [[nodiscard]] std::uint64_t boxes() const noexcept { return boxes_; }

@@ -116,11 +116,14 @@ constexpr Known kSolidContacts[] = {{"part_point"},     {"blank_point"}, {"part_
                                     {"blank_triangle"}, {"distance"},    {"multiplier"}};
 constexpr Known kSolidTrees[] = {{"quaternion"}, {"x"},      {"y"},      {"z"},
                                  {"turn_x"},     {"turn_y"}, {"turn_z"}, {"nodes"}};
-constexpr Known kSolidCertificate[] = {{"pivot"},       {"part_balls"}, {"part_points"},
-                                       {"blank_balls"}, {"planes"},     {"trees", kSolidTrees}};
+constexpr Known kSolidCertificate[] = {{"pivot"},        {"part_balls"},        {"part_points"},
+                                       {"datum_points"}, {"directions"},        {"blank_balls"},
+                                       {"planes"},       {"trees", kSolidTrees}};
 constexpr Known kSolidFeatures[] = {{"name"}, {"triangles"}, {"minimum"}, {"scale"}, {"as_cast"}};
+constexpr Known kSolidDatums[] = {{"name"}, {"within"}, {"off"}};
 constexpr Known kSolidDemands[] = {
-    {"minimum"}, {"features", kSolidFeatures}, {"margin"}, {"margin_bound"}, {"margin_gap"}};
+    {"minimum"},   {"features", kSolidFeatures}, {"datums", kSolidDatums}, {"margin"}, {"margin_bound"},
+    {"margin_gap"}};
 constexpr Known kSolidUnderside[] = {{"z"}, {"flat"}};
 constexpr Known kSolidScan[] = {
     {"guard"},      {"min_radius"},        {"max_dip"}, {"underside", kSolidUnderside},

@@ -79,8 +79,8 @@ class TreeCheck {
  private:
   static constexpr std::array<std::string_view, 6> kAxes{"x", "y", "z", "turn_x", "turn_y", "turn_z"};
   /// In the order of LeafTerm::Kind.
-  static constexpr std::array<std::string_view, 8> kKinds{"ball",  "plane", "face",        "part_face",
-                                                          "edges", "point", "point_plane", "point_face"};
+  static constexpr std::array<std::string_view, 9> kKinds{
+      "ball", "plane", "face", "part_face", "edges", "point", "point_plane", "point_face", "datum"};
 
   /// The ends of a box, by their places among all ends: a split has one, which many boxes share.
   struct Cell {
@@ -167,12 +167,15 @@ class TreeCheck {
     return true;
   }
 
-  static bool is_of_point(LeafTerm::Kind kind) { return kind >= LeafTerm::Kind::point; }
+  static bool is_of_point(LeafTerm::Kind kind) {
+    return kind >= LeafTerm::Kind::point && kind != LeafTerm::Kind::datum;
+  }
   static bool is_of_part_ball(LeafTerm::Kind kind) { return kind <= LeafTerm::Kind::face; }
 
   [[nodiscard]] std::optional<std::size_t> number_of_part(LeafTerm::Kind kind, Json value) const {
     if (kind == LeafTerm::Kind::part_face) return triangle_of(value, frame_.part);
     if (kind == LeafTerm::Kind::edges) return edge_of(value, frame_.part);
+    if (kind == LeafTerm::Kind::datum) return index(value, tables_.datum_points());
     return index(value, is_of_point(kind) ? tables_.part_points() : tables_.part_balls());
   }
   [[nodiscard]] std::optional<std::size_t> number_of_blank(LeafTerm::Kind kind, Json value) const {
@@ -185,6 +188,8 @@ class TreeCheck {
       case LeafTerm::Kind::plane:
       case LeafTerm::Kind::point_plane:
         return index(value, tables_.planes());
+      case LeafTerm::Kind::datum:
+        return index(value, tables_.directions());
       default:
         return index(value, tables_.blank_balls());
     }
@@ -196,6 +201,10 @@ class TreeCheck {
     term.multiplier = both(multiplier);
     term.part = static_cast<std::uint32_t>(of_part);
     term.blank = static_cast<std::uint32_t>(of_blank);
+    if (kind == LeafTerm::Kind::datum) {
+      if (hold(term)) terms_.push_back(std::move(term));
+      return;
+    }
     bool holds = true;
     std::uint32_t triangle = kind == LeafTerm::Kind::edges ? term.part / 3 : term.part;
     if (is_of_part_ball(kind)) {
@@ -211,6 +220,24 @@ class TreeCheck {
       holds = (term.plane = tables_.plane(of_blank)) != nullptr && holds;
     if (!holds || !demands_something(term, triangle)) return;
     terms_.push_back(std::move(term));
+  }
+
+  /// Gives the term of a datum its point, and of its direction what leads straight off the datum.
+  bool hold(LeafTerm& term) {
+    const DatumPoint* const point = tables_.datum_point(term.part);
+    const Both3* const direction = tables_.direction(term.blank);
+    if (point == nullptr || direction == nullptr) return false;
+    const SolidDatum& datum = *point->datum;
+    const Exact3 u = straight_off(datum, as<Fraction>(*direction));
+    if (sgn(dot(u, u)) == 0) {
+      findings_.push_back(
+          fmt::format("{} has a direction that does not lead off the datum \"{}\"", name(), datum.name));
+      return false;
+    }
+    HeldPoint& held = term.held.emplace();
+    held = {*point->place, datum.through, {}, {Fraction(datum.within), just(datum.within)}};
+    for (std::size_t axis = 0; axis < 3; ++axis) held.direction[axis] = {u[axis], enclosed(u[axis])};
+    return true;
   }
 
   /// Gives the term the bound of what its side of the part demands; a finding where that is nothing.
@@ -270,7 +297,7 @@ Result<void> SolidCertificate::check(Json certificate, const std::string& name) 
   Fields fields(certificate, "certificate", complaint);
   const auto pivot =
       numbers_of<3>(fields.get("pivot"), complaint, [] { return std::string("certificate.pivot"); });
-  CertificateTables tables(certificate, part_, blank_, findings_, complaint);
+  CertificateTables tables(certificate, part_, blank_, datums_, findings_, complaint);
   if (!complaint.empty()) return bad();
   Both3 at;
   bool same_pivot = true;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "solid_datum.hpp"
 #include "solid_document.hpp"
 #include "solid_number.hpp"
 
@@ -26,9 +27,17 @@ class SolidCertificate {
  public:
   /// \param part, blank  closed; all outlive this
   /// \param bounds  null where nothing has a demand of its own
+  /// \param datums  poses that do not keep them do not count
   SolidCertificate(const SolidMesh& part, const SolidMesh& blank, const SolidWindow& window,
-                   const Decimal& bound, const PartBounds* bounds, std::vector<std::string>& findings)
-      : part_(part), blank_(blank), window_(window), bound_(bound), bounds_(bounds), findings_(findings) {}
+                   const Decimal& bound, const PartBounds* bounds, const std::vector<SolidDatum>& datums,
+                   std::vector<std::string>& findings)
+      : part_(part),
+        blank_(blank),
+        window_(window),
+        bound_(bound),
+        bounds_(bounds),
+        datums_(datums),
+        findings_(findings) {}
 
   /// Adds a finding for all that it fails to prove; bad_input where the certificate is none.
   /// Cost: a tree of boxes over each mesh, what is used of the tables, and some 40 us a leaf of balls.
@@ -41,6 +50,7 @@ class SolidCertificate {
   const SolidWindow& window_;
   const Decimal& bound_;
   const PartBounds* bounds_;
+  const std::vector<SolidDatum>& datums_;
   std::vector<std::string>& findings_;
   std::size_t leaves_ = 0;
 };

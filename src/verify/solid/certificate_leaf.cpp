@@ -213,7 +213,9 @@ class LeafProof {
       if (all == Answer::no) return all;
       for (std::size_t k = before; k < forms.size(); ++k) forms[k].weight = as<Number>(term.multiplier);
     }
-    return std::min(all, cell_.nowhere_positive(forms));
+    const bool of_datums =
+        std::ranges::all_of(terms_, [](const LeafTerm& term) { return term.kind == LeafTerm::Kind::datum; });
+    return std::min(all, of_datums ? cell_.everywhere_negative(forms) : cell_.nowhere_positive(forms));
   }
 
  private:
@@ -239,6 +241,8 @@ class LeafProof {
         return add_blank_face(term, forms);
       case LeafTerm::Kind::part_face:
         return add_part_face(term, forms);
+      case LeafTerm::Kind::datum:
+        return add_datum(*term.held, forms);
       case LeafTerm::Kind::edges:
         break;
     }
@@ -269,6 +273,15 @@ class LeafProof {
     Form<Number> form{turned(as<Number>(a.centre) - pivot_), n * inverse};
     form.slope = form.from;
     form.level = number<Number>(0) - as<Number>(term.plane->level) * inverse - as<Number>(a.radius) - bound;
+    forms.push_back(std::move(form));
+    return Answer::yes;
+  }
+
+  Answer add_datum(const HeldPoint& held, std::vector<Form<Number>>& forms) const {
+    const Point u = as<Number>(held.direction);
+    Form<Number> form{turned(as<Number>(held.place) - pivot_), negative(u)};
+    form.slope = form.from;
+    form.level = as<Number>(held.within) / inverse_length(u, true) + dot(u, as<Number>(held.through));
     forms.push_back(std::move(form));
     return Answer::yes;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "certificate_tables.hpp"
@@ -8,10 +9,27 @@
 
 namespace lekalo::verify {
 
+/// A place of the part that goes away from a place of the blank's frame by no more than `within` in a
+/// direction, of any length but 0.
+struct HeldPoint {
+  Both3 place, through, direction;
+  Both within;
+};
+
 /// A term of a leaf, by what it bounds the clearance with.
 struct LeafTerm {
   /// A term of a point has it as a ball of radius 0.
-  enum class Kind : std::uint8_t { ball, plane, face, part_face, edges, point, point_plane, point_face };
+  enum class Kind : std::uint8_t {
+    ball,
+    plane,
+    face,
+    part_face,
+    edges,
+    point,
+    point_plane,
+    point_face,
+    datum
+  };
   Kind kind = Kind::ball;
   const Ball* part_ball = nullptr;
   const Ball* blank_ball = nullptr;
@@ -22,6 +40,8 @@ struct LeafTerm {
   Both multiplier;
   /// The bound in place of the leaf's, where the part's triangle has a demand of its own.
   const Both* bound = nullptr;
+  /// There is one in a term of a datum, which has neither a bound nor a side of part and blank.
+  std::optional<HeldPoint> held = std::nullopt;
 };
 
 /// The leaves of one tree have this in common. The placed part is T p = R(x) turn (p - pivot) + t.
@@ -47,7 +67,10 @@ struct LeafFrame {
 ///               cross as seen along u. Then two of their points are N / (n . u) times u apart; the bound
 ///               must not be below 0.
 ///   point:      as a ball. It lies on the part's surface, and that needs no condition.
-/// So their sum with the multipliers is above 0, and it is shown not to be. With |w| <= (|w|^2 + l^2) / 2 l
+///   datum:      within |u| - u . (T p - q). It is not below 0 where the datum is kept, and no pose without
+///               that counts.
+/// So their sum with the multipliers is above 0, and it is shown not to be; or, where all are of datums, not
+/// below 0, and it is shown to be. With |w| <= (|w|^2 + l^2) / 2 l
 /// for a ball, and times 1 + |x|^2, the sum is a polynomial of degree 2 in x, convex in t: it is nowhere
 /// above the largest of its 27 Bernstein coefficients at the eight corners of the box of t. Spans decide that
 /// nearly always, and else fractions.

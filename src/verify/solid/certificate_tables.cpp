@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
@@ -121,13 +122,38 @@ Thing row_of(Json written) {
   return {{both(x), both(y), both(z)}, both(last)};
 }
 
+/// Returns a whole number from 0 that may number something of a mesh.
+std::optional<std::size_t> whole(const Decimal& number) {
+  if (number.exponent < 0 || sgn(number.digits) < 0 ||
+      !(approximate(number) < 3 * static_cast<double>(limits::kMostSolidItems)))
+    return std::nullopt;
+  return static_cast<std::size_t>(approximate(number));
+}
+
+std::optional<std::string> fault_of_datum_point(const std::vector<SolidDatum>& datums, Json written,
+                                                DatumPoint& point) {
+  std::string none;
+  const auto numbers = *numbers_of<2>(written, none, [] { return std::string(); });
+  const auto d = whole(numbers[0]), k = whole(numbers[1]);
+  if (!d || *d >= datums.size()) return "its datum is none";
+  const SolidDatum& datum = datums[*d];
+  if (!k) return "its point is none of the datum";
+  std::size_t place = *k;
+  if (!datum.triangles.empty()) {
+    const auto [found, end] = std::ranges::equal_range(datum.triangles, *k / 3);
+    if (found == end) return "its point is none of the datum";
+    place = 3 * static_cast<std::size_t>(found - datum.triangles.begin()) + *k % 3;
+  }
+  if (place >= datum.points.size()) return "its point is none of the datum";
+  point = {&datum, &datum.points[place]};
+  return std::nullopt;
+}
+
 std::optional<std::string> fault_of_point(const SolidMesh& part, Json written, PartPoint& point) {
   std::string none;
   const auto [f, u, v] = *numbers_of<3>(written, none, [] { return std::string(); });
-  const bool is_number =
-      f.exponent >= 0 && sgn(f.digits) >= 0 && approximate(f) < static_cast<double>(limits::kMostSolidItems);
-  const auto triangle =
-      is_number ? part.triangle_of_file(static_cast<std::size_t>(approximate(f))) : std::nullopt;
+  const auto number = whole(f);
+  const auto triangle = number ? part.triangle_of_file(*number) : std::nullopt;
   if (!triangle) return "its triangle is none of the part";
   const Fraction along = to_fraction(u), across = to_fraction(v);
   if (sgn(along) < 0 || sgn(across) < 0 || along + across > 1) return "it is not in its triangle";
@@ -146,8 +172,9 @@ std::optional<std::string> fault_of_point(const SolidMesh& part, Json written, P
 }  // namespace
 
 CertificateTables::CertificateTables(Json certificate, const SolidMesh& part, const SolidMesh& blank,
+                                     const std::vector<SolidDatum>& datums,
                                      std::vector<std::string>& findings, std::string& complaint)
-    : part_(part), blank_(blank), findings_(findings) {
+    : part_(part), blank_(blank), datums_(datums), findings_(findings) {
   const Fields fields(certificate, "certificate", complaint);
   read<4>(fields.get("part_balls"), "part_balls", true, part_balls_, complaint);
   read<4>(fields.get("blank_balls"), "blank_balls", true, blank_balls_, complaint);
@@ -155,6 +182,10 @@ CertificateTables::CertificateTables(Json certificate, const SolidMesh& part, co
   // A certificate without them may leave the word out.
   if (const Json points = fields.get("part_points"); !points.text.empty())
     read<3>(points, "part_points", false, part_points_, complaint);
+  if (const Json points = fields.get("datum_points"); !points.text.empty())
+    read<2>(points, "datum_points", false, datum_points_, complaint);
+  if (const Json directions = fields.get("directions"); !directions.text.empty())
+    read<3>(directions, "directions", false, directions_, complaint);
 }
 
 template <std::size_t Count, class Thing>
@@ -211,6 +242,20 @@ const HalfSpace* CertificateTables::plane(std::size_t number) {
 const PartPoint* CertificateTables::part_point(std::size_t number) {
   return look(part_points_[number], "part_points", number,
               [&](Json written, PartPoint& point) { return fault_of_point(part_.mesh(), written, point); });
+}
+
+const DatumPoint* CertificateTables::datum_point(std::size_t number) {
+  return look(datum_points_[number], "datum_points", number,
+              [&](Json written, DatumPoint& point) { return fault_of_datum_point(datums_, written, point); });
+}
+const Both3* CertificateTables::direction(std::size_t number) {
+  return look(directions_[number], "directions", number,
+              [](Json written, Both3& direction) -> std::optional<std::string> {
+                std::string none;
+                const auto [x, y, z] = *numbers_of<3>(written, none, [] { return std::string(); });
+                direction = {both(x), both(y), both(z)};
+                return std::nullopt;
+              });
 }
 
 }  // namespace lekalo::verify

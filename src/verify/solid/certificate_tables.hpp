@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "placed_solid.hpp"
+#include "solid_datum.hpp"
 #include "solid_number.hpp"
 #include "verify/read/json.hpp"
 
@@ -21,6 +22,11 @@ struct PartPoint {
   Ball ball;
   std::uint32_t triangle = 0;
 };
+/// A point of a datum.
+struct DatumPoint {
+  const SolidDatum* datum = nullptr;
+  const Both3* place = nullptr;
+};
 /// The half-space n . p >= level; the triangles of the blank may reach out of it by their widths.
 struct HalfSpace {
   Both3 normal;
@@ -33,12 +39,15 @@ class CertificateTables {
  public:
   /// Complains of rows that are none. The text behind the certificate, and the meshes, outlive this.
   CertificateTables(Json certificate, const SolidMesh& part, const SolidMesh& blank,
-                    std::vector<std::string>& findings, std::string& complaint);
+                    const std::vector<SolidDatum>& datums, std::vector<std::string>& findings,
+                    std::string& complaint);
 
   [[nodiscard]] std::size_t part_balls() const { return part_balls_.size(); }
   [[nodiscard]] std::size_t blank_balls() const { return blank_balls_.size(); }
   [[nodiscard]] std::size_t planes() const { return planes_.size(); }
   [[nodiscard]] std::size_t part_points() const { return part_points_.size(); }
+  [[nodiscard]] std::size_t datum_points() const { return datum_points_.size(); }
+  [[nodiscard]] std::size_t directions() const { return directions_.size(); }
 
   /// A ball in the closed material of the part; nothing, and once a finding, where it is not that.
   [[nodiscard]] const Ball* part_ball(std::size_t number);
@@ -47,6 +56,9 @@ class CertificateTables {
   [[nodiscard]] const Ball* blank_ball(std::size_t number);
   /// A point v0 + u (v1 - v0) + v (v2 - v0) of a triangle.
   [[nodiscard]] const PartPoint* part_point(std::size_t number);
+  [[nodiscard]] const DatumPoint* datum_point(std::size_t number);
+  /// Any three numbers.
+  [[nodiscard]] const Both3* direction(std::size_t number);
   /// A half-space that holds the blank.
   [[nodiscard]] const HalfSpace* plane(std::size_t number);
 
@@ -66,10 +78,13 @@ class CertificateTables {
   const Thing* look(Row<Thing>& row, const char* key, std::size_t number, const Make& make);
 
   PlacedSolid part_, blank_;
+  const std::vector<SolidDatum>& datums_;
   std::vector<std::string>& findings_;
   std::vector<Row<Ball>> part_balls_, blank_balls_;
   std::vector<Row<HalfSpace>> planes_;
   std::vector<Row<PartPoint>> part_points_;
+  std::vector<Row<DatumPoint>> datum_points_;
+  std::vector<Row<Both3>> directions_;
 };
 
 }  // namespace lekalo::verify

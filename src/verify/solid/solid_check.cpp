@@ -74,6 +74,7 @@ class SolidCheck {
         check_clearance(pair);
       else if (demands_)
         LEKALO_CHECK(check_margin(pair, *part, *blank));
+      if (demands_) check_datums(*blank);
       check_contacts(pair, *part, *blank);
       if (has_certificate && bound() && demands_.has_value() == d_.demands.has_value())
         LEKALO_CHECK(check_certificate(certificate, *part, *blank));
@@ -110,6 +111,8 @@ class SolidCheck {
   Result<void> read_demands(const SolidReading& part);
   void check_clearance(const SolidPair& pair);
   Result<void> check_margin(const SolidPair& pair, const SolidMesh& part, const SolidMesh& blank);
+  void check_datums(const SolidMesh& blank);
+  [[nodiscard]] bool keeps_datums() const;
   [[nodiscard]] std::optional<SolidDemand> demand_of(std::size_t feature) const;
   [[nodiscard]] PartBounds bounds_of(const SolidMesh& part) const;
   void check_contacts(const SolidPair& pair, const SolidMesh& part, const SolidMesh& blank);
@@ -175,6 +178,16 @@ Result<void> SolidCheck::read_demands(const SolidReading& part) {
   if (approximate(said.minimum) != is.minimum)
     find("demands.minimum is {}, but {} demands {}", approximate(said.minimum), inputs_.features->name,
          is.minimum);
+  if (said.datums.size() != is.datums.size()) {
+    find("demands.datums has {} datums, but {} has {}", said.datums.size(), inputs_.features->name,
+         is.datums.size());
+    demands_.reset();
+    return {};
+  }
+  for (std::size_t k = 0; k < is.datums.size(); ++k)
+    if (said.datums[k].name != is.datums[k].name || approximate(said.datums[k].within) != is.datums[k].within)
+      find("demands.datums[{}] is not what {} says: \"{}\" within {} mm", k, inputs_.features->name,
+           is.datums[k].name, is.datums[k].within);
   if (said.features.size() != is.features.size()) {
     find("demands.features has {} features, but {} has {}", said.features.size(), inputs_.features->name,
          is.features.size());
@@ -195,6 +208,37 @@ Result<void> SolidCheck::read_demands(const SolidReading& part) {
            feature.demand ? fmt::format(", minimum {} and scale {}", *minimum, *scale) : " as cast");
   }
   return {};
+}
+
+/// Says whether the result states that all datums are kept.
+bool SolidCheck::keeps_datums() const {
+  for (std::size_t k = 0; k < demands_->datums.size(); ++k)
+    if (to_fraction(d_.demands->datums[k].off) > Fraction(demands_->datums[k].within)) return false;
+  return true;
+}
+
+/// Holds how far the part is said to be off its datums against its points.
+void SolidCheck::check_datums(const SolidMesh& blank) {
+  const SolidMotion motion(d_.pose);
+  const double slack = kReadingTolerance * std::max(1.0, size_of(blank));
+  for (std::size_t k = 0; k < demands_->datums.size(); ++k) {
+    const SolidDatum& datum = demands_->datums[k];
+    const Fraction off = to_fraction(d_.demands->datums[k].off);
+    const Span said = enclosed(off);
+    double most = 0;
+    bool is_farther = sgn(off) < 0;
+    for (const Both3& point : datum.points) {
+      const Span far = length(straight_off(datum, motion(as<Span>(point)) - as<Span>(datum.through)));
+      most = std::max(most, far.high);
+      if (far.high <= said.low) continue;
+      const Exact3 way = straight_off(datum, motion(as<Fraction>(point)) - as<Fraction>(datum.through));
+      is_farther = is_farther || dot(way, way) > off * off;
+    }
+    if (is_farther || said.low > step_up(most + slack))
+      find("datum \"{}\": the part is said to be off it by up to {} mm, but it is by {}", datum.name,
+           approximate(d_.demands->datums[k].off), most);
+  }
+  if (d_.inside && !keeps_datums()) find("inside is true, but a datum is not kept");
 }
 
 /// The demand of triangles of a feature, counted from 1, or of none; nothing of what is as cast.
@@ -345,7 +389,8 @@ Result<void> SolidCheck::check_margin(const SolidPair& pair, const SolidMesh& pa
   }
   if (!any) find("all of the part is as cast, so that there is no margin");
   if (!d_.inside) {
-    if (!fault) find("inside is false, but all of the part that is not as cast lies in the blank");
+    if (!fault && keeps_datums())
+      find("inside is false, but all of the part that is not as cast lies in the blank");
     return {};
   }
   report_.clearance_low = fmt::format("{}", least.low);
@@ -396,7 +441,9 @@ Result<void> SolidCheck::check_certificate(Json certificate, const SolidMesh& pa
   if (demands_) bounds = bounds_of(part);
   // It is about the triangles.
   const Decimal of_meshes = *bound() - deviation_;
-  SolidCertificate proof(part, blank, d_.window, of_meshes, demands_ ? &bounds : nullptr, report_.findings);
+  const std::vector<SolidDatum> none;
+  SolidCertificate proof(part, blank, d_.window, of_meshes, demands_ ? &bounds : nullptr,
+                         demands_ ? demands_->datums : none, report_.findings);
   LEKALO_CHECK(proof.check(certificate, d_.boxes_in_file ? inputs_.certificate->name : inputs_.result.name));
   report_.intervals = proof.leaves();
   report_.bound_high = fmt::format("{}", enclosed(*bound()).high);

@@ -163,6 +163,10 @@ class Reader {
       demands.features.push_back({of.text("name"), of.index("triangles"), of.number_or_null("minimum"),
                                   of.number_or_null("scale"), truth(of, "as_cast")});
     });
+    fields.each("datums", [&](Json item, const std::string& path) {
+      Fields of(item, path, complaint_);
+      demands.datums.push_back({of.text("name"), length(of, "within"), length(of, "off")});
+    });
     fields.require({"margin", "margin_bound", "margin_gap"});
     demands.margin = fields.number_or_null("margin");
     demands.bound = fields.number_or_null("margin_bound");

@@ -66,8 +66,13 @@ struct WrittenSolidDemands {
     std::optional<Decimal> minimum, scale;  ///< of what is not as cast
     bool as_cast = false;
   };
+  struct Datum {
+    std::string name;
+    Decimal within, off;
+  };
   Decimal minimum;
   std::vector<Feature> features;
+  std::vector<Datum> datums;
   std::optional<Decimal> margin, bound, gap;
 };
 

@@ -36,6 +36,14 @@ class TriangleFinder {
 
   [[nodiscard]] std::size_t count() const { return mesh_.triangles.size(); }
 
+  [[nodiscard]] Both3 corner(std::uint32_t triangle, std::size_t k) const {
+    const std::uint32_t v = mesh_.triangles[triangle][k];
+    Both3 place;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      place[axis] = {mesh_.exact(v, axis), mesh_.enclosed(v, axis)};
+    return place;
+  }
+
   [[nodiscard]] std::vector<std::uint32_t> labelled(const std::string& label) const {
     const auto group = std::ranges::find(part_.groups, label);
     return all([&](std::uint32_t t) {
@@ -193,7 +201,7 @@ class FeatureReader {
     SolidDemands demands;
     demands.feature_of.assign(finder_.count(), 0);
     Fields file(root, "", complaint_);
-    refuse_other_words(file, {"units", "minimum", "features"});
+    refuse_other_words(file, {"units", "minimum", "features", "datums"});
     if (has(file, "units")) {
       constexpr std::array<std::string_view, 3> kWords{"mm", "inch", "m"};
       const auto unit = std::ranges::find(kWords, file.text("units"));
@@ -206,6 +214,10 @@ class FeatureReader {
     if (has(file, "features"))
       file.each("features", [&](Json item, const std::string& path) {
         if (complaint_.empty()) add(item, path, demands);
+      });
+    if (has(file, "datums"))
+      file.each("datums", [&](Json item, const std::string& path) {
+        if (complaint_.empty()) add_datum(item, path, demands);
       });
     return demands;
   }
@@ -239,6 +251,58 @@ class FeatureReader {
                                     demands.feature_of[t] - 1));
       demands.feature_of[t] = static_cast<std::uint32_t>(demands.features.size());
     }
+  }
+
+  void add_datum(Json item, const std::string& path, SolidDemands& demands) {
+    Fields fields(item, path, complaint_);
+    refuse_other_words(fields, {"name", "feature", "points", "plane", "axis", "point", "within"});
+    SolidDatum datum{fields.text("name")};
+    datum.within = length(fields, "within");
+    if (!(datum.within > 0)) fields.complain(fmt::format("field {} is not above 0", fields.name("within")));
+    take_place(fields, datum);
+    if (has(fields, "feature") == has(fields, "points"))
+      fields.complain(fields.name("name") + " is of a datum that has not one of a feature and points");
+    if (!complaint_.empty()) return;
+    if (has(fields, "feature"))
+      take_corners(fields, demands, datum);
+    else
+      fields.each("points",
+                  [&](Json one, const std::string& name) { datum.points.push_back(point(one, name)); });
+    if (datum.points.empty()) fields.complain(path + " has no point of the part");
+    demands.datums.push_back(std::move(datum));
+  }
+
+  void take_corners(Fields& fields, const SolidDemands& demands, SolidDatum& datum) {
+    const std::string wanted = fields.text("feature");
+    const auto is_it = [&](const SolidFeature& one) { return one.name == wanted; };
+    if (std::ranges::count_if(demands.features, is_it) != 1)
+      return fields.complain(
+          fmt::format("field {} is the name of no feature, or of several", fields.name("feature")));
+    const auto number = static_cast<std::uint32_t>(std::ranges::find_if(demands.features, is_it) -
+                                                   demands.features.begin() + 1);
+    for (std::uint32_t t = 0; t < finder_.count(); ++t) {
+      if (demands.feature_of[t] != number) continue;
+      datum.triangles.push_back(t);
+      for (std::size_t k = 0; k < 3; ++k) datum.points.push_back(finder_.corner(t, k));
+    }
+  }
+
+  void take_place(Fields& fields, SolidDatum& datum) {
+    if (has(fields, "plane") + has(fields, "axis") + has(fields, "point") != 1)
+      return fields.complain(fields.name("name") +
+                             " is of a datum that is not on one of a plane, an axis and a point");
+    if (has(fields, "point")) {
+      datum.on = SolidDatum::On::point;
+      datum.through = point(fields.get("point"), fields.name("point"));
+      return;
+    }
+    const bool is_plane = has(fields, "plane");
+    const std::string_view word = is_plane ? "plane" : "axis", key = is_plane ? "normal" : "along";
+    datum.on = is_plane ? SolidDatum::On::plane : SolidDatum::On::axis;
+    Fields of(fields.get(word), fields.name(word), complaint_);
+    refuse_other_words(of, {key, "through"});
+    datum.direction = direction(of, key);
+    datum.through = point(of.get("through"), of.name("through"));
   }
 
   std::optional<SolidDemand> demand(Fields& fields) {
@@ -305,17 +369,22 @@ class FeatureReader {
   std::vector<std::uint32_t> flat(Fields& fields) {
     Fields plane(fields.get("plane"), fields.name("plane"), complaint_);
     refuse_other_words(plane, {"normal", "at", "within"});
-    const auto normal =
-        numbers_of<3>(plane.get("normal"), complaint_, [&] { return "field " + plane.name("normal"); });
+    const Both3 n = direction(plane, "normal");
     const Both at = in_mm(plane.number("at")), within = in_mm(plane.number("within"));
     if (sgn(within.exact) < 0) plane.complain(fmt::format("field {} is below 0", plane.name("within")));
     if (!complaint_.empty()) return {};
-    const Both3 n{both((*normal)[0]), both((*normal)[1]), both((*normal)[2])};
-    if (std::ranges::all_of(n, [](const Both& one) { return sgn(one.exact) == 0; }))
-      plane.complain(fmt::format("field {} is 0, which is no direction", plane.name("normal")));
     return finder_.along_plane(n, at, within);
   }
 
+  Both3 direction(Fields& fields, std::string_view key) {
+    const auto numbers =
+        numbers_of<3>(fields.get(key), complaint_, [&] { return "field " + fields.name(key); });
+    if (!numbers) return {};
+    const Both3 n{both((*numbers)[0]), both((*numbers)[1]), both((*numbers)[2])};
+    if (std::ranges::all_of(n, [](const Both& one) { return sgn(one.exact) == 0; }))
+      fields.complain(fmt::format("field {} is 0, which is no direction", fields.name(key)));
+    return n;
+  }
   Both in_mm(const Decimal& number) {
     const Fraction unit =
         unit_ == SolidUnit::inch ? Fraction(127, 5) : Fraction(unit_ == SolidUnit::metre ? 1000 : 1);

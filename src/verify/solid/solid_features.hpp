@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "solid_datum.hpp"
 #include "solid_mesh.hpp"
 
 namespace lekalo::verify {
@@ -26,11 +27,12 @@ struct SolidDemands {
   std::vector<SolidFeature> features;
   /// The feature of each triangle of the part's file, counted from 1, or 0.
   std::vector<std::uint32_t> feature_of;
+  std::vector<SolidDatum> datums;
 };
 
 /// Reads a file of features for solids (docs/formats.md) and finds its triangles in the part,
 /// exactly. `unit` holds where the file does not say one. bad_input for a word that is none of such a file, a
-/// number out of range, a feature without triangles, and a triangle of two.
+/// number out of range, a feature without triangles, a triangle of two, and a datum of no feature or of two.
 [[nodiscard]] Result<SolidDemands> read_solid_features(const Document& document, const SolidReading& part,
                                                        SolidUnit unit);
 

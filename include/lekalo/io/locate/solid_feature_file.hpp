@@ -41,21 +41,32 @@ struct SolidFeatureSpec {
   std::optional<locate::SolidDemand> demand;  ///< none: as cast
 };
 
-/// A file may have so many features.
-inline constexpr std::size_t kMostSolidFeatures = 1000;
+/// A datum, as the file says it: what of the part lies on what of the blank.
+struct SolidDatumSpec {
+  std::string name;
+  std::variant<std::string, std::vector<solid::Vector>> which;  ///< the name of a feature, or points
+  /// All but the points of the part.
+  locate::SolidDatum datum;
+};
+
+/// A file may have so many features, so many datums, and a datum so many points.
+inline constexpr std::size_t kMostSolidFeatures = 1000, kMostDatums = 100, kMostDatumPoints = 1000;
 
 struct SolidFeatureFile {
   std::string name;
   std::vector<SolidFeatureSpec> features;
   /// The minimum of all other triangles, mm.
   std::optional<double> minimum;
+  std::vector<SolidDatumSpec> datums;
 };
 
 /// `{"units", "minimum", "features": [{"name", "triangles" | "label" | "patch" | "box" | "plane", "minimum",
-/// "scale", "as_cast"}, ...]}`. `unit` applies where the file does not say.
+/// "scale", "as_cast"}, ...], "datums": [{"name", "feature" | "points", "plane" | "axis" | "point",
+/// "within"},
+/// ...]}`. `unit` applies where the file does not say.
 ///
-/// Fails with ErrorCode::bad_input, naming file and feature: words it does not know, numbers out of range, a
-/// feature without exactly one of the five, a demand on what is as cast.
+/// Fails with ErrorCode::bad_input, naming file and feature or datum: words it does not know, numbers out of
+/// range, a feature without exactly one of the five, a demand on what is as cast.
 [[nodiscard]] Result<SolidFeatureFile> parse_solid_features(std::string_view bytes, const std::string& name,
                                                             std::optional<SolidUnit> unit);
 
@@ -70,5 +81,10 @@ struct SolidFeature {
 /// Cost: O(n log n), and O(n) a feature.
 [[nodiscard]] Result<std::vector<SolidFeature>> find_solid_features(const SolidFeatureFile& file,
                                                                     const SolidFile& part);
+
+/// The datums with their points: those given, or all corners of a feature. bad_input, naming the datum, for
+/// the name of no feature, or of two. \pre the features are those of the file in the part
+[[nodiscard]] Result<std::vector<locate::SolidDatum>> find_solid_datums(
+    const SolidFeatureFile& file, const std::vector<SolidFeature>& features, const SolidFile& part);
 
 }  // namespace lekalo::io

@@ -48,10 +48,18 @@ struct SolidScanRecord {
   [[nodiscard]] bool proved() const noexcept { return unknown_triangles == 0; }
 };
 
+/// A datum, and how far the part is off it at the pose, at most, mm.
+struct SolidDatumRecord {
+  std::string name;
+  double within = 0, off = 0;
+  [[nodiscard]] bool kept() const noexcept { return off <= within; }
+};
+
 /// The demands of triangles, and how well they are met.
 struct SolidDemandRecord {
   double minimum = 0;  ///< of triangles of no feature, mm
   std::vector<SolidFeature> features;
+  std::vector<SolidDatumRecord> datums;
   /// The least of (allowance - minimum) / scale, mm; none where the part is not inside.
   std::optional<double> margin;
   /// No pose of the window has more, mm; none of a method that proves nothing.

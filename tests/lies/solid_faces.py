@@ -1,0 +1,76 @@
+"""Decides which changes of what a placement of solids says of demands by face and of datums leave every claim true.
+
+What the file of features demands says tests/support/solid_demands.py, which was written from docs/formats.md alone.
+"""
+
+import solid_demands as asked
+from exact_solids import F, dot, normal, sub
+
+
+class Faces:
+    """The demands on a part, and where it is to lie."""
+
+    def __init__(self, file, part, least):
+        self.unit, self.part = asked.UNITS[file.get("units", "mm")], part
+        self.features = [self.feature(one) for one in file.get("features", [])]
+        self.of = asked.demands(file, part.all, least)
+        self.datums = asked.datums(file, part.all)
+        self.names = [one["name"] for one in file.get("datums", [])]
+        self.minimum = max(float(self.unit) * float(file.get("minimum", 0)), float(least))
+
+    def feature(self, one):
+        rough = one.get("as_cast", False)
+        return {"name": one["name"], "triangles": len(asked.triangles_of(one, self.unit, self.part.all)),
+                "minimum": None if rough else float(self.unit) * float(one.get("minimum", 0)),
+                "scale": None if rough else float(one.get("scale", 1)), "as_cast": rough}
+
+    def are_told(self, said):
+        def same(one, other):
+            return one.keys() == other.keys() and all(
+                value == other[key] if isinstance(value, (str, bool)) or None in (value, other[key])
+                else float(value) == float(other[key]) for key, value in one.items())
+        datums = [(datum["name"], float(datum["within"])) for datum in said["datums"]]
+        return (float(said["minimum"]) == self.minimum and len(said["features"]) == len(self.features) and
+                all(map(same, self.features, said["features"])) and
+                datums == [(name, float(datum["within"])) for name, datum in zip(self.names, self.datums)])
+
+    def are_off(self, document, place, slack):
+        """The part is as far off each datum as is said, and its datums are kept where it is said to be inside."""
+        for said, datum in zip(document["demands"]["datums"], self.datums):
+            ways = [asked.straight_off(datum, sub(place(document, p), datum["through"])) for p in datum["points"].values()]
+            most = max(dot(way, way) for way in ways)
+            if said["off"] < 0 or said["off"] ** 2 < most or max(F(0), said["off"] - slack) ** 2 > most:
+                return False
+        return not document["inside"] or self.are_kept(document)
+
+    def are_kept(self, document):
+        return all(said["off"] <= datum["within"] for said, datum in zip(document["demands"]["datums"], self.datums))
+
+    def demanded(self):
+        """The triangles of each demand."""
+        groups = {}
+        for demand, triangle in zip(self.of, self.part.all):
+            if demand and any(normal(triangle)):
+                groups.setdefault(demand, []).append(triangle)
+        return groups
+
+    def bounds(self, bound):
+        return [one and one[0] + one[1] * bound for one in self.of]
+
+
+def derived(document, certificate):
+    """The fields that follow from others where there are demands, and the status."""
+    said, clearance = document["demands"], document["clearance"]
+    margin, bound, gap = said["margin"], said["margin_bound"], said["margin_gap"]
+    inside, status, shortfall = document["inside"], document["status"], document["shortfall"]
+    if document["upper_bound"] is not None or document["gap"] is not None or any(
+            (one is None) == inside for one in (clearance, margin, shortfall)):
+        return False
+    if (gap is None) != (margin is None or bound is None) or (inside and (clearance < 0 or shortfall != max(F(0), -margin))):
+        return False
+    if gap is not None and (bound < margin or
+                            abs(gap - (bound - margin)) > F(1, 10 ** 15) * (abs(bound) + abs(margin))):
+        return False
+    if status in ("stopped", "unproved"):
+        return status == "stopped" or certificate is None
+    return bound is not None and (bound < 0) == (status == "infeasible") and (status == "infeasible" or inside)
