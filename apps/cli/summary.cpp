@@ -268,7 +268,7 @@ std::string missing_place(const io::SolidDocument& d) {
   double least = 0;
   std::string name;
   for (const locate::SolidTouch& touch : d.contacts) {
-    locate::SolidDemand demand{d.demands->minimum, 1};
+    locate::SolidDemand demand{d.demands->minimum.value_or(0), 1};
     std::string of = "the triangles of no feature";
     for (const io::SolidFeature& feature : d.demands->features)
       if (feature.demand &&

@@ -232,12 +232,15 @@ class SolidReportPage {
     ReportNotes notes{report_.warnings, scene_.notes, {}};
     notes.assumptions.insert(notes.assumptions.end(), report_.assumptions.begin(), report_.assumptions.end());
     notes.assumptions.push_back("Looked at: placements " + window_text(report_) + " from the start.");
-    notes.measured = scene_.allowances.empty()
-                         ? std::string("The allowance was not measured over the surface.")
-                         : fmt::format(
-                               "Colours: distance to the blank's surface at {} points of the part, between "
-                               "them drawn straight; the minimum above is that of the whole surface.",
-                               scene_.allowances.size());
+    notes.measured =
+        scene_.allowances.empty()
+            ? std::string("The allowance was not measured over the surface.")
+            : fmt::format(
+                  "Colours: {} at {} points of the part, between them drawn straight; the minimum "
+                  "above is that of the whole surface.",
+                  scene_.margin ? "what the distance to the blank's surface leaves over the demands"
+                                : "distance to the blank's surface",
+                  scene_.allowances.size());
     return notes;
   }
 

@@ -21,7 +21,7 @@ TEST(SolidFeaturesSchema, AcceptsTheExamples) {
   ASSERT_NE(cases::python_with_jsonschema(), "")
       << "python3-jsonschema is not installed (tools/setup.sh installs it)";
   std::vector<std::string> texts{
-      "{}",
+      "{}", R"({"as_cast": true, "features": [{"name": "a", "faces": [0, 3]}]})",
       R"({"features": [{"name": "a", "triangles": [0], "as_cast": false, "minimum": null, "scale": 2},
                        {"name": "b", "box": [[0, 0, 0], [1, 1, 1]], "as_cast": true},
                        {"name": "c", "label": "d"}, {"name": "e", "patch": [0, 0, 0]}],
@@ -39,7 +39,8 @@ TEST(SolidFeaturesSchema, AcceptsTheExamples) {
 TEST(SolidFeaturesSchema, RefusesWhatTheReaderRefuses) {
   ASSERT_NE(cases::python_with_jsonschema(), "")
       << "python3-jsonschema is not installed (tools/setup.sh installs it)";
-  std::vector<std::string> texts{R"({"units": "ft"})", R"({"minimum": -1})", R"({"criterion": "even"})"};
+  std::vector<std::string> texts{R"({"units": "ft"})", R"({"minimum": -1})", R"({"criterion": "even"})",
+                                 R"({"as_cast": true, "minimum": 1})", R"({"as_cast": 1})"};
   for (const char* feature :
        {R"("minimum": 1)", R"("triangles": [0], "label": "x")", R"("triangles": [-1])",
         R"("box": [[0, 0, 0]])", R"("plane": {"normal": [0, 0, 1], "at": 0})",

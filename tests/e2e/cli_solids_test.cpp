@@ -169,6 +169,32 @@ TEST_F(Solids, TheExampleOfDemandsIsMet) {
   EXPECT_EQ(verify("r.json").status, 0);
 }
 
+TEST_F(Solids, DatumsAreKeptAndTold) {
+  const fs::path solids = fs::path(cases::source_dir()) / "examples" / "solid";
+  const auto placed = [&](const fs::path& features) {
+    return run(folder_.path(), {"locate", "--part", solids / "part.stl", "--blank", solids / "casting.stl",
+                                "--features", features, "--gap", "0.2", "-o", "r.json", "--json"});
+  };
+  const Ran ran = placed(solids / "datums.json");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(ran.json()["status"], "optimal");
+  for (const char* words : {"datum              \"seat\" is kept within 0.1 mm: the part is off it by up to 0.0",
+                            "datum              \"bore\" is kept within 0.2 mm", "of the start that keeps the datums has"})
+    EXPECT_NE(ran.err.find(words), std::string::npos) << ran.err;
+  EXPECT_EQ(verify("r.json").status, 0);
+  // A seat 20 mm higher is out of reach.
+  std::string higher = read_bytes(solids / "datums.json");
+  higher.replace(higher.find("-19.2"), 5, "0.800");
+  write_bytes(folder_ / "higher.json", higher);
+  const Ran none = placed("higher.json");
+  EXPECT_EQ(none.status, 1) << none.err;
+  EXPECT_EQ(none.json()["status"], "infeasible");
+  for (const char* words : {"No placement in the window meets the demands and keeps the datums; this is proved.",
+                            "none: a datum is not kept", "\"seat\" is not kept within 0.1 mm"})
+    EXPECT_NE(none.err.find(words), std::string::npos) << none.err;
+  EXPECT_EQ(verify("r.json").status, 0);
+}
+
 TEST_F(Solids, ADemandThatIsMissedIsExitStatusOne) {
   const Ran ran = locate({"--min-allowance", "3", "--method", "climb", "-o", "r.json"});
   EXPECT_EQ(ran.status, 1);

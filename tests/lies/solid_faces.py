@@ -16,7 +16,7 @@ class Faces:
         self.of = asked.demands(file, part.all, least)
         self.datums = asked.datums(file, part.all)
         self.names = [one["name"] for one in file.get("datums", [])]
-        self.minimum = max(float(self.unit) * float(file.get("minimum", 0)), float(least))
+        self.minimum = None if file.get("as_cast") else max(float(self.unit) * float(file.get("minimum", 0)), float(least))
 
     def feature(self, one):
         rough = one.get("as_cast", False)
@@ -30,7 +30,7 @@ class Faces:
                 value == other[key] if isinstance(value, (str, bool)) or None in (value, other[key])
                 else float(value) == float(other[key]) for key, value in one.items())
         datums = [(datum["name"], float(datum["within"])) for datum in said["datums"]]
-        return (float(said["minimum"]) == self.minimum and len(said["features"]) == len(self.features) and
+        return (same({"minimum": self.minimum}, {"minimum": said["minimum"]}) and len(said["features"]) == len(self.features) and
                 all(map(same, self.features, said["features"])) and
                 datums == [(name, float(datum["within"])) for name, datum in zip(self.names, self.datums)])
 

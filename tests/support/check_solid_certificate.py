@@ -39,8 +39,7 @@ def wrong_with(leaf, cell, q, c, bounds, part, blank, held=(), holds=ball_holds)
         if kind == "datum":
             d, k = c["datum_points"][i]
             if d != int(d) or not 0 <= d < len(held) or k not in held[int(d)]["points"]: return f"datum point {i}"
-            datum = held[int(d)]
-            u = straight_off(datum, c["directions"][j])
+            u = straight_off(datum := held[int(d)], c["directions"][j])
             if not any(u): return f"direction {j}"
             room = datum["within"] * root(dot(u, u), True) + dot(u, datum["through"])
             forms.append(height(m, from_pivot(datum["points"][k]), times(u, -1), room))

@@ -33,7 +33,8 @@ def demands(file, mesh, least):
     """Of each triangle (minimum, scale), or None; a demand is the double nearest to it."""
     unit = UNITS[file.get("units", "mm")]
     def mm(x): return F(float(unit) * float(x))
-    of = [(max(mm(file.get("minimum", 0)), F(float(least))), F(1))] * len(mesh)
+    others = None if file.get("as_cast") else (max(mm(file.get("minimum", 0)), F(float(least))), F(1))
+    of = [others] * len(mesh)
     for feature in file.get("features", []):
         one = None if feature.get("as_cast") else (mm(feature.get("minimum", 0)), F(float(feature.get("scale", 1))))
         for f in triangles_of(feature, unit, mesh): of[f] = one

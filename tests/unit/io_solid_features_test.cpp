@@ -86,12 +86,15 @@ TEST(SolidFeatures, DemandsAndUnits) {
 
 TEST(SolidFeatures, WhatCannotBeUnderstoodIsRefused) {
   EXPECT_EQ(refusal(R"({"ignore": []})"),
-            R"(f.json: unknown word "ignore"; known here: units, minimum, features, datums)");
+            R"(f.json: unknown word "ignore"; known here: units, minimum, as_cast, features, datums)");
+  EXPECT_EQ(refusal(R"({"as_cast": 1})"), R"(f.json: "as_cast" must be true or false)");
+  EXPECT_EQ(refusal(R"({"as_cast": true, "minimum": 1})"), R"(f.json: what is as cast has no "minimum")");
   EXPECT_EQ(refusal(R"({"units": "ft"})"), R"(f.json: "units" must be "mm", "inch" or "m")");
   EXPECT_EQ(refusal(R"({"features": [{"triangles": [0]}]})"), R"(f.json, feature 0: "name" must be a text)");
-  EXPECT_EQ(refusal_of(R"("minimum": 1)"),
-            R"(f.json, feature "a": one of "triangles", "label", "patch", "box" and "plane" must say which )"
-            "triangles it has");
+  EXPECT_EQ(
+      refusal_of(R"("minimum": 1)"),
+      R"(f.json, feature "a": one of "triangles", "label", "faces", "patch", "box" and "plane" must say )"
+      "which triangles it has");
   EXPECT_EQ(refusal_of(R"("triangles": [0], "label": "x")"), refusal_of(R"("minimum": 1)"));
   EXPECT_EQ(refusal_of(R"("triangles": [12])"),
             R"(f.json, feature "a": triangle 12 is not one of the part's 12)");

@@ -161,6 +161,27 @@ TEST(SolidDeviation, IsThatOfAMeshOfAStepFile) {
             "a: lekalo-step made it in mm; leave --units out, or give the other file in mm, too");
 }
 
+TEST(SolidDeviation, ComesWithFacesAndTheirNames) {
+  const std::vector<std::uint32_t> face_of{0, 0, 1, 1, 2, 2, 3, 3, 1, 1, 5, 5};
+  const std::string text = solid_files::step_mesh(block(), "0.5", face_of, {"", "a b", "a b", "", "", "c"});
+  const SolidFile file = parsed(text, {});
+  EXPECT_EQ(file.face_of_triangle, face_of);
+  std::vector<std::string> names;
+  for (const std::uint32_t group : file.group_of_triangle) names.push_back(file.groups[group]);
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"", "", "a b", "a b", "a b", "a b", "", "", "a b", "a b", "c", "c"}));
+  // Of another maker they mean nothing.
+  std::string other = text;
+  other.replace(other.find("lekalo-step"), 11, "elsewhere..");
+  EXPECT_TRUE(parsed(other).face_of_triangle.empty());
+  EXPECT_TRUE(parsed(other).groups.empty());
+  std::string wrong = text;
+  wrong.replace(wrong.find(" 5\n"), 3, " x\n");
+  const auto refused = parse_solid(wrong, "a", {});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("its face is not a whole number from 0"), std::string::npos);
+}
+
 TEST(SolidUnits, AreMillimetresUnlessSizesSuggestSomethingElse) {
   const auto notice = [](const Mesh& mesh) {
     const SolidFile file = parsed(solid_files::obj(mesh), {});

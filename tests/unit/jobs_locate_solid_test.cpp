@@ -304,7 +304,7 @@ TEST(JobsLocateSolid, FacesHaveTheirOwnDemands) {
   job.features = features_of_block(1);
   job.outputs.picture = SolidPictureForm::html;
   const LocatedSolid located = made(job);
-  for (const char* words : {"left over the demands", "proven: no more than"})
+  for (const char* words : {"left over the demands, mm", "proven: no more than", "as cast: nothing demanded"})
     EXPECT_TRUE(says(located.picture, words)) << words;
   EXPECT_FALSE(says(located.picture, "not proved"));
   const auto json = cases::Json::parse(located.result);
@@ -323,6 +323,17 @@ TEST(JobsLocateSolid, FacesHaveTheirOwnDemands) {
   EXPECT_GE(demands["margin_bound"], 1.0);
   EXPECT_LE(demands["margin_gap"], 0.01);
   EXPECT_EQ(json["shortfall"], 0);
+  EXPECT_TRUE(located.holds());
+  EXPECT_EQ(verdict(job, located), verify::Verdict::confirmed);
+}
+
+TEST(JobsLocateSolid, WhatIsOfNoFeatureMayBeAsCast) {
+  SolidLocateJob job = block_job();
+  job.options.method = SolidMethod::certified;
+  job.features = File{"features.json", R"({"as_cast": true, "features": [
+      {"name": "end", "plane": {"normal": [1, 0, 0], "at": -20, "within": 0.01}}]})"};
+  const LocatedSolid located = made(job);
+  EXPECT_TRUE(cases::Json::parse(located.result)["demands"]["minimum"].is_null());
   EXPECT_TRUE(located.holds());
   EXPECT_EQ(verdict(job, located), verify::Verdict::confirmed);
 }
@@ -469,6 +480,42 @@ TEST(JobsLocateSolid, WhatAMeshDeviatesIsTakenOffAndAddedOn) {
   const LocatedSolid beyond = made(job);
   EXPECT_FALSE(beyond.document.inside());
   EXPECT_EQ(beyond.document.status, "stopped");
+}
+
+TEST(JobsLocateSolid, FacesOfAStepFileHaveDemands) {
+  SolidLocateJob job = block_job();
+  job.options.method = SolidMethod::certified;
+  const auto features = [](const char* end, const char* top) {
+    return File{"features.json", fmt::format(R"({{"minimum": 0.5, "features": [
+      {{"name": "end", {}, "minimum": 1, "scale": 0.5}}, {{"name": "top", {}, "as_cast": true}}]}})",
+                                             end, top)};
+  };
+  // Triangles 2 and 3 of the block look up, 8 and 9 to low x.
+  const solid::Mesh block = cases::block({-20, -15, -10}, {20, 15, 10});
+  const std::vector<std::uint32_t> face_of{0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5};
+  const std::vector<std::string> names{"", "roof", "", "", "end", ""};
+  job.part = {"part.stl", solid_files::stl_text(block)};
+  job.features = features(R"("triangles": [8, 9])", R"("triangles": [2, 3])");
+  const LocatedSolid plain = made(job);
+  job.part = {"part.ply", solid_files::step_mesh(block, "0.125", face_of, names)};
+  job.features = features(R"("faces": [4])", R"("label": "roof")");
+  const LocatedSolid off = made(job);
+  EXPECT_TRUE(off.document.inside());
+  EXPECT_EQ(off.document.demands->features[0].triangles, (std::vector<std::uint32_t>{8, 9}));
+  EXPECT_EQ(off.document.demands->features[1].triangles, (std::vector<std::uint32_t>{2, 3}));
+  // The smallest scale makes the deviation twice as much of margin.
+  EXPECT_NEAR(*off.document.demands->margin, *plain.document.demands->margin - 0.25, 1e-9);
+  EXPECT_NEAR(*off.document.demands->margin_bound, *plain.document.demands->margin_bound + 0.25, 1e-9);
+  EXPECT_NEAR(*off.document.clearance, *plain.document.clearance - 0.125, 1e-9);
+  EXPECT_EQ(verdict(job, plain), verify::Verdict::refuted);
+  EXPECT_EQ(verdict(job, off), verify::Verdict::confirmed);
+  job.features = features(R"("faces": [6])", R"("label": "roof")");
+  EXPECT_EQ(refusal(job).message, "features.json, feature \"end\": face 6 is none of the part's 6");
+  job.part = {"part.stl", solid_files::stl_text(block)};
+  EXPECT_EQ(refusal(job).message,
+            "features.json, feature \"end\": the part has no faces by number, which meshes by lekalo-step "
+            "have; name "
+            "the triangles by \"patch\", \"box\" or \"plane\"");
 }
 
 TEST(JobsLocateSolid, InchesAreMillimetresInside) {

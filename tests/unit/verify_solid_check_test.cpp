@@ -247,6 +247,10 @@ TEST(SolidCheck, EveryFieldIsThereOnceAndKnown) {
             "bad input: result.json: field window.turn_deg is not from 0 to 90");
   EXPECT_EQ(with("/window/shift", -1), "bad input: result.json: field window.shift is below 0");
   EXPECT_EQ(with("/inside", "true"), "bad input: result.json: field inside is neither true nor false");
+  for (const char* key : {"certificate", "offset"})
+    for (const Json& value : {Json(1), Json("it is so"), Json::array()})
+      EXPECT_EQ(with(std::string("/") + key, value),
+                std::string("bad input: result.json: field ") + key + " is neither an object nor null");
   const std::string text = files.result.dump();
   const std::string twice = text.substr(0, text.size() - 1) + R"(,"x":0})";
   const auto report = verify_locate(

@@ -332,6 +332,66 @@ TEST(SolidFeatures, LabelsAreThoseOfTheFile) {
   EXPECT_EQ(label("two parts", obj), (Numbers{2, 3}));
 }
 
+/// The top alone has a demand, and has 1 - 0.25 of half a margin each.
+TEST(SolidDemands, WhatIsOfNoFeatureMayBeAsCast) {
+  Json features = top_features();
+  features.erase("minimum");
+  features["as_cast"] = true;
+  Json certificate = one_leaf(Json::array({{"point_plane", 0, 0, 1}}), Json::array(), Json::array(),
+                              Json::array({{0, 0, -1, -6}}), 0);
+  certificate["part_points"] = Json::array({{2, 0.25, 0.5}});
+  SolidResultFiles files = with_demands(top_features(), Json::array({demand_of_result("top", 2, 0.25, 2)}),
+                                        certificate, 0.375, 0.375);
+  files.features = features.dump();
+  files.result["window"]["shift"] = 0;
+  EXPECT_TRUE(says(files.told(), "demands.minimum is 0.5, but features.json demands nothing"));
+  files.result["demands"]["minimum"] = nullptr;
+  EXPECT_EQ(files.told(), "confirmed");
+  // What is as cast has no term.
+  files.result["certificate"]["part_points"][0] = {0, 0, 0};
+  EXPECT_TRUE(says(files.told(), "has a term of the part's triangle 0, which is as cast"));
+  files.features = top_features().dump();
+  EXPECT_TRUE(says(files.told(), "demands.minimum is nothing, but features.json demands 0.5"));
+}
+
+TEST(SolidFeatures, FacesAreThoseOfAStepFile) {
+  const std::vector<std::uint32_t> face_of{0, 0, 1, 1, 2, 2, 3, 3, 1, 1, 5, 5};
+  const std::string part = solid_files::step_mesh(cases::block({-5, -5, -5}, {5, 5, 5}), "0.5", face_of,
+                                                  {"", "roof", "roof", "", "", "c"});
+  const auto one = [&](const char* way, Json value) {
+    return found(Json::array({Json{{"name", "a"}, {way, std::move(value)}}}), part)[0];
+  };
+  EXPECT_EQ(one("faces", {1}), (Numbers{2, 3, 8, 9}));
+  EXPECT_EQ(one("faces", {5, 0}), (Numbers{0, 1, 10, 11}));
+  EXPECT_EQ(one("label", "roof"), (Numbers{2, 3, 4, 5, 8, 9}));
+  EXPECT_EQ(one("label", "c"), (Numbers{10, 11}));
+  const auto of = [](const char* face) {
+    return std::string(R"({"features": [{"name": "a", "faces": [)") + face + "]}]}";
+  };
+  EXPECT_TRUE(
+      says(refused(of("4"), part), "field features[0].faces[0] is the number of no face of the part"));
+  EXPECT_TRUE(says(refused(of("0"), solid_files::stl_binary(cases::block({-5, -5, -5}, {5, 5, 5}))),
+                   "is the number of no face of the part"));
+}
+
+/// What faces demand is demanded of the body that the triangles stand for.
+TEST(SolidDemands, WhatAMeshDeviatesIsTakenOffMarginsAndAddedToBounds) {
+  const std::vector<std::uint32_t> face_of{0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5};
+  const std::vector<std::string> names(6);
+  const auto with = [&](double margin, double bound) {
+    SolidResultFiles files = top(bound, margin);
+    files.part = solid_files::step_mesh(cases::block({-5, -5, -5}, {5, 5, 5}), "0.125", face_of, names);
+    files.result["inputs"][0]["deviation"] = 0.125;
+    files.result["clearance"] = 0.875;
+    return files.told();
+  };
+  // The top has (1 - 0.25 - 0.125) / 2, all else 0.375.
+  EXPECT_EQ(with(0.3125, 0.5), "confirmed");
+  EXPECT_TRUE(says(with(std::nextafter(0.3125, 1), 0.5), "refuted; feature \"top\""));
+  // The sum of both terms has 1.25 and twice 0.125 for three shares.
+  EXPECT_TRUE(says(with(0.3125, 0.4999), "do not prove"));
+}
+
 TEST(SolidFeatures, RefusalsNameTheField) {
   const std::string part = solid_files::stl_binary(cases::block({-5, -5, -5}, {5, 5, 5}));
   for (const auto& [text, words] : {
@@ -339,6 +399,8 @@ TEST(SolidFeatures, RefusalsNameTheField) {
                      "features.json: field criterion is no word of a file of features"},
            {R"({"units": "cm"})", "field units is none of"},
            {R"({"minimum": -1})", "field minimum is no length"},
+           {R"({"as_cast": 1})", "field as_cast is neither true nor false"},
+           {R"({"as_cast": true, "minimum": 1})", "field minimum is a demand on what is as cast"},
            {R"({"features": [{"name": "a"}]})", "features[0].name is of a feature that says of no triangle"},
            {R"({"features": [{"name": "a", "label": "b", "patch": [0, 0, 0]}]})", "is a second way to say"},
            {R"({"features": [{"name": "a", "label": "b"}]})", "features[0] has no triangle of the part"},

@@ -32,8 +32,11 @@ struct SolidScene {
   std::optional<Margin> margin;
   /// The demand and what is missing of it, mm.
   double min_allowance = 0, shortfall = 0;
-  /// At each vertex of the part, mm, negative outside the blank; or none.
+  /// At each vertex of the part, mm, negative outside the blank; or none. With demands by face it is what is
+  /// left over the demand, in units of its scale, and no number (NaN) where the part is as cast.
   std::vector<double> allowances;
+  /// Allowances below this are missing.
+  [[nodiscard]] double least_wanted() const { return margin ? 0 : min_allowance; }
   /// Triangles of the blank that nobody measured, by number, and their area.
   std::vector<std::uint32_t> unknown;
   double unknown_area = 0;  ///< mm2
@@ -56,7 +59,8 @@ struct SolidScene {
                                             unsigned threads = kUsualThreads);
 
 /// The surface of the placed part as PLY for other viewers, in the frame of the blank: at each vertex the
-/// allowance, mm, as `quality`, and its colour in the picture. \pre there are allowances
+/// allowance, mm, or what is left over the demand, as `quality`, and its colour in the picture. \pre there
+/// are allowances
 [[nodiscard]] std::string solid_surface(const SolidScene& scene);
 
 /// The scene as one page of HTML without links, which turns with mouse, finger and keys (WebGL2): part,

@@ -170,8 +170,9 @@ class Painter {
         if (!part_.values.empty()) {
           const double value =
               w[0] * part_.values[t[0]] + (w[1] * part_.values[t[1]] + w[2] * part_.values[t[2]]);
-          colour =
-              value < kLeastValue ? kOutside : palette_[static_cast<std::size_t>(scale_step(value, 0, 1))];
+          if (!std::isnan(value))
+            colour =
+                value < kLeastValue ? kOutside : palette_[static_cast<std::size_t>(scale_step(value, 0, 1))];
         }
         band.light[at] = lit(colour, normal, view_);
       });

@@ -162,8 +162,8 @@ void draw_scale_bar(double scale, Point left, double most, Sheet& sheet) {
 
 double draw_solid_key(const SolidScene& scene, const SolidLook& look, const Rect& room, Sheet& sheet) {
   double y = room.y;
-  if (!scene.allowances.empty() && look.greatest >= scene.min_allowance)
-    y = draw_colour_scale(look.range, "allowance of the part", {room.x, y, room.width, 0}, kReportBody,
+  if (!scene.allowances.empty() && look.greatest >= scene.least_wanted())
+    y = draw_colour_scale(look.range, scale_words(scene), {room.x, y, room.width, 0}, kReportBody,
                           kReportSmall, sheet.items()) +
         1;
   for (const SolidKey& key : key_of(scene, look)) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "draw/paper/printed_number.hpp"
@@ -39,9 +40,12 @@ std::optional<SolidFocus> focus_of(const SolidScene& scene, const SolidLook& loo
   }
   if (!look.missing()) return std::nullopt;
   const std::vector<std::uint32_t>& from = look.part.surface.from;
-  const auto worst = std::min_element(from.begin(), from.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return scene.allowances[a] < scene.allowances[b];
-  });
+  const auto left = [&](std::uint32_t vertex) {
+    const double allowance = scene.allowances[vertex];
+    return std::isnan(allowance) ? std::numeric_limits<double>::infinity() : allowance;
+  };
+  const auto worst = std::min_element(from.begin(), from.end(),
+                                      [&](std::uint32_t a, std::uint32_t b) { return left(a) < left(b); });
   const auto at = static_cast<std::size_t>(worst - from.begin());
   SolidFocus focus;
   focus.place = look.part.surface.places[at];
@@ -65,15 +69,19 @@ SolidLook::SolidLook(const SolidScene& scene) : motion(locate::motion_of(scene.p
     for (const std::uint32_t triangle : scene.unknown) blank.unknown[triangle] = 1;
   }
   if (!scene.allowances.empty()) {
-    const auto [low, high] = std::minmax_element(scene.allowances.begin(), scene.allowances.end());
-    least = *low, greatest = *high;
+    std::vector<double> counted = scene.allowances;
+    std::erase_if(counted, [](double allowance) { return std::isnan(allowance); });
+    as_cast_ = counted.size() < scene.allowances.size();
+    const auto [low, high] = std::minmax_element(counted.begin(), counted.end());
+    if (!counted.empty()) least = *low, greatest = *high;
     // Rounding of the coordinates shows nothing that is missing.
     const double rounding = 1e-12 * size;
-    missing_ = least < scene.min_allowance - rounding;
-    range = colour_range(missing_ ? scene.min_allowance : least, greatest, rounding, size);
-    for (const std::uint32_t vertex : part.surface.from)
-      part.values.push_back(missing_ ? value_of(scene.allowances[vertex] + rounding)
-                                     : std::max(0.0, value_of(scene.allowances[vertex])));
+    missing_ = least < scene.least_wanted() - rounding;
+    range = colour_range(missing_ ? scene.least_wanted() : least, greatest, rounding, size);
+    for (const std::uint32_t vertex : part.surface.from) {
+      const double value = value_of(scene.allowances[vertex] + (missing_ ? rounding : 0));
+      part.values.push_back(!missing_ && value < 0 ? 0 : value);
+    }
   }
   if (scene.placement.inside) touches = scene.placement.contacts;
   for (const locate::SolidTouch& touch : touches) contacts.push_back(motion(touch.part));
@@ -139,16 +147,22 @@ std::string clearance_text(const SolidScene& scene, const SolidLook& look) {
   return decimal(scene.placement.clearance, look.decimals, Rounding::down) + " mm";
 }
 
+const char* scale_words(const SolidScene& scene) {
+  return scene.margin ? "left over the demands" : "allowance of the part";
+}
+
 std::vector<SolidKey> key_of(const SolidScene& scene, const SolidLook& look) {
   std::vector<SolidKey> key;
   if (look.missing()) {
-    const std::string most = short_number_up(scene.min_allowance - look.least);
+    const std::string most = short_number_up(scene.least_wanted() - look.least);
     key.push_back({kOutside, 1,
-                   scene.min_allowance == 0
+                   scene.margin ? fmt::format("less than demanded, by up to {} mm", most)
+                   : scene.min_allowance == 0
                        ? fmt::format("outside the blank, by up to {} mm", most)
                        : fmt::format("less than {} mm, by up to {} mm", scene.min_allowance, most),
                    "missing"});
   }
+  if (look.as_cast()) key.push_back({kPlainPart, 1, "as cast: nothing demanded", "key-as-cast"});
   if (scene.allowances.empty()) key.push_back({kPlainPart, 1, "part, placed", "key-part"});
   key.push_back({kGlass, 0.3, "blank, as glass", "key-blank"});
   if (!scene.unknown.empty()) key.push_back({kUnknownGlass, 0.6, "blank, not measured", "key-unknown"});

@@ -40,12 +40,14 @@ struct SolidLook {
   [[nodiscard]] solid::Vector outward(std::size_t contact) const;
   /// True if the allowance is below the demand anywhere.
   [[nodiscard]] bool missing() const { return missing_; }
+  /// True if something of the part is as cast, which has no value.
+  [[nodiscard]] bool as_cast() const { return as_cast_; }
   [[nodiscard]] double value_of(double allowance) const {
     return (allowance - range.low) / (range.high - range.low);
   }
 
  private:
-  bool missing_ = false;
+  bool missing_ = false, as_cast_ = false;
 };
 
 /// The view in which the focus faces the viewer and nothing of the part is before it, or a usual one.
@@ -62,6 +64,8 @@ struct SolidFigure {
 [[nodiscard]] std::vector<SolidFigure> figures_of(const SolidScene& scene, const SolidLook& look);
 /// The least allowance as it is printed, rounded down, or that the part is not inside.
 [[nodiscard]] std::string clearance_text(const SolidScene& scene, const SolidLook& look);
+/// The meaning of the colours of the scale.
+[[nodiscard]] const char* scale_words(const SolidScene& scene);
 /// A colour and what it stands for.
 struct SolidKey {
   Colour colour;

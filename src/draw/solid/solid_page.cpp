@@ -121,7 +121,7 @@ class Page {
     field("palette", "[" + palette + "]");
     ScaleTicks scale;
     if (!scene_.allowances.empty()) scale = scale_ticks(look_.range, 52, 2.7);
-    field("scaleTitle", script_string("allowance of the part, " + scale.unit));
+    field("scaleTitle", script_string(fmt::format("{}, {}", scale_words(scene_), scale.unit)));
     list("ticks", scale.ticks, [](const ScaleTicks::Tick& tick) {
       return fmt::format("[{:.4f},{}]", tick.share, script_string(tick.text));
     });
@@ -156,7 +156,9 @@ class Page {
       for (const double along : {p.x, p.y, p.z})
         places.put16(static_cast<std::uint32_t>(std::lround(std::clamp(along / step_, 0.0, kSteps))));
       for (const double along : {n.x, n.y, n.z}) normals.put_share(along);
-      normals.put_share(values.empty() ? 0 : values[v]);
+      // A vertex that is as cast has the least share, which no other has.
+      const double value = values.empty() ? 0 : values[v];
+      normals.put_share(std::isnan(value) ? -1 : std::max(-0.98, value));
     }
     std::size_t known = 0;
     for (const bool wanted : {false, true}) {

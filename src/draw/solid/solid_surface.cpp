@@ -1,5 +1,8 @@
-#include "draw/paper/colour.hpp"
 #include "lekalo/draw/solid_picture.hpp"
+
+#include <cmath>
+
+#include "draw/paper/colour.hpp"
 #include "lekalo/io/solid/solid_file.hpp"
 #include "solid_look.hpp"
 
@@ -12,8 +15,9 @@ std::string solid_surface(const SolidScene& scene) {
   io::PlyLook shown;
   for (const double allowance : scene.allowances) {
     const bool missing = look.missing() && look.value_of(allowance) < 0;
-    const Colour colour =
-        missing ? kOutside : scale_colour(scale_step(allowance, look.range.low, look.range.high));
+    const Colour colour = std::isnan(allowance) ? kPlainPart
+                          : missing             ? kOutside
+                                    : scale_colour(scale_step(allowance, look.range.low, look.range.high));
     shown.quality.push_back(allowance);
     shown.colours.push_back({colour.red, colour.green, colour.blue});
   }

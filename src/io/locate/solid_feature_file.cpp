@@ -34,7 +34,7 @@ constexpr double kHiddenTurn = 0x1p-36;
 /// An edge of a closed surface has two triangles as a rule. Where so many meet nothing is a patch.
 constexpr std::size_t kMostAtEdge = 64;
 
-constexpr const char* kWhich[]{"triangles", "label", "patch", "box", "plane"};
+constexpr const char* kWhich[]{"triangles", "label", "faces", "patch", "box", "plane"};
 
 std::optional<Vector> three_numbers(JsonValue json) {
   if (json.kind() != JsonKind::list || json.size() != 3) return std::nullopt;
@@ -49,6 +49,13 @@ std::optional<Vector> three_numbers(JsonValue json) {
 
 std::string place(Vector p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
 
+Result<bool> take_as_cast(JsonValue json, const std::string& where) {
+  const auto as_cast = json.find("as_cast");
+  if (as_cast && as_cast->kind() != JsonKind::boolean)
+    return refuse(where, "\"as_cast\" must be true or false");
+  return as_cast && as_cast->truth();
+}
+
 class SpecReader {
  public:
   SpecReader(std::string name, double scale) : name_(std::move(name)), scale_(scale) {}
@@ -57,7 +64,7 @@ class SpecReader {
     where_ = fmt::format("{}, feature {}", name_, index);
     LEKALO_CHECK(detail::expect_object(
         json, where_,
-        {"name", "triangles", "label", "patch", "box", "plane", "minimum", "scale", "as_cast"}));
+        {"name", "triangles", "label", "faces", "patch", "box", "plane", "minimum", "scale", "as_cast"}));
     SolidFeatureSpec spec;
     const auto name = json.find("name");
     if (!name || !is_word(*name)) return refuse(where_, "\"name\" must be a text");
@@ -67,10 +74,8 @@ class SpecReader {
     locate::SolidDemand demand;
     LEKALO_CHECK(detail::take_length(json, "minimum", scale_, where_, [&](double v) { demand.minimum = v; }));
     LEKALO_CHECK(detail::take_scale(json, where_, [&](double v) { demand.scale = v; }));
-    const auto as_cast = json.find("as_cast");
-    if (as_cast && as_cast->kind() != JsonKind::boolean)
-      return refuse(where_, "\"as_cast\" must be true or false");
-    if (!as_cast || !as_cast->truth()) {
+    LEKALO_TRY(const bool as_cast, take_as_cast(json, where_));
+    if (!as_cast) {
       spec.demand = demand;
       return spec;
     }
@@ -88,29 +93,34 @@ class SpecReader {
       if (const auto found = json.find(word)) said = found, ++count;
     if (count != 1)
       return refuse(where_,
-                    "one of \"triangles\", \"label\", \"patch\", \"box\" and \"plane\" must say which "
-                    "triangles it has");
+                    "one of \"triangles\", \"label\", \"faces\", \"patch\", \"box\" and \"plane\" must say "
+                    "which triangles it has");
     const std::string_view key = said->key();
-    if (key == "triangles") return numbers(*said, spec);
+    if (key == "triangles" || key == "faces") return numbers(*said, spec);
     if (key == "patch") return patch(*said, spec);
     if (key == "box") return box(*said, spec);
     if (key == "plane") return plane(*said, spec);
     if (!is_word(*said))
-      return refuse(where_, "\"label\" must be a text: the name of a solid, group or object");
+      return refuse(where_, "\"label\" must be a text: the name of a solid, group, object or face");
     spec.which = SolidFeatureSpec::Label{std::string(said->text())};
     return {};
   }
 
   Result<void> numbers(JsonValue said, SolidFeatureSpec& spec) const {
-    SolidFeatureSpec::Numbers made;
+    const bool of_triangles = said.key() == "triangles";
+    std::vector<std::uint32_t> made;
     if (said.kind() != JsonKind::list || said.size() == 0)
-      return refuse(where_, "\"triangles\" must be a list of triangle numbers");
+      return refuse(where_, fmt::format("\"{}\" must be a list of {} numbers", said.key(),
+                                        of_triangles ? "triangle" : "face"));
     for (const JsonValue number : said) {
       if (!is_index(number) || number.integer() > 0xffffffff)
-        return refuse(where_, "\"triangles\" must hold whole numbers from 0 on");
-      made.triangles.push_back(static_cast<std::uint32_t>(number.integer()));
+        return refuse(where_, fmt::format("\"{}\" must hold whole numbers from 0 on", said.key()));
+      made.push_back(static_cast<std::uint32_t>(number.integer()));
     }
-    spec.which = std::move(made);
+    if (of_triangles)
+      spec.which = SolidFeatureSpec::Numbers{std::move(made)};
+    else
+      spec.which = SolidFeatureSpec::Faces{std::move(made)};
     return {};
   }
 
@@ -303,6 +313,24 @@ class TriangleFinder {
     return made;
   }
 
+  Found found(const SolidFeatureSpec::Faces& which) {
+    const std::vector<std::uint32_t>& face_of = part_.face_of_triangle;
+    if (face_of.empty())
+      return refuse(where_,
+                    "the part has no faces by number, which meshes by lekalo-step have; name the triangles "
+                    "by \"patch\", \"box\" or \"plane\"");
+    std::vector<std::uint32_t> made;
+    for (const std::uint32_t face : which.faces) {
+      const std::size_t before = made.size();
+      for (std::uint32_t t = 0; t < count(); ++t)
+        if (face_of[t] == face) made.push_back(t);
+      if (made.size() == before)
+        return refuse(where_, fmt::format("face {} is none of the part's {}", face,
+                                          1 + *std::max_element(face_of.begin(), face_of.end())));
+    }
+    return made;
+  }
+
   Found found(const SolidFeatureSpec::Box& which) {
     return all_corners([&](Vector p) {
       return p.x >= which.low.x && p.y >= which.low.y && p.z >= which.low.z && p.x <= which.high.x &&
@@ -448,11 +476,14 @@ Result<SolidFeatureFile> parse_solid_features(std::string_view bytes, const std:
                                               std::optional<SolidUnit> unit) {
   LEKALO_TRY(const auto tree, detail::JsonTree::parse(bytes, name));
   const JsonValue root = tree.root();
-  LEKALO_CHECK(detail::expect_object(root, name, {"units", "minimum", "features", "datums"}));
+  LEKALO_CHECK(detail::expect_object(root, name, {"units", "minimum", "as_cast", "features", "datums"}));
   LEKALO_TRY(const SolidUnit file_unit, unit_of(root, name, unit));
   const double scale = value_of(decimal_factor(file_unit));
-  SolidFeatureFile file{name, {}, {}, {}};
+  SolidFeatureFile file;
+  file.name = name;
   LEKALO_CHECK(detail::take_length(root, "minimum", scale, name, [&](double v) { file.minimum = v; }));
+  LEKALO_TRY(file.as_cast, take_as_cast(root, name));
+  if (file.as_cast && file.minimum) return refuse(name, "what is as cast has no \"minimum\"");
   LEKALO_CHECK(take_list(root, "features", kMostSolidFeatures, SpecReader(name, scale), name, file.features));
   LEKALO_CHECK(take_list(root, "datums", kMostDatums, DatumReader(name, scale), name, file.datums));
   return file;

@@ -303,9 +303,22 @@ Result<std::string_view> PlyFile::next_row(const PlyElement& element, std::uint6
     if (rest_.size() - at < bytes) return ends_early(element, row);
     at += static_cast<std::size_t>(bytes);
   }
-  const std::string_view bytes = rest_.substr(0, at);
+  row_ = rest_.substr(0, at);
   rest_.remove_prefix(at);
-  return bytes;
+  return row_;
+}
+
+std::optional<std::uint32_t> PlyFile::index_in_row(const PlyElement& element, std::size_t property) const {
+  double number = -1;
+  if (encoding_ == Encoding::ascii) {
+    const std::string_view word = words_[begins_[property]];
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  } else {
+    number = scalar_value(row_.data() + begins_[property], element.properties[property].type, is_big());
+  }
+  if (!(number >= 0 && number < 0x1p32) || number != std::floor(number)) return std::nullopt;
+  return static_cast<std::uint32_t>(number);
 }
 
 Result<void> PlyFile::skip(const PlyElement& element) {

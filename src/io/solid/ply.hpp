@@ -67,6 +67,11 @@ class PlyFile {
   [[nodiscard]] Result<void> read_lists(const PlyElement& element, std::size_t property,
                                         const TakeList& take);
 
+  /// The number of a property, no list, in the row that is handed out; nothing if it is not from 0 to 2^32
+  /// - 1.
+  [[nodiscard]] std::optional<std::uint32_t> index_in_row(const PlyElement& element,
+                                                          std::size_t property) const;
+
   /// Refuses what stands in a row that was handed out.
   [[nodiscard]] tl::unexpected<Error> refuse_row(const PlyElement& element, std::size_t row,
                                                  const std::string& sentence) const;
@@ -85,7 +90,7 @@ class PlyFile {
   Result<std::string_view> next_row(const PlyElement& element, std::uint64_t row);
   Result<std::string_view> next_words(const PlyElement& element, std::uint64_t row);
 
-  std::string_view rest_;
+  std::string_view rest_, row_;
   const std::string& name_;
   std::size_t line_ = 0;
   Encoding encoding_ = Encoding::ascii;

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -29,6 +30,8 @@ class PlySolid {
         LEKALO_CHECK(read_vertices(element));
       } else if (element.name == kFaces) {
         LEKALO_CHECK(read_faces(element));
+      } else if (element.name == kBodyFaces && by_lekalo_step_) {
+        LEKALO_CHECK(read_names(element));
       } else {
         LEKALO_CHECK(ply_.skip(element));
       }
@@ -64,6 +67,7 @@ class PlySolid {
     constexpr std::string_view kMaker = "lekalo-step 1", kDeviation = "deviation ";
     const std::vector<std::string_view>& comments = ply_.comments();
     if (comments.empty() || comments.front() != kMaker) return {};
+    by_lekalo_step_ = true;
     for (const std::string_view comment : comments)
       if (comment.starts_with(kDeviation)) {
         const std::string_view word = comment.substr(kDeviation.size());
@@ -88,16 +92,20 @@ class PlySolid {
   /// Gathers the corners of the faces, which may stand before the vertices.
   Result<void> read_faces(const PlyElement& element) {
     if (element.rows == 0) return {};
-    std::size_t list = 0;
-    while (list < element.properties.size() &&
-           !(element.properties[list].count && (element.properties[list].name == "vertex_indices" ||
-                                                element.properties[list].name == "vertex_index")))
-      ++list;
+    const std::size_t list =
+        std::min(place_of(element, "vertex_indices", true), place_of(element, "vertex_index", true));
     if (list == element.properties.size())
       return refuse(made_.name(), "the faces of this PLY have no list vertex_indices");
     const auto vertices = static_cast<std::int64_t>(ply_.element(kVertices)->rows);
+    const std::size_t of_body =
+        by_lekalo_step_ ? place_of(element, "face", false) : element.properties.size();
     return ply_.read_lists(
         element, list, [&](const std::vector<std::int64_t>& items, std::size_t row) -> Result<void> {
+          if (of_body < element.properties.size()) {
+            const auto number = ply_.index_in_row(element, of_body);
+            if (!number) return ply_.refuse_row(element, row, "its face is not a whole number from 0");
+            body_faces_.push_back(*number);
+          }
           if (items.size() < 3)
             return ply_.refuse_row(element, row,
                                    fmt::format("a face has three corners or more, not {}", items.size()));
@@ -117,11 +125,36 @@ class PlySolid {
         });
   }
 
+  /// The place of a property, a list or none; as many as there are where it is not there.
+  static std::size_t place_of(const PlyElement& element, std::string_view name, bool is_list) {
+    std::size_t at = 0;
+    while (at < element.properties.size() &&
+           (element.properties[at].name != name || element.properties[at].count.has_value() != is_list))
+      ++at;
+    return at;
+  }
+
+  /// Reads the names of the faces of the STEP file.
+  Result<void> read_names(const PlyElement& element) {
+    const std::size_t list = place_of(element, "name", true);
+    if (list == element.properties.size()) return ply_.skip(element);
+    return ply_.read_lists(element, list,
+                           [&](const std::vector<std::int64_t>& items, std::size_t) -> Result<void> {
+                             std::string& name = names_.emplace_back();
+                             for (const std::int64_t byte : items) name += static_cast<char>(byte);
+                             return {};
+                           });
+  }
+
   Result<void> cut_faces() {
     made_.reserve(made_.vertices(), corners_.size() - 2 * ends_.size());
     const std::span<const std::uint32_t> all(corners_);
     for (std::size_t face = 0, begin = 0; face < ends_.size(); begin = ends_[face++]) {
+      const std::size_t first = made_.triangles();
+      if (!body_faces_.empty())
+        made_.begin_group(body_faces_[face] < names_.size() ? names_[body_faces_[face]] : "");
       const std::string wrong = made_.add_face(all.subspan(begin, ends_[face] - begin));
+      if (!body_faces_.empty()) made_.set_face(first, body_faces_[face]);
       if (!wrong.empty()) return refuse(made_.name(), fmt::format("face {}: {}", face, wrong));
     }
     return {};
@@ -131,6 +164,10 @@ class PlySolid {
   SolidBuilder& made_;
   PlyFile::Axes axes_;
   std::vector<std::uint32_t> corners_, ends_;
+  /// The words of lekalo-step: the face of each, and the names of those faces.
+  bool by_lekalo_step_ = false;
+  std::vector<std::uint32_t> body_faces_;
+  std::vector<std::string> names_;
 };
 
 }  // namespace

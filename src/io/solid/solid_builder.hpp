@@ -30,6 +30,11 @@ class SolidBuilder {
   void add_vertex(solid::Vector p, double error);
   /// The name of the triangles that follow.
   void begin_group(std::string_view name);
+  /// The triangles from `first` on are of a face of a STEP file.
+  void set_face(std::size_t first, std::uint32_t face) {
+    file_.face_of_triangle.resize(first);
+    file_.face_of_triangle.resize(triangles(), face);
+  }
   /// \pre its vertices were added
   void add_triangle(solid::Triangle corners);
   /// Adds a face of three corners or more as triangles. Returns what is wrong with it, or nothing.

@@ -105,10 +105,8 @@ std::optional<double> safe_clearance(const locate::SolidPlacement& found, const 
 
 /// A margin has lost as much as the smallest scale makes of it.
 double safe_margin(const locate::SolidPlacement& found, const SolidInputs& in, double share) {
-  double least_scale = 1;
-  for (const auto& demand : in.problem.demands)
-    if (demand) least_scale = std::min(least_scale, demand->scale);
-  return difference_rounded_down(found.margin, (1 + 0x1p-50) * decimals_lose(found, in, share) / least_scale);
+  const double lost = decimals_lose(found, in, share) + in.deviation();
+  return difference_rounded_down(found.margin, (1 + 0x1p-49) * lost / in.least_scale());
 }
 
 /// The findings of a method. One that proves nothing has neither bound nor proof.
@@ -120,8 +118,9 @@ struct Found {
 };
 
 Result<Found> found_by_method(const SolidInputs& in, const SolidLocateOptions& o, const RunControl& run) {
-  // Margins are counted from what is demanded, and that from the bodies that the meshes stand for.
-  const double least = in.demands ? 0 : difference_rounded_down(o.min_allowance, in.deviation());
+  // The demands are those of the bodies that the meshes stand for.
+  const double off = in.demands ? in.deviation() / in.least_scale() * (1 + 0x1p-51) : in.deviation();
+  const double least = difference_rounded_down(in.demands ? 0 : o.min_allowance, off);
   const locate::SolidOptions how{o.gap, least, o.threads, run};
   Found found;
   switch (o.method) {
@@ -139,7 +138,7 @@ Result<Found> found_by_method(const SolidInputs& in, const SolidLocateOptions& o
     }
     case SolidMethod::certified: {
       LEKALO_TRY(locate::SolidResult result, locate::locate_solid(in.problem, how));
-      const double bound = difference_rounded_up(result.upper_bound, -in.deviation());
+      const double bound = difference_rounded_up(result.upper_bound, -off);
       found = {io::name_of(result.status), std::move(result.best), bound, std::move(result.proof)};
       break;
     }
@@ -253,8 +252,9 @@ io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&
   }
   d.scan = in.scan;
   d.status = found.status;
-  if (d.status == io::name_of(locate::Status::infeasible) && d.upper_bound &&
-      !(*d.upper_bound < d.min_allowance))
+  const double demanded = d.demands ? 0 : d.min_allowance;
+  if (d.status == io::name_of(locate::Status::infeasible) && found.upper_bound &&
+      !(*found.upper_bound < demanded))
     d.status = io::name_of(locate::Status::stopped);  // by a rounding
   if (d.status == io::name_of(locate::Status::optimal) && !d.inside())
     d.status = io::name_of(locate::Status::stopped);

@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <limits>
+#include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "lekalo/base/stop.hpp"
@@ -37,6 +39,32 @@ std::string allowances_csv(const SolidInputs& in, const io::SolidDocument& d) {
   return text;
 }
 
+/// Gives each vertex what is left over the demand of its triangles instead of its allowance, and no number
+/// where they are as cast. A vertex of triangles with several demands stands once for each.
+void count_from_demands(const SolidInputs& in, const std::vector<std::uint32_t>& numbers,
+                        draw::SolidScene& scene) {
+  std::map<std::tuple<std::uint32_t, double, double>, std::uint32_t> known;
+  solid::Mesh split;
+  std::vector<double> left;
+  for (std::size_t t = 0; t < scene.part.triangles.size(); ++t) {
+    const auto& demand = in.problem.demands[numbers[t]];
+    const auto [minimum, scale] = demand.value_or(locate::SolidDemand{0, 0});
+    solid::Triangle corners = scene.part.triangles[t];
+    for (std::uint32_t& v : corners) {
+      const auto [at, added] =
+          known.try_emplace({v, minimum, scale}, static_cast<std::uint32_t>(split.vertices.size()));
+      if (added) {
+        split.vertices.push_back(scene.part.vertices[v]);
+        left.push_back(demand ? (scene.allowances[v] - minimum) / scale
+                              : std::numeric_limits<double>::quiet_NaN());
+      }
+      v = at->second;
+    }
+    split.triangles.push_back(corners);
+  }
+  scene.part = std::move(split), scene.allowances = std::move(left);
+}
+
 draw::SolidScene scene_of(const SolidLocateJob& job, const SolidInputs& in, const io::SolidDocument& d) {
   locate::MeasuredPart part = locate::measured_part(in.problem.part, in.problem.blank, motion_of(d.pose),
                                                     40'000, d.threads, in.problem.blank_widths);
@@ -49,7 +77,10 @@ draw::SolidScene scene_of(const SolidLocateJob& job, const SolidInputs& in, cons
   scene.unknown = in.unknown;
   scene.unknown_area = d.scan ? d.scan->unknown_area : 0;
   scene.upper_bound = d.upper_bound;
-  if (d.demands) scene.margin = {d.demands->margin, d.demands->margin_bound};
+  if (d.demands) {
+    scene.margin = {d.demands->margin, d.demands->margin_bound};
+    count_from_demands(in, part.numbers, scene);
+  }
   scene.min_allowance = d.min_allowance, scene.shortfall = d.shortfall().value_or(0);
   return scene;
 }

@@ -92,7 +92,8 @@ Result<void> read_features(const SolidLocateJob& job, const io::SolidFile& part,
   LEKALO_TRY(const io::SolidFeatureFile file,
              io::parse_solid_features(job.features->bytes, job.features->name, job.options.units));
   io::SolidDemandRecord& demands = in.demands.emplace();
-  demands.minimum = std::max(job.options.min_allowance, file.minimum.value_or(0));
+  demands.minimum.reset();
+  if (!file.as_cast) demands.minimum = std::max(job.options.min_allowance, file.minimum.value_or(0));
   LEKALO_TRY(demands.features, io::find_solid_features(file, part));
   LEKALO_TRY(in.problem.datums, io::find_solid_datums(file, demands.features, part));
   for (const io::SolidDatumSpec& datum : file.datums)
@@ -103,8 +104,9 @@ Result<void> read_features(const SolidLocateJob& job, const io::SolidFile& part,
 /// Gives the triangles that were placed the demands of their features.
 Result<void> set_demands(const SolidLocateJob& job, SolidInputs& in) {
   if (!in.demands) return {};
-  std::vector<std::optional<locate::SolidDemand>> of_file(in.part.triangles,
-                                                          locate::SolidDemand{in.demands->minimum, 1});
+  std::optional<locate::SolidDemand> others;
+  if (in.demands->minimum) others = {*in.demands->minimum, 1};
+  std::vector<std::optional<locate::SolidDemand>> of_file(in.part.triangles, others);
   for (const io::SolidFeature& feature : in.demands->features)
     for (const std::uint32_t t : feature.triangles) of_file[t] = feature.demand;
   for (const std::uint32_t number : in.part.numbers) in.problem.demands.push_back(of_file[number]);
@@ -228,17 +230,17 @@ double SolidInputs::deviation() const noexcept {
   return (part.deviation.value_or(0) + blank.deviation.value_or(0)) * (1 + 0x1p-51) + 0x1p-1074;
 }
 
+double SolidInputs::least_scale() const noexcept {
+  double least = 1;
+  for (const auto& demand : problem.demands)
+    if (demand) least = std::min(least, demand->scale);
+  return least;
+}
+
 Result<SolidInputs> read_inputs(const SolidLocateJob& job) {
   SolidInputs in;
   LEKALO_CHECK(read_part(job, in));
   LEKALO_CHECK(read_blank(job, in));
-  if (in.demands && in.deviation() > 0)
-    return failure(
-        ErrorCode::bad_input,
-        fmt::format(
-            "{}: faces of a mesh by lekalo-step have no demands of their own yet; say --min-allowance "
-            "for all of them, or give part and blank as STL, OBJ or another PLY",
-            job.features->name));
   if (job.options.scan) LEKALO_CHECK(read_scan(*job.options.scan, in));
   if (in.meshed) LEKALO_CHECK(hold_against_points(job, in));
   LEKALO_CHECK(read_start(job.start, in.problem.start));

@@ -45,6 +45,8 @@ struct SolidInputs {
   /// The bodies that the meshes stand for differ from them by no more than this together, mm: it is taken off
   /// clearances and added to bounds.
   [[nodiscard]] double deviation() const noexcept;
+  /// The smallest scale of a demand, 1 at most: lengths that are lost are so many margins the more.
+  [[nodiscard]] double least_scale() const noexcept;
   std::vector<std::string> notices;
 };
 

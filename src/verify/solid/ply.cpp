@@ -66,12 +66,16 @@ class PlyReader {
       LEKALO_CHECK(read_element(element));
       if (made_.is_open()) return {};
     }
-    for (const auto& corners : faces_) {
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      const auto& corners = faces_[f];
+      if (!body_faces_.empty())
+        made_.begin_group(body_faces_[f] < names_.size() ? names_[body_faces_[f]] : "");
       for (const std::uint32_t corner : corners)
         if (corner >= made_.vertices())
           return bad(
               fmt::format("a face names the vertex {} of {}, numbered from 0", corner, made_.vertices()));
       if (const auto fault = made_.add_triangle(corners)) return bad(*fault);
+      if (!body_faces_.empty()) made_.set_face(body_faces_[f]);
     }
     return {};
   }
@@ -90,16 +94,16 @@ class PlyReader {
   }
 
   Result<void> read_header() {
-    bool has_format = false, by_lekalo_step = false, has_deviation = false;
+    bool has_format = false, has_deviation = false;
     std::size_t comments = 0;
     while (true) {
       const auto line = lines_.next();
       if (!line || lines_.number() > kMostHeaderLines) return bad("the header of this PLY does not end");
       split(*line, words_);
       if (words_.size() > 1 && words_[0] == "comment") {
-        by_lekalo_step = by_lekalo_step || (comments++ == 0 && words_.size() == 3 &&
-                                            words_[1] == "lekalo-step" && words_[2] == "1");
-        if (by_lekalo_step && !has_deviation && words_[1] == "deviation") {
+        by_lekalo_step_ = by_lekalo_step_ || (comments++ == 0 && words_.size() == 3 &&
+                                              words_[1] == "lekalo-step" && words_[2] == "1");
+        if (by_lekalo_step_ && !has_deviation && words_[1] == "deviation") {
           auto number = words_.size() == 3 ? parse_decimal(words_[2]) : std::nullopt;
           if (!number || sgn(number->digits) < 0 || made_.unit() != SolidUnit::millimetre)
             return bad_header();
@@ -130,7 +134,7 @@ class PlyReader {
       }
     }
     if (!has_format) return bad("the header of this PLY does not say its format");
-    if (by_lekalo_step && !has_deviation) return bad("lekalo-step made it, but its header has no deviation");
+    if (by_lekalo_step_ && !has_deviation) return bad("lekalo-step made it, but its header has no deviation");
     return {};
   }
 
@@ -181,6 +185,8 @@ class PlyReader {
   Result<void> read_element(const PlyElement& element) {
     const std::size_t none = element.properties.size();
     const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
+    const std::size_t of_body = is_face && by_lekalo_step_ ? element.find("face") : none,
+                      name = element.name == "body_face" && by_lekalo_step_ ? element.find("name") : none;
     const std::array<std::size_t, 3> xyz{element.find("x"), element.find("y"), element.find("z")};
     std::size_t corners = element.find("vertex_indices");
     if (corners == none) corners = element.find("vertex_index");
@@ -211,9 +217,11 @@ class PlyReader {
         const auto said = next(*property.count);
         const auto count = said ? whole(*said) : std::nullopt;
         if (!count) return bad_row(element, row, "the row ends early, or has a list without a length");
+        if (p == name) names_.emplace_back();
         for (std::uint32_t k = 0; k < *count; ++k) {
           const auto value = next(property.number);
           if (!value) return bad_row(element, row, "a list ends early");
+          if (p == name) names_.back() += static_cast<char>(whole(*value).value_or(0));
           if (!is_face || p != corners || k >= 3) continue;
           const auto corner = whole(*value);
           if (!corner) return bad_row(element, row, "a corner is not the number of a vertex");
@@ -225,6 +233,11 @@ class PlyReader {
       if (text_ && at_ != words_.size())
         return bad_row(element, row, "the row has more numbers than it should");
       if (is_face) LEKALO_CHECK(add_face(element, row, face, face_size));
+      if (of_body < none && !element.properties[of_body].count) {
+        const auto number = whole(values_[of_body]);
+        if (!number) return bad_row(element, row, "its face is not a number from 0");
+        body_faces_.push_back(*number);
+      }
       if (is_vertex) LEKALO_CHECK(add_vertex(element, row, xyz));
       if (made_.is_open()) return {};
     }
@@ -272,6 +285,10 @@ class PlyReader {
   bool text_ = false, big_ = false;
   std::vector<PlyElement> elements_;
   std::vector<std::array<std::uint32_t, 3>> faces_;
+  /// The words of lekalo-step: the face of each, and the names of those faces.
+  bool by_lekalo_step_ = false;
+  std::vector<std::uint32_t> body_faces_;
+  std::vector<std::string> names_;
   std::vector<PlyValue> values_;
   std::vector<std::string_view> words_;
   std::size_t at_ = 0;

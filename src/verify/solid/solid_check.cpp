@@ -64,10 +64,6 @@ class SolidCheck {
       check_scan(*blank);
       LEKALO_CHECK(check_points(*blank));
     }
-    if (d_.demands && sgn(deviation_.digits) != 0) {
-      open_ = true;
-      note("what the faces of a mesh by lekalo-step demand of the body that it stands for was not rechecked");
-    }
     if (part && blank) {
       LEKALO_TRY(const SolidPair pair, SolidPair::make(*part, *blank, d_.pose));
       if (!d_.demands)
@@ -109,6 +105,7 @@ class SolidCheck {
   void check_scan(SolidMesh& blank);
   Result<void> check_points(const SolidMesh& blank);
   Result<void> read_demands(const SolidReading& part);
+  void tell_clearance(Span of_triangles);
   void check_clearance(const SolidPair& pair);
   Result<void> check_margin(const SolidPair& pair, const SolidMesh& part, const SolidMesh& blank);
   void check_datums(const SolidMesh& blank);
@@ -173,11 +170,18 @@ Result<void> SolidCheck::read_demands(const SolidReading& part) {
   }
   LEKALO_TRY(demands_, read_solid_features(*inputs_.features, part, d_.part.unit));
   SolidDemands& is = *demands_;
-  is.minimum = std::max(is.minimum, approximate(d_.min_allowance));
+  if (is.minimum) is.minimum = std::max(*is.minimum, approximate(d_.min_allowance));
   const WrittenSolidDemands& said = *d_.demands;
-  if (approximate(said.minimum) != is.minimum)
-    find("demands.minimum is {}, but {} demands {}", approximate(said.minimum), inputs_.features->name,
-         is.minimum);
+  const auto same = [](const std::optional<Decimal>& written, std::optional<double> value) {
+    return written.has_value() == value.has_value() && (!value || approximate(*written) == *value);
+  };
+  const auto told = [](std::optional<double> minimum) {
+    return minimum ? fmt::format("{}", *minimum) : "nothing";
+  };
+  if (!same(said.minimum, is.minimum))
+    find("demands.minimum is {}, but {} demands {}",
+         told(said.minimum ? std::optional(approximate(*said.minimum)) : std::nullopt),
+         inputs_.features->name, told(is.minimum));
   if (said.datums.size() != is.datums.size()) {
     find("demands.datums has {} datums, but {} has {}", said.datums.size(), inputs_.features->name,
          is.datums.size());
@@ -196,9 +200,6 @@ Result<void> SolidCheck::read_demands(const SolidReading& part) {
   for (std::size_t k = 0; k < is.features.size(); ++k) {
     const SolidFeature& feature = is.features[k];
     const WrittenSolidDemands::Feature& one = said.features[k];
-    const auto same = [](const std::optional<Decimal>& written, std::optional<double> value) {
-      return written.has_value() == value.has_value() && (!value || approximate(*written) == *value);
-    };
     std::optional<double> minimum, scale;
     if (feature.demand) minimum = feature.demand->minimum, scale = feature.demand->scale;
     if (one.name != feature.name || one.triangles != feature.triangles || !same(one.minimum, minimum) ||
@@ -243,7 +244,8 @@ void SolidCheck::check_datums(const SolidMesh& blank) {
 
 /// The demand of triangles of a feature, counted from 1, or of none; nothing of what is as cast.
 std::optional<SolidDemand> SolidCheck::demand_of(std::size_t feature) const {
-  return feature == 0 ? SolidDemand{demands_->minimum, 1} : demands_->features[feature - 1].demand;
+  if (feature > 0) return demands_->features[feature - 1].demand;
+  return demands_->minimum ? std::optional(SolidDemand{*demands_->minimum, 1}) : std::nullopt;
 }
 
 /// Returns null where there is none.
@@ -317,6 +319,16 @@ Result<void> SolidCheck::check_points(const SolidMesh& blank) {
   return {};
 }
 
+/// The clearance of the bodies may differ from that of the triangles by how far they deviate.
+void SolidCheck::tell_clearance(Span of_triangles) {
+  const Span off = enclosed(deviation_);
+  const Span least = sgn(deviation_.digits) == 0
+                         ? of_triangles
+                         : outwards(of_triangles.low - off.high, of_triangles.high + off.high);
+  report_.clearance_low = fmt::format("{}", least.low);
+  report_.clearance_high = fmt::format("{}", least.high);
+}
+
 /// A part that touches the blank's surface is not inside.
 void SolidCheck::check_clearance(const SolidPair& pair) {
   const bool is_number = d_.clearance && sgn(d_.clearance->digits) > 0;
@@ -326,12 +338,7 @@ void SolidCheck::check_clearance(const SolidPair& pair) {
     if (!answer.fault && !answer.open) find("inside is false, but the part lies in the blank");
     return;
   }
-  const Span off = enclosed(deviation_);
-  const Span least = sgn(deviation_.digits) == 0
-                         ? answer.least
-                         : outwards(answer.least.low - off.high, answer.least.high + off.high);
-  report_.clearance_low = fmt::format("{}", least.low);
-  report_.clearance_high = fmt::format("{}", least.high);
+  tell_clearance(answer.least);
   if (answer.fault) find("{}", *answer.fault);
   if (answer.open) find("inside is true, but the part touches the blank's surface");
 }
@@ -361,7 +368,8 @@ Result<void> SolidCheck::check_margin(const SolidPair& pair, const SolidMesh& pa
   std::vector<std::vector<std::uint32_t>> of_feature(demands_->features.size() + 1);
   for (std::uint32_t t = 0; t < part.triangles.size(); ++t)
     of_feature[demands_->feature_of[part.numbers[t]]].push_back(t);
-  const Fraction clearance = d_.clearance ? to_fraction(*d_.clearance) : Fraction(0);
+  const Fraction clearance = d_.clearance ? to_fraction(*d_.clearance) : Fraction(0),
+                 deviation = to_fraction(deviation_);
   std::optional<std::string> fault = pair.swallowed();
   Span least{kInfinity, kInfinity};
   bool any = false;
@@ -375,6 +383,8 @@ Result<void> SolidCheck::check_margin(const SolidPair& pair, const SolidMesh& pa
       needed.exact =
           std::max(needed.exact, Fraction(Fraction(demand->minimum) + Fraction(demand->scale) * margin));
     }
+    // It is demanded of the bodies, and looked for at the triangles.
+    needed.exact += deviation;
     needed.near = enclosed(needed.exact);
     const SolidMesh surface = part_of(part, of_feature[k]);
     LEKALO_TRY(const SolidPair of_surface, SolidPair::make(surface, blank, d_.pose));
@@ -393,8 +403,7 @@ Result<void> SolidCheck::check_margin(const SolidPair& pair, const SolidMesh& pa
       find("inside is false, but all of the part that is not as cast lies in the blank");
     return {};
   }
-  report_.clearance_low = fmt::format("{}", least.low);
-  report_.clearance_high = fmt::format("{}", least.high);
+  tell_clearance(least);
   if (fault) find("{}", *fault);
   return {};
 }
@@ -404,7 +413,8 @@ PartBounds SolidCheck::bounds_of(const SolidMesh& part) const {
   const Fraction bound = to_fraction(*d_.demands->bound);
   for (std::size_t k = 0; k <= demands_->features.size(); ++k) {
     const SolidDemand demand = demand_of(k).value_or(SolidDemand{});
-    Both one{Fraction(demand.minimum) + Fraction(demand.scale) * bound};
+    // If the bodies have more than that, the triangles do but for what they deviate.
+    Both one{Fraction(demand.minimum) + Fraction(demand.scale) * bound - to_fraction(deviation_)};
     one.near = enclosed(one.exact);
     made.bounds.push_back(std::move(one));
   }
@@ -439,8 +449,8 @@ void SolidCheck::check_contacts(const SolidPair& pair, const SolidMesh& part, co
 Result<void> SolidCheck::check_certificate(Json certificate, const SolidMesh& part, const SolidMesh& blank) {
   PartBounds bounds;
   if (demands_) bounds = bounds_of(part);
-  // It is about the triangles.
-  const Decimal of_meshes = *bound() - deviation_;
+  // It is about the triangles; with demands their bounds are.
+  const Decimal of_meshes = demands_ ? *bound() : *bound() - deviation_;
   const std::vector<SolidDatum> none;
   SolidCertificate proof(part, blank, d_.window, of_meshes, demands_ ? &bounds : nullptr,
                          demands_ ? demands_->datums : none, report_.findings);

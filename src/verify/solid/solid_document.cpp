@@ -68,6 +68,7 @@ class Reader {
     read_demands();
     read_scan();
     read_proof();
+    refuse_no_object("offset");
     if (const Json nc = fields_.get("nc"); !nc.is_null()) d_.nc = read_written_nc(nc, complaint_);
     return std::move(d_);
   }
@@ -156,7 +157,8 @@ class Reader {
     if (written.is_null() || !complaint_.empty()) return;
     Fields fields(written, "demands", complaint_);
     WrittenSolidDemands& demands = d_.demands.emplace();
-    demands.minimum = length(fields, "minimum");
+    fields.require({"minimum"});
+    demands.minimum = fields.number_or_null("minimum");
     fields.each("features", [&](Json item, const std::string& path) {
       Fields of(item, path, complaint_);
       of.require({"minimum", "scale"});
@@ -171,7 +173,7 @@ class Reader {
     demands.margin = fields.number_or_null("margin");
     demands.bound = fields.number_or_null("margin_bound");
     demands.gap = fields.number_or_null("margin_gap");
-    for (const auto& value : {demands.margin, demands.bound, demands.gap})
+    for (const auto& value : {demands.minimum, demands.margin, demands.bound, demands.gap})
       if (value && is_beyond_all_sizes(*value)) fields.complain("a margin is beyond all sizes");
   }
 
@@ -210,10 +212,15 @@ class Reader {
     if (sentences == 0) fields.complain("scan.assumptions is without a sentence");
   }
 
+  void refuse_no_object(std::string_view key) {
+    const Json value = fields_.get(key);
+    if (!value.is_null() && !value.is_object())
+      fields_.complain(fmt::format("field {} is neither an object nor null", key));
+  }
+
   void read_proof() {
     d_.certificate = fields_.get("certificate");
-    if (!d_.certificate.is_null() && !d_.certificate.is_object())
-      fields_.complain("field certificate is neither an object nor null");
+    refuse_no_object("certificate");
     const Json file = fields_.get("certificate_file");
     if (file.is_null()) return;
     d_.boxes_in_file = Fields(file, "certificate_file", complaint_).index("boxes");

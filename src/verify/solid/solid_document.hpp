@@ -70,7 +70,7 @@ struct WrittenSolidDemands {
     std::string name;
     Decimal within, off;
   };
-  Decimal minimum;
+  std::optional<Decimal> minimum;
   std::vector<Feature> features;
   std::vector<Datum> datums;
   std::optional<Decimal> margin, bound, gap;

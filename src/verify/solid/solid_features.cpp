@@ -21,7 +21,7 @@
 namespace lekalo::verify {
 namespace {
 
-constexpr std::array<std::string_view, 5> kWays{"triangles", "label", "patch", "box", "plane"};
+constexpr std::array<std::string_view, 6> kWays{"triangles", "label", "faces", "patch", "box", "plane"};
 
 /// Says whether a number is at most 0: an enclosure tells it nearly always.
 template <class Exact>
@@ -50,6 +50,10 @@ class TriangleFinder {
       return group != part_.groups.end() &&
              part_.group_of[t] == static_cast<std::uint32_t>(group - part_.groups.begin());
     });
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> of_face(std::size_t face) const {
+    return all([&](std::uint32_t t) { return !part_.face_of.empty() && part_.face_of[t] == face; });
   }
 
   [[nodiscard]] std::vector<std::uint32_t> in_box(const Both3& low, const Both3& high) const {
@@ -201,7 +205,7 @@ class FeatureReader {
     SolidDemands demands;
     demands.feature_of.assign(finder_.count(), 0);
     Fields file(root, "", complaint_);
-    refuse_other_words(file, {"units", "minimum", "features", "datums"});
+    refuse_other_words(file, {"units", "minimum", "as_cast", "features", "datums"});
     if (has(file, "units")) {
       constexpr std::array<std::string_view, 3> kWords{"mm", "inch", "m"};
       const auto unit = std::ranges::find(kWords, file.text("units"));
@@ -211,6 +215,7 @@ class FeatureReader {
         unit_ = static_cast<SolidUnit>(unit - kWords.begin());
     }
     demands.minimum = length(file, "minimum");
+    if (is_as_cast(file, {"minimum"})) demands.minimum.reset();
     if (has(file, "features"))
       file.each("features", [&](Json item, const std::string& path) {
         if (complaint_.empty()) add(item, path, demands);
@@ -235,8 +240,8 @@ class FeatureReader {
 
   void add(Json item, const std::string& path, SolidDemands& demands) {
     Fields fields(item, path, complaint_);
-    refuse_other_words(
-        fields, {"name", "triangles", "label", "patch", "box", "plane", "minimum", "scale", "as_cast"});
+    refuse_other_words(fields, {"name", "triangles", "label", "faces", "patch", "box", "plane", "minimum",
+                                "scale", "as_cast"});
     SolidFeature feature{fields.text("name"), demand(fields), 0};
     std::vector<std::uint32_t> triangles = triangles_of(fields);
     if (!complaint_.empty()) return;
@@ -305,18 +310,21 @@ class FeatureReader {
     datum.through = point(of.get("through"), of.name("through"));
   }
 
+  /// Says whether there is no demand, and complains of those that are there all the same.
+  bool is_as_cast(Fields& fields, std::initializer_list<const char*> demands) {
+    if (!has(fields, "as_cast")) return false;
+    const Json as_cast = fields.get("as_cast");
+    if (!as_cast.is_bool())
+      fields.complain(fmt::format("field {} is neither true nor false", fields.name("as_cast")));
+    if (!as_cast.is_true()) return false;
+    for (const char* one : demands)
+      if (has(fields, one))
+        fields.complain(fmt::format("field {} is a demand on what is as cast", fields.name(one)));
+    return true;
+  }
+
   std::optional<SolidDemand> demand(Fields& fields) {
-    if (has(fields, "as_cast")) {
-      const Json as_cast = fields.get("as_cast");
-      if (!as_cast.is_bool())
-        fields.complain(fmt::format("field {} is neither true nor false", fields.name("as_cast")));
-      if (as_cast.is_true()) {
-        for (const char* other : {"minimum", "scale"})
-          if (has(fields, other))
-            fields.complain(fmt::format("field {} is a demand on what is as cast", fields.name(other)));
-        return std::nullopt;
-      }
-    }
+    if (is_as_cast(fields, {"minimum", "scale"})) return std::nullopt;
     SolidDemand made{length(fields, "minimum"), 1};
     if (has(fields, "scale")) made.scale = approximate(fields.number("scale"));
     if (!(made.scale > 0 && made.scale <= std::numeric_limits<double>::max()))
@@ -334,6 +342,7 @@ class FeatureReader {
     if (way.empty()) fields.complain(fields.name("name") + " is of a feature that says of no triangle");
     if (!complaint_.empty()) return {};
     if (way == "triangles") return numbered(fields);
+    if (way == "faces") return of_faces(fields);
     if (way == "label") return finder_.labelled(fields.text("label"));
     if (way == "patch") {
       const Both3 place = point(fields.get("patch"), fields.name("patch"));
@@ -350,6 +359,16 @@ class FeatureReader {
         fields.complain(
             fmt::format("field {} is {}, but the part has {} triangles", path, number, finder_.count()));
       found.push_back(static_cast<std::uint32_t>(number));
+    });
+    return found;
+  }
+
+  std::vector<std::uint32_t> of_faces(Fields& fields) {
+    std::vector<std::uint32_t> found;
+    fields.each("faces", [&](Json item, const std::string& path) {
+      const std::vector<std::uint32_t> of_one = finder_.of_face(fields.index_of(item, path));
+      if (of_one.empty()) fields.complain(fmt::format("field {} is the number of no face of the part", path));
+      found.insert(found.end(), of_one.begin(), of_one.end());
     });
     return found;
   }

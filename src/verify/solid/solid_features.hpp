@@ -23,7 +23,8 @@ struct SolidFeature {
 };
 
 struct SolidDemands {
-  double minimum = 0;  ///< of triangles of no feature, mm
+  /// That of triangles of no feature, mm; none where they are as cast.
+  std::optional<double> minimum = 0;
   std::vector<SolidFeature> features;
   /// The feature of each triangle of the part's file, counted from 1, or 0.
   std::vector<std::uint32_t> feature_of;

@@ -55,6 +55,8 @@ struct SolidReading {
   std::vector<std::uint32_t> group_of;
   /// A mesh by lekalo-step says how far the body may be from the triangles at most, mm.
   std::optional<Decimal> deviation;
+  /// The faces of its STEP file, of each triangle; else empty.
+  std::vector<std::uint32_t> face_of;
   /// Says what is not read here, and so not rechecked; the mesh is of no use then.
   std::optional<std::string> open;
 };

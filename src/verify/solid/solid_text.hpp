@@ -27,6 +27,8 @@ class SolidMaker {
   [[nodiscard]] std::optional<std::string> add_triangle(const std::array<std::uint32_t, 3>& corners);
   /// The triangles that follow have this name.
   void begin_group(std::string_view name);
+  /// The last triangle is of a face of a STEP file.
+  void set_face(std::uint32_t face) { reading_.face_of.push_back(face); }
   void set_deviation(Decimal millimetres) { reading_.deviation = std::move(millimetres); }
   [[nodiscard]] SolidUnit unit() const { return unit_; }
   /// Gives the file up: it is not read any further.

@@ -24,6 +24,10 @@ struct SolidFeatureSpec {
   struct Label {
     std::string name;
   };
+  /// Those of faces of the STEP file that lekalo-step made the part of.
+  struct Faces {
+    std::vector<std::uint32_t> faces;
+  };
   /// Those about the triangle that is nearest to a point, up to edges where the surface bends.
   struct Patch {
     solid::Vector point;
@@ -37,7 +41,7 @@ struct SolidFeatureSpec {
     double at = 0, within = 0;
   };
   std::string name;
-  std::variant<Numbers, Label, Patch, Box, Plane> which;
+  std::variant<Numbers, Label, Faces, Patch, Box, Plane> which;
   std::optional<locate::SolidDemand> demand;  ///< none: as cast
 };
 
@@ -55,18 +59,19 @@ inline constexpr std::size_t kMostSolidFeatures = 1000, kMostDatums = 100, kMost
 struct SolidFeatureFile {
   std::string name;
   std::vector<SolidFeatureSpec> features;
-  /// The minimum of all other triangles, mm.
+  /// The minimum of all other triangles, mm; or they are as cast.
   std::optional<double> minimum;
+  bool as_cast = false;
   std::vector<SolidDatumSpec> datums;
 };
 
-/// `{"units", "minimum", "features": [{"name", "triangles" | "label" | "patch" | "box" | "plane", "minimum",
-/// "scale", "as_cast"}, ...], "datums": [{"name", "feature" | "points", "plane" | "axis" | "point",
-/// "within"},
+/// `{"units", "minimum", "as_cast", "features": [{"name", "triangles" | "label" | "faces" | "patch" | "box" |
+/// "plane", "minimum", "scale", "as_cast"}, ...], "datums": [{"name", "feature" | "points", "plane" | "axis"
+/// | "point", "within"},
 /// ...]}`. `unit` applies where the file does not say.
 ///
 /// Fails with ErrorCode::bad_input, naming file and feature or datum: words it does not know, numbers out of
-/// range, a feature without exactly one of the five, a demand on what is as cast.
+/// range, a feature without exactly one of the six, a demand on what is as cast.
 [[nodiscard]] Result<SolidFeatureFile> parse_solid_features(std::string_view bytes, const std::string& name,
                                                             std::optional<SolidUnit> unit);
 

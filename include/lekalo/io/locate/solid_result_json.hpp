@@ -57,7 +57,8 @@ struct SolidDatumRecord {
 
 /// The demands of triangles, and how well they are met.
 struct SolidDemandRecord {
-  double minimum = 0;  ///< of triangles of no feature, mm
+  /// That of triangles of no feature, mm; none where they are as cast.
+  std::optional<double> minimum = 0;
   std::vector<SolidFeature> features;
   std::vector<SolidDatumRecord> datums;
   /// The least of (allowance - minimum) / scale, mm; none where the part is not inside.

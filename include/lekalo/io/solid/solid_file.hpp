@@ -43,6 +43,8 @@ struct SolidFile {
   /// A mesh by lekalo-step has one: no point of a triangle is farther from the body that it stands for, and
   /// back, mm.
   std::optional<double> deviation;
+  /// The number of each triangle's face in the STEP file, of a mesh by lekalo-step; else empty.
+  std::vector<std::uint32_t> face_of_triangle;
   std::vector<std::string> notices;
 };
 

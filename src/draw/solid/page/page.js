@@ -262,7 +262,8 @@ void main() {
     vec3 base = colour;
     if (kind == 0) {
       base = palette[int(clamp(value * 64.0, 0.0, 63.0))];
-      if (value < -0.00004) base = stripe(12.0) ? vec3(0.55, 0.0, 0.07) : vec3(0.816, 0.0, 0.106);
+      if (value < -0.99) base = colour; // as cast
+      else if (value < -0.00004) base = stripe(12.0) ? vec3(0.55, 0.0, 0.07) : vec3(0.816, 0.0, 0.106);
     }
     result = vec4(lit(base, n), 1);
   } else if (kind == 5) result = vec4(opacity < 1.0 && stripe(11.0) ? colour * 0.8 : colour, 1);
