@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -22,9 +23,12 @@ struct Claim {
   std::size_t work_offset = 1;
   const char *x = "10", *y = "20", *rounding = "0.001";
   words::Control control = words::Control::linuxcnc;
+  const char* z = nullptr;  ///< of a solid, which is not turned
 };
 
 std::string said(const Claim& claim) {
+  std::optional<ProgramClaim::Solid> solid;
+  if (claim.z != nullptr) solid = {*parse_decimal(claim.z), {Decimal{1, 0}, Decimal{}}};
   const ProgramVerdict verdict = check_moved_program({{"p.nc", claim.original},
                                                       {"out.nc", claim.written},
                                                       *parse_decimal(claim.x),
@@ -34,7 +38,8 @@ std::string said(const Claim& claim) {
                                                       claim.mode,
                                                       claim.work_offset,
                                                       claim.control,
-                                                      {}});
+                                                      {},
+                                                      solid});
   return verdict.fault ? *verdict.fault : verdict.open ? "open: " + *verdict.open : "confirmed";
 }
 std::string replaced(std::string text, std::string_view what, std::string_view with) {
@@ -110,6 +115,67 @@ TEST(VerifyMovedLines, NoMotionIsMoreOrLess) {
             "confirmed");
   EXPECT_EQ(said({"", "G0 X1 Y1 Z1\n"}), "its line 1 does something that the original does not");
   EXPECT_EQ(said({"", ""}), "confirmed");
+}
+
+/// The same of a solid, 30 mm higher.
+std::string raised(const std::string& original, const std::string& written, const char* z = "30",
+                   const char* mode = "coordinates") {
+  return said({.original = original, .written = written, .mode = mode, .z = z});
+}
+
+TEST(VerifyMovedLines, HeightsOfASolidAreThoseOfTheOriginalRaised) {
+  const std::string begin = "G0 X0 Y0 Z5\n", moved = "G0 X10 Y20 Z35\n", drill = "G98 G81 X5 Y0 Z-1 R2\n",
+                    drilled = "G98 G81 X15 Y20 Z29 R32\n";
+  EXPECT_EQ(raised(begin + drill, moved + drilled), "confirmed");
+  EXPECT_EQ(raised(begin + drill, moved + replaced(drilled, "R32", "R32.0005")), "confirmed");
+  EXPECT_EQ(raised(begin + drill, moved + replaced(drilled, "R32", "R32.002")),
+            "its motion in line 2 is 0.002 mm off the original's, moved");
+  // A point on the way home is a height, a place of the machine is none.
+  EXPECT_EQ(raised(begin + "G28 Z5\n", moved + "G28 Z35\n"), "confirmed");
+  EXPECT_EQ(raised(begin + "G53 G0 Z5\n", moved + "G53 G0 Z5\n"), "confirmed");
+  // Nor are the depth of a peck, the angle of a spindle, and the R of no cycle.
+  EXPECT_EQ(raised(begin + "G98 G83 X5 Y0 Z-1 R2 Q1\n", moved + "G98 G83 X15 Y20 Z29 R32 Q1\n"), "confirmed");
+  EXPECT_EQ(raised(begin + drill + "M19 R90\n", moved + drilled + "M19 R90\n"), "confirmed");
+  EXPECT_EQ(raised(begin + "X1 M19 R90\n", moved + "X11 M19 R90\n"), "confirmed");
+  EXPECT_EQ(raised(begin + drill + "G28 Z5 R3\n", moved + drilled + "G28 Z35 R3\n"), "confirmed");
+}
+
+/// Without a solid, or in a frame, the words of heights are the same.
+TEST(VerifyMovedLines, HeightsAreWordsWhereNothingMovesThem) {
+  const std::string begin = "G0 X0 Y0 Z5\n", moved = "G0 X10 Y20 Z5\n", drill = "G98 G81 X5 Y0 Z-1 R2\n",
+                    drilled = "G98 G81 X15 Y20 Z-1 R2\n";
+  EXPECT_EQ(said({begin + drill, moved + drilled}), "confirmed");
+  EXPECT_EQ(said({begin + drill, moved + replaced(drilled, "Z-1", "Z-1.0005")}).find("its line 2 says"), 0U);
+  const std::string frame = "G21 G90\nG10 L2 P1 X10 Y20 Z30 R0\nG54\n", same = "G21 G90\nG54\n" + begin;
+  EXPECT_EQ(raised(same + drill, frame + begin + drill, "30", "offset"), "confirmed");
+  EXPECT_EQ(raised(same + drill, frame + begin + replaced(drill, "Z-1", "Z-1.0005"), "30", "offset")
+                .find("its line 5 says"),
+            0U);
+}
+
+TEST(VerifyMovedLines, AHeightIsSaidWhereTheOriginalSaysIt) {
+  const std::string begin = "G0 X0 Y0\n", moved = "G0 X10 Y20\n";
+  EXPECT_EQ(raised(begin + "X1 Z5\n", moved + "X11 Z0\n", "-5"), "confirmed");
+  EXPECT_EQ(raised(begin + "X1 Z5\n", moved + "X11\n", "-5"),
+            "its motion in line 2 is another than the original's");
+  EXPECT_EQ(raised(begin + "X1\n", moved + "X11 Z0\n", "-5"),
+            "its motion in line 2 is another than the original's");
+  EXPECT_EQ(raised(begin + "G1 X1 F90\n", moved + "G1 X11 F90\n"),
+            "its motion in line 2 is another than the original's");
+  EXPECT_EQ(raised(begin + "G91 G0 X1 Z5\n", moved + "G91 G0 X1 Z5\n"), "confirmed");
+  EXPECT_EQ(raised(begin + "G91 G0 X1 Z5\n", moved + "G91 G0 X1 Z6\n").find("its line 2 says"), 0U);
+}
+
+/// A cycle may not carry numbers of G90 into G91.
+TEST(VerifyMovedLines, ACycleOfASolidSaysBothHeightsAfterAnotherDistanceMode) {
+  const std::string drill = "G0 X0 Y0 Z5\nG98 G81 X5 Y0 Z-1 R2\n",
+                    drilled = "G0 X10 Y20 Z35\nG98 G81 X15 Y20 Z29 R32\n";
+  const auto then = [&](const std::string& line) { return raised(drill + line, drilled + line); };
+  EXPECT_EQ(then("G91 X1 Z-3 R1\nX1\n"), "confirmed");
+  for (const char* line : {"G91 X1\n", "G91 X1 Z-3\n", "G91 X1 R1\n", "G91 X1 Z-3 R1\nG90 X30 Y40\n"})
+    EXPECT_EQ(then(line).find("open: "), 0U) << line << then(line);
+  const std::string flat = "G0 X10 Y20 Z5\nG98 G81 X15 Y20 Z-1 R2\nG91 X1\n";
+  EXPECT_EQ(said({drill + "G91 X1\n", flat}), "confirmed");
 }
 
 TEST(VerifyMovedLines, WhatIsNotUnderstoodStaysOpen) {

@@ -53,6 +53,14 @@ TEST(SolidPoints, TheCornersOfTheMeshAreMeasured) {
       << missing;
 }
 
+TEST(SolidPoints, ACornerMayBeOffByAShareOfTheLargestCoordinate) {
+  const auto off_by = [](const char* z) {
+    return told([&](SolidResultFiles& files) { files.points->replace(files.points->rfind("6\n"), 1, z); });
+  };
+  EXPECT_EQ(off_by("6.00000000000005"), "unproved");
+  EXPECT_TRUE(says(off_by("6.000000000001"), "is none of the points"));
+}
+
 TEST(SolidPoints, CornersOfTheUndersideAreStated) {
   const auto with_underside = [](double flat) {
     return told([&](SolidResultFiles& files) {
@@ -70,6 +78,7 @@ TEST(SolidPoints, NoneLiesInTheMaterial) {
   // Air within 0.3 of a triangle, and a point that is off by 0.1, are nothing new.
   EXPECT_EQ(with("0 0 5.61\n", 1), "unproved");
   EXPECT_EQ(with("0 0 7\n", 1), "unproved");
+  EXPECT_EQ(with("5.61 0 0\n0 5.61 0\n", 2), "unproved");
   const std::string inside = with("0 0 5.59\n", 1);
   EXPECT_TRUE(says(inside, "refuted; point (0, 0, 5.59) lies deeper in what counts as material")) << inside;
 }

@@ -404,9 +404,9 @@ class ProgramReader {
   void visit(const NcBlock& block, double repeats) {
     z_was_said_ = known_[2];
     const bool both = block['Z'] && block['R'];
-    if (heights_apart_ && !both && cycle_incremental_ != incremental_)
+    if (both) cycle_incremental_ = incremental_;
+    if (heights_apart_ && cycle_incremental_ != incremental_)
       return void(complain("a canned cycle that goes on under another of G90 and G91 without its Z and R"));
-    if (block['Z'] || block['R']) cycle_incremental_ = incremental_;
     // No hole is a place all the same, which the words must say alike.
     for (double k = 0; k < std::max(1.0, repeats); ++k) {
       if (!go_along_xy(block)) return;

@@ -218,7 +218,8 @@ class TreeCheck {
       holds = (term.blank_ball = tables_.blank_ball(of_blank)) != nullptr && holds;
     if (kind == LeafTerm::Kind::plane || kind == LeafTerm::Kind::point_plane)
       holds = (term.plane = tables_.plane(of_blank)) != nullptr && holds;
-    if (!holds || !demands_something(term, triangle)) return;
+    if (!holds) return;
+    set_bound(term, triangle);
     terms_.push_back(std::move(term));
   }
 
@@ -241,29 +242,23 @@ class TreeCheck {
   }
 
   /// Gives the term the bound of what its side of the part demands; a finding where that is nothing.
-  bool demands_something(LeafTerm& term, std::uint32_t triangle) {
-    if (bounds_ == nullptr) return true;
+  void set_bound(LeafTerm& term, std::uint32_t triangle) {
+    if (bounds_ == nullptr) return;
     std::uint32_t place = bounds_->least.value_or(PartBounds::kAsCast);
     if (!is_of_part_ball(term.kind)) place = bounds_->of[triangle];
-    if (place != PartBounds::kAsCast) {
+    if (place != PartBounds::kAsCast)
       term.bound = &bounds_->bounds[place];
-      return true;
-    }
-    if (is_of_part_ball(term.kind))
+    else if (is_of_part_ball(term.kind))
       findings_.push_back(fmt::format("{} has a part ball, but something of the part is as cast", name()));
     else
       findings_.push_back(fmt::format("{} has a term of the part's triangle {}, which is as cast", name(),
                                       frame_.part.numbers[triangle]));
-    return false;
   }
 
   /// Reads a whole number below a count.
   static std::optional<std::size_t> index(Json value, std::size_t count) {
     const auto number = value.is_number() ? parse_decimal(value.text) : std::nullopt;
-    if (!number || number->exponent < 0 || sgn(number->digits) < 0 ||
-        compare(*number, Decimal{Integer(static_cast<unsigned long>(count)), 0}) >= 0)
-      return std::nullopt;
-    return static_cast<std::size_t>(to_long(in_units(*number, 0)));
+    return number ? index_below(*number, count) : std::nullopt;
   }
   static std::optional<std::size_t> triangle_of(Json value, const SolidMesh& mesh) {
     const auto number = index(value, limits::kMostSolidItems);

@@ -12,13 +12,10 @@ namespace {
 
 enum class Answer : std::uint8_t { no, open, yes };
 
-Answer at_most_zero(Span value) {
-  return value.high <= 0 ? Answer::yes : (sure_sign(value) > 0 ? Answer::no : Answer::open);
-}
+/// The sign of an enclosure tells, where it is sure.
+Answer at_most_zero(Span value) { return static_cast<Answer>(1 - sure_sign(value)); }
 Answer at_most_zero(const Fraction& value) { return sgn(value) <= 0 ? Answer::yes : Answer::no; }
-Answer below_zero(Span value) {
-  return value.high < 0 ? Answer::yes : (value.low >= 0 ? Answer::no : Answer::open);
-}
+Answer below_zero(Span value) { return at_most_zero(value); }
 Answer below_zero(const Fraction& value) { return sgn(value) < 0 ? Answer::yes : Answer::no; }
 
 // ---- the arithmetic of spans and of fractions -------------------------------------------------------------
@@ -66,7 +63,7 @@ struct Form {
   Number turn{}, level{}, bend{};
   Of3<Number> slope{};
   std::optional<Of3<Number>> around = {};
-  Number weight{};
+  Number weight = number<Number>(1);
 };
 
 /// A polynomial of degree 2 in x; mixed[k] belongs to the product of the other two.
@@ -268,7 +265,7 @@ class LeafProof {
     const Number bound = as<Number>(bound_of(term));
     const Ball& a = *term.part_ball;
     const Point n = as<Number>(term.plane->normal);
-    const bool sticks_out = sgn(Fraction(a.radius.exact + bound_of(term).exact)) < 0;
+    const bool sticks_out = sgn(Fraction(a.radius.exact + bound_of(term).exact)) == -1;
     const Number inverse = inverse_length(n, sticks_out);
     Form<Number> form{turned(as<Number>(a.centre) - pivot_), n * inverse};
     form.slope = form.from;
@@ -299,7 +296,7 @@ class LeafProof {
     /// Holds the ball's centre against a half-space.
     const auto form_of = [&](const Point& normal, const Number& level) {
       Form<Number> form{p, normal};
-      form.slope = normal, form.level = level, form.weight = number<Number>(1);
+      form.slope = normal, form.level = level;
       return form;
     };
     const Number foot = dot(n, face.at.front()), radius = as<Number>(a.radius),
@@ -326,7 +323,7 @@ class LeafProof {
     /// (R turn n) . (c - t).
     const auto form_of = [&](const Point& normal, const Number& level) {
       Form<Number> form{turned(normal), as<Number>(c.centre)};
-      form.turn = number<Number>(-1), form.level = level, form.weight = number<Number>(1);
+      form.turn = number<Number>(-1), form.level = level;
       return form;
     };
     const Number foot = dot(n, face.at[0] - pivot_), radius = as<Number>(c.radius);
@@ -347,32 +344,30 @@ class LeafProof {
       const auto [near_a, near_b] = edge_of<Span>(frame_.part, term.part);
       const auto [near_q, near_r] = edge_of<Span>(frame_.blank, term.blank);
       n = cross(middle_.turned(near_b - near_a), near(near_r - near_q));
-      if (dot(n, middle_.place(near_a) - near(near_q)) < 0) std::swap(q, r), n = n * -1.0;
+      if (std::signbit(dot(n, middle_.place(near_a) - near(near_q)))) std::swap(q, r), n = n * -1.0;
     }
     const double angle = std::sqrt(squared_length(n));
     if (!(angle > kLeastAngle)) return add_nothing(forms);
     const Point p = turned(a - pivot_), d = turned(b - a), g = r - q, u = point(n * ((1 - kShorter) / angle)),
                 beside = cross(g, u);
-    /// (R d x along) . (T a - from), with the weight.
-    const auto passing = [&](const Point& from, const Point& along, double weight) {
+    /// (R d x along) . (T a - from).
+    const auto passing = [&](const Point& from, const Point& along) {
       std::vector<Form<Number>> made{{cross(p, d), along}, {d, cross(from, along)}};
       made[1].around = along;
-      for (Form<Number>& form : made) form.weight = number<Number>(weight);
       return made;
     };
-    const Number foot = dot(beside, q);
-    /// The half-space beside the blank's edge, for an end of the part's.
-    const auto over = [&](const Point& end, double weight) {
-      Form<Number> form{end, beside};
-      form.slope = beside, form.level = number<Number>(0) - foot, form.weight = number<Number>(weight);
+    /// The half-space to a side of the blank's edge, for an end of the part's.
+    const auto over = [&](const Point& end, const Point& side) {
+      Form<Number> form{end, side};
+      form.slope = side, form.level = dot(negative(side), q);
       return std::vector<Form<Number>>{form};
     };
     const Number width = number<Number>(frame_.blank.width(term.blank / 3).low);
-    for (Form<Number>& form : passing(q + u * Number(width + bound), g * number<Number>(1 / angle), 1))
+    for (Form<Number>& form : passing(q + u * Number(width + bound), g * number<Number>(1 / angle)))
       forms.push_back(std::move(form));
     Answer all = not_below_zero(bound);
-    for (const auto& condition :
-         {passing(q, g, -1), passing(q, u, 1), passing(r, u, -1), over(p, 1), over(turned(b - pivot_), -1)})
+    for (const auto& condition : {passing(q, negative(g)), passing(q, u), passing(r, negative(u)),
+                                  over(p, beside), over(turned(b - pivot_), negative(beside))})
       all = std::min(all, cell_.everywhere_negative(condition));
     return all;
   }

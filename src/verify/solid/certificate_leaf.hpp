@@ -36,7 +36,7 @@ struct LeafTerm {
   const HalfSpace* plane = nullptr;
   /// The number of a triangle or an edge of either mesh. Edge 3 f + k leads from corner k of triangle f to
   /// its next one.
-  std::uint32_t part = 0, blank = 0;
+  std::uint32_t part{}, blank{};
   Both multiplier;
   /// The bound in place of the leaf's, where the part's triangle has a demand of its own.
   const Both* bound = nullptr;

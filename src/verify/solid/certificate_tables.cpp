@@ -122,20 +122,13 @@ Thing row_of(Json written) {
   return {{both(x), both(y), both(z)}, both(last)};
 }
 
-/// Returns a whole number from 0 that may number something of a mesh.
-std::optional<std::size_t> whole(const Decimal& number) {
-  if (number.exponent < 0 || sgn(number.digits) < 0 ||
-      !(approximate(number) < 3 * static_cast<double>(limits::kMostSolidItems)))
-    return std::nullopt;
-  return static_cast<std::size_t>(approximate(number));
-}
-
 std::optional<std::string> fault_of_datum_point(const std::vector<SolidDatum>& datums, Json written,
                                                 DatumPoint& point) {
   std::string none;
   const auto numbers = *numbers_of<2>(written, none, [] { return std::string(); });
-  const auto d = whole(numbers[0]), k = whole(numbers[1]);
-  if (!d || *d >= datums.size()) return "its datum is none";
+  const auto d = index_below(numbers[0], datums.size()),
+             k = index_below(numbers[1], 3 * limits::kMostSolidItems);
+  if (!d) return "its datum is none";
   const SolidDatum& datum = datums[*d];
   if (!k) return "its point is none of the datum";
   std::size_t place = *k;
@@ -152,7 +145,7 @@ std::optional<std::string> fault_of_datum_point(const std::vector<SolidDatum>& d
 std::optional<std::string> fault_of_point(const SolidMesh& part, Json written, PartPoint& point) {
   std::string none;
   const auto [f, u, v] = *numbers_of<3>(written, none, [] { return std::string(); });
-  const auto number = whole(f);
+  const auto number = index_below(f, limits::kMostSolidItems);
   const auto triangle = number ? part.triangle_of_file(*number) : std::nullopt;
   if (!triangle) return "its triangle is none of the part";
   const Fraction along = to_fraction(u), across = to_fraction(v);
@@ -170,6 +163,13 @@ std::optional<std::string> fault_of_point(const SolidMesh& part, Json written, P
 }
 
 }  // namespace
+
+std::optional<std::size_t> index_below(const Decimal& number, std::size_t count) {
+  if (number.exponent < 0 || sgn(number.digits) < 0 ||
+      compare(number, Decimal{Integer(static_cast<unsigned long>(count)), 0}) >= 0)
+    return std::nullopt;
+  return static_cast<std::size_t>(to_long(in_units(number, 0)));
+}
 
 CertificateTables::CertificateTables(Json certificate, const SolidMesh& part, const SolidMesh& blank,
                                      const std::vector<SolidDatum>& datums,

@@ -20,7 +20,7 @@ struct Ball {
 /// A point of a triangle of the part, as a ball of radius 0.
 struct PartPoint {
   Ball ball;
-  std::uint32_t triangle = 0;
+  std::uint32_t triangle{};
 };
 /// A point of a datum.
 struct DatumPoint {
@@ -86,5 +86,8 @@ class CertificateTables {
   std::vector<Row<DatumPoint>> datum_points_;
   std::vector<Row<Both3>> directions_;
 };
+
+/// Returns a whole number from 0 to below a count, or nothing where it is none.
+[[nodiscard]] std::optional<std::size_t> index_below(const Decimal& number, std::size_t count);
 
 }  // namespace lekalo::verify

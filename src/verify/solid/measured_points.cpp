@@ -49,19 +49,21 @@ class Cells {
     return std::round(coordinate / side_ + aside);
   }
 
-  double side_ = 0;
+  double side_{};
   Points cells_;
 };
 
 /// Says which corner of the mesh nobody measured.
 std::optional<std::string> unmeasured(const Points& points, const SolidMesh& blank,
                                       const WrittenSolidScan& scan) {
-  const double level = scan.underside ? approximate(scan.underside->z) : 0,
-               flat = scan.underside ? approximate(scan.underside->flat) : -1;
+  const auto is_stated = [&](double z) {
+    return scan.underside &&
+           std::abs(z - approximate(scan.underside->z)) <= approximate(scan.underside->flat);
+  };
   const Cells cells(points);
   for (const auto& p : blank.near) {
     ask();
-    if (std::abs(p[2] - level) <= flat || cells.has(p)) continue;
+    if (is_stated(p[2]) || cells.has(p)) continue;
     return fmt::format("the corner {} of the blank's mesh is none of the points", place(p));
   }
   return std::nullopt;
@@ -72,12 +74,11 @@ bool contradicts(const std::array<double, 3>& point, const PlacedSolid& blank, d
   const Vec3 p{just(point[0]), just(point[1]), just(point[2])};
   const Box3 at = box_of(p);
   bool near = false;
-  blank.tree().visit(
-      [&](const Box3& box) { return !near && !(gap(at, box) > step_up(guard + blank.widest())); },
-      [&](std::uint32_t triangle) {
-        const double reach = step_up(guard + blank.mesh().width(triangle).high);
-        near = near || !(distance({p, p, p}, blank.triangle(triangle), reach).low > reach);
-      });
+  blank.tree().visit([&](const Box3& box) { return !(gap(at, box) > step_up(guard + blank.widest())); },
+                     [&](std::uint32_t triangle) {
+                       const double reach = step_up(guard + blank.mesh().width(triangle).high);
+                       if (!(distance({p, p, p}, blank.triangle(triangle), reach).low > reach)) near = true;
+                     });
   return !near && blank.holds(p, Exact3{Fraction(point[0]), Fraction(point[1]), Fraction(point[2])});
 }
 
@@ -102,14 +103,11 @@ std::vector<std::string> faults_of_points(const Points& points, const SolidMesh&
 
   // Nothing is promised where something is unknown.
   if (!scan.proved) return faults;
-  // The corners of the mesh are on its surface.
-  Points corners = blank.near;
-  std::ranges::sort(corners);
   const PlacedSolid body(blank, std::nullopt);
   const double guard = enclosed(scan.guard).high;
   for (const auto& p : counted) {
     ask();
-    if (std::ranges::binary_search(corners, p) || !contradicts(p, body, guard)) continue;
+    if (!contradicts(p, body, guard)) continue;
     faults.push_back(fmt::format(
         "point {} lies deeper in what counts as material than points are uncertain by", place(p)));
     break;

@@ -171,10 +171,10 @@ std::vector<std::uint32_t> PlacedSolid::one_of_each_component() const {
 bool PlacedSolid::touches(const Vec3& enclosed, const Exact3& point) const {
   const Box3 place = box_of(enclosed);
   bool found = false;
-  tree_.visit([&](const Box3& box) { return !found && !(gap(place, box) > 0); },
+  tree_.visit([&](const Box3& box) { return !(gap(place, box) > 0); },
               [&](std::uint32_t number) {
-                found = found || (!(distance({enclosed, enclosed, enclosed}, triangle(number)).low > 0) &&
-                                  sgn(exact_squared_distance(point, exact_triangle(number))) == 0);
+                if (distance({enclosed, enclosed, enclosed}, triangle(number)).low > 0) return;
+                if (sgn(exact_squared_distance(point, exact_triangle(number))) == 0) found = true;
               });
   return found;
 }

@@ -245,7 +245,7 @@ void SolidCheck::check_datums(const SolidMesh& blank) {
 /// The demand of triangles of a feature, counted from 1, or of none; nothing of what is as cast.
 std::optional<SolidDemand> SolidCheck::demand_of(std::size_t feature) const {
   if (feature > 0) return demands_->features[feature - 1].demand;
-  return demands_->minimum ? std::optional(SolidDemand{*demands_->minimum, 1}) : std::nullopt;
+  return demands_->minimum ? std::optional(SolidDemand{.minimum = *demands_->minimum}) : std::nullopt;
 }
 
 /// Returns null where there is none.
@@ -378,7 +378,7 @@ Result<void> SolidCheck::check_margin(const SolidPair& pair, const SolidMesh& pa
     if (!demand || of_feature[k].empty()) continue;
     any = true;
     Both needed{std::max(clearance, Fraction(0))};
-    if (d_.inside && d_.demands->margin) {
+    if (d_.demands->margin) {
       const Fraction margin = to_fraction(*d_.demands->margin);
       needed.exact =
           std::max(needed.exact, Fraction(Fraction(demand->minimum) + Fraction(demand->scale) * margin));

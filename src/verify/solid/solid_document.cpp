@@ -104,10 +104,10 @@ class Reader {
     fields_.each("inputs", [&](Json item, const std::string& path) {
       Fields input(item, path, complaint_);
       const std::string_view role = kRoles[word_of(input, "role", kRoles)];
+      const bool is_mesh = role == "part" || role == "blank";
       for (const auto& [key, is_said] :
-           {std::pair("units", role == "part" || role == "blank" || role == "points"),
-            std::pair("triangles", role == "part" || role == "blank"),
-            std::pair("deviation", role == "part" || role == "blank"), std::pair("points", role == "points")})
+           {std::pair("units", is_mesh || role == "points"), std::pair("triangles", is_mesh),
+            std::pair("deviation", is_mesh), std::pair("points", role == "points")})
         if (!is_said && !input.get(key).text.empty())
           input.complain(fmt::format("field {} is said of the file of the role {}", input.name(key), role));
       features += role == "features" ? 1 : 0;
@@ -115,7 +115,7 @@ class Reader {
         if (d_.points) fields_.complain("inputs name two files of points");
         d_.points = {static_cast<SolidUnit>(word_of(input, "units", kUnits)), input.index("points")};
       }
-      if (role != "part" && role != "blank") return;
+      if (!is_mesh) return;
       ++(role == "part" ? parts : blanks);
       WrittenSolid& solid = role == "part" ? d_.part : d_.blank;
       solid.unit = static_cast<SolidUnit>(word_of(input, "units", kUnits));
@@ -154,7 +154,7 @@ class Reader {
   /// A result without them may leave the word out.
   void read_demands() {
     const Json written = fields_.get("demands");
-    if (written.is_null() || !complaint_.empty()) return;
+    if (written.is_null()) return;
     Fields fields(written, "demands", complaint_);
     WrittenSolidDemands& demands = d_.demands.emplace();
     fields.require({"minimum"});

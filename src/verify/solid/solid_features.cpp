@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
 #include <numeric>
 #include <string_view>
 #include <utility>
@@ -23,10 +22,11 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kWays{"triangles", "label", "faces", "patch", "box", "plane"};
 
-/// Says whether a number is at most 0: an enclosure tells it nearly always.
+/// Returns the sign of a number: an enclosure tells it nearly always.
 template <class Exact>
-bool is_at_most_zero(Span quick, const Exact& exact) {
-  return quick.high <= 0 || (!(quick.low > 0) && sgn(exact()) <= 0);
+int sign_of(Span quick, const Exact& exact) {
+  const int sure = sure_sign(quick);
+  return sure == 0 ? sgn(exact()) : sure;
 }
 
 /// Finds triangles of the part's file.
@@ -61,8 +61,8 @@ class TriangleFinder {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const Span at = mesh_.enclosed(v, axis);
         const auto exact = [&] { return mesh_.exact(v, axis); };
-        if (!is_at_most_zero(low[axis].near - at, [&] { return Fraction(low[axis].exact - exact()); }) ||
-            !is_at_most_zero(at - high[axis].near, [&] { return Fraction(exact() - high[axis].exact); }))
+        if (sign_of(low[axis].near - at, [&] { return Fraction(low[axis].exact - exact()); }) > 0 ||
+            sign_of(at - high[axis].near, [&] { return Fraction(exact() - high[axis].exact); }) > 0)
           return false;
       }
       return true;
@@ -74,19 +74,17 @@ class TriangleFinder {
     const Vec3 n = as<Span>(normal);
     const Exact3 exact_n = as<Fraction>(normal);
     const Fraction square = dot(exact_n, exact_n);
-    /// Says whether sign n . p is at most so many lengths of n.
-    const auto reaches = [&](std::uint32_t v, int sign, const Fraction& most) {
-      const Span along = dot(n, enclosed_at(v)), limit = enclosed(most) * length(n);
-      const Span rest = sign > 0 ? along - limit : -along - limit;
-      return is_at_most_zero(rest, [&] {
-        const Fraction exact = sign * dot(exact_n, exact_at(v));
+    /// Says on which side of so many lengths of n the point is along n.
+    const auto side_of = [&](std::uint32_t v, const Fraction& lengths) {
+      return sign_of(dot(n, enclosed_at(v)) - enclosed(lengths) * length(n), [&] {
+        const Fraction along = dot(exact_n, exact_at(v));
         // The squares of two numbers of one sign tell which is larger.
-        if (sgn(exact) != sgn(most)) return Fraction(sgn(exact) - sgn(most));
-        return Fraction(sgn(most) * (exact * exact - most * most * square));
+        if (sgn(along) != sgn(lengths)) return Fraction(sgn(along) - sgn(lengths));
+        return Fraction(sgn(lengths) * (along * along - lengths * lengths * square));
       });
     };
     const Fraction most = at.exact + within.exact, least = at.exact - within.exact;
-    return with_corners([&](std::uint32_t v) { return reaches(v, 1, most) && reaches(v, -1, -least); });
+    return with_corners([&](std::uint32_t v) { return side_of(v, most) <= 0 && side_of(v, least) >= 0; });
   }
 
   [[nodiscard]] std::vector<std::uint32_t> patch_at(const Both3& place) {
@@ -148,15 +146,16 @@ class TriangleFinder {
 
   /// Says whether two triangles turn by less than 30 degrees against each other.
   [[nodiscard]] bool go_on(std::uint32_t s, std::uint32_t t) const {
-    const auto bend = [](const auto& m, const auto& n) { return dot(m, n); };
-    const auto normal = [](const auto& at) { return cross(at[1] - at[0], at[2] - at[0]); };
     const Vec3 m = normal(enclosed_triangle(s)), n = normal(enclosed_triangle(t));
-    const Span along = bend(m, n), rest = just(3) * bend(m, m) * bend(n, n) - just(4) * squared(along);
-    if (along.high <= 0 || rest.low >= 0) return false;
-    if (along.low > 0 && rest.high < 0) return true;
-    const Exact3 exact_m = normal(exact_triangle(s)), exact_n = normal(exact_triangle(t));
-    const Fraction exact = bend(exact_m, exact_n);
-    return sgn(exact) > 0 && 4 * exact * exact > 3 * bend(exact_m, exact_m) * bend(exact_n, exact_n);
+    const Span along = dot(m, n), rest = just(3) * dot(m, m) * dot(n, n) - just(4) * squared(along);
+    const auto exact_m = [&] { return normal(exact_triangle(s)); };
+    const auto exact_n = [&] { return normal(exact_triangle(t)); };
+    const auto exact_along = [&] { return dot(exact_m(), exact_n()); };
+    const auto exact_rest = [&] {
+      const Fraction root = 2 * exact_along();
+      return Fraction(3 * dot(exact_m(), exact_m()) * dot(exact_n(), exact_n()) - root * root);
+    };
+    return sign_of(rest, exact_rest) < 0 && sign_of(along, exact_along) > 0;
   }
 
   /// Joins triangles through edges; corners at one place are one.
@@ -170,20 +169,20 @@ class TriangleFinder {
     for (std::size_t k = 0; k < order.size(); ++k)
       place[order[k]] =
           k > 0 && mesh_.near[order[k]] == mesh_.near[order[k - 1]] ? place[order[k - 1]] : order[k];
-    std::vector<std::array<std::uint32_t, 3>> edges;  // two places, and the triangle
+    /// Two places, and the triangle.
+    std::vector<std::pair<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>> edges;
     for (std::uint32_t t = 0; t < count(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t a = place[mesh_.triangles[t][k]], b = place[mesh_.triangles[t][(k + 1) % 3]];
-        if (a != b) edges.push_back({std::min(a, b), std::max(a, b), t});
+        if (a != b) edges.emplace_back(std::minmax(a, b), t);
       }
     ask(edges.size());
     std::ranges::sort(edges);
-    for (std::size_t i = 0; i < edges.size(); ++i)
-      for (std::size_t j = i + 1;
-           j < edges.size() && edges[j][0] == edges[i][0] && edges[j][1] == edges[i][1]; ++j) {
+    for (std::size_t i = 1; i < edges.size(); ++i)
+      for (std::size_t j = i; j-- > 0 && edges[j].first == edges[i].first;) {
         ask();
-        const std::uint32_t s = root(edges[i][2]), t = root(edges[j][2]);
-        if (s != t && go_on(edges[i][2], edges[j][2])) parent_[std::max(s, t)] = std::min(s, t);
+        const auto [s, t] = std::minmax({root(edges[i].second), root(edges[j].second)});
+        if (go_on(edges[i].second, edges[j].second)) parent_[t] = s;
       }
   }
   std::uint32_t root(std::uint32_t t) {
@@ -325,9 +324,9 @@ class FeatureReader {
 
   std::optional<SolidDemand> demand(Fields& fields) {
     if (is_as_cast(fields, {"minimum", "scale"})) return std::nullopt;
-    SolidDemand made{length(fields, "minimum"), 1};
+    SolidDemand made{.minimum = length(fields, "minimum")};
     if (has(fields, "scale")) made.scale = approximate(fields.number("scale"));
-    if (!(made.scale > 0 && made.scale <= std::numeric_limits<double>::max()))
+    if (!(made.scale > 0 && std::isfinite(made.scale)))
       fields.complain(fmt::format("field {} is not above 0", fields.name("scale")));
     return made;
   }

@@ -19,7 +19,7 @@ struct SolidDemand {
 struct SolidFeature {
   std::string name;
   std::optional<SolidDemand> demand;  ///< none: as cast
-  std::size_t triangles = 0;          ///< of the file
+  std::size_t triangles{};            ///< of the file
 };
 
 struct SolidDemands {

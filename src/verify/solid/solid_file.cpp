@@ -154,7 +154,7 @@ class ObjReader {
       } else if (word == "f" || word == "fo") {
         LEKALO_CHECK(read_face());
       } else if (word == "g" || word == "o") {
-        made_.begin_group(trimmed(line->substr(1)));
+        made_.begin_group(trimmed(trimmed(*line).substr(word.size())));
       } else if (word == "surf" || word == "bzp" || word == "bsp" || word == "cdp") {
         made_.leave_open(fmt::format("line {} begins a curved surface", lines_.number()));
       }
@@ -301,8 +301,7 @@ void SolidMaker::begin_group(std::string_view name) {
     return static_cast<std::uint32_t>(at->second);
   };
   // Those before have none.
-  if (reading_.groups.empty() && !reading_.mesh.triangles.empty())
-    reading_.group_of.assign(reading_.mesh.triangles.size(), number_of(""));
+  if (reading_.groups.empty()) reading_.group_of.assign(reading_.mesh.triangles.size(), number_of(""));
   group_ = number_of(name);
 }
 
