@@ -162,6 +162,10 @@ TEST(SolidDatums, RowsOfTheirTablesAreRead) {
   EXPECT_TRUE(says(point({0, 6}), "its point is none of the datum"));
   EXPECT_TRUE(says(point({0, -1}), "its point is none of the datum"));
   EXPECT_TRUE(says(point({0}), "bad input"));
+  EXPECT_TRUE(says(point({0, 1e11}), "its point is none of the datum"));
+  Held short_of_one;
+  short_of_one.direction = {0, 1};
+  EXPECT_TRUE(says(short_of_one.told(), "bad input"));
   Held flat;
   flat.direction = {1, -5, 0};
   EXPECT_TRUE(says(flat.told(), "nodes[0] has a direction that does not lead off the datum \"seat\""));
@@ -176,6 +180,37 @@ TEST(SolidDatums, RowsOfTheirTablesAreRead) {
     files.result["certificate"]["trees"][0]["nodes"][0][1] = term;
     EXPECT_TRUE(says(files.told(), "has a term that is none"));
   }
+}
+
+/// The bottom's corners of x = 5 leave 0.25 along x, and those of x = -5 10 mm more.
+TEST(SolidDatums, PointsOfAFaceAreTheCornersOfTheFile) {
+  const solid::Mesh part = cases::block({-5, -5, -5}, {5, 5, 5});
+  for (std::size_t corner = 0; corner < 6; ++corner) {
+    Held held;
+    held.datum = {{"name", "seat"},
+                  {"feature", "bottom"},
+                  {"plane", {{"normal", {3, 0, 0}}, {"through", {0, 7, 7}}}},
+                  {"within", 5.25}};
+    held.of_result = {{"name", "seat"}, {"within", 5.25}, {"off", 5}};
+    held.at[2] = 0, held.margin = 1, held.bound = 1.25;
+    held.point = {0, corner}, held.direction = {1, 0, 0}, held.low = {1, 0, 0, -6};
+    // A corner of the bottom at x = -5, over the half-space x >= -6.
+    const auto at = [&](std::size_t t, std::size_t k) { return part.vertices[part.triangles[t][k]]; };
+    for (std::size_t k = 0; k < 3; ++k)
+      if (at(0, k).x < 0) held.on_part = Json{0, k == 1 ? 1 : 0, k == 2 ? 1 : 0};
+    if (at(corner / 3, corner % 3).x > 0)
+      EXPECT_EQ(held.told(), "confirmed") << corner;
+    else
+      EXPECT_TRUE(says(held.told(), "do not prove")) << corner;
+  }
+}
+
+TEST(SolidDatums, APartMayLieExactlyOnThem) {
+  Held on;
+  on.datum = seat(-5.25), on.of_result["off"] = 0, on.bound = 1;
+  EXPECT_EQ(on.told(), "confirmed");
+  on.of_result["off"] = -0.0625;
+  EXPECT_TRUE(says(on.told(), "said to be off"));
 }
 
 TEST(SolidDatums, TermsOfThemAloneProveThatNoPoseKeepsThem) {

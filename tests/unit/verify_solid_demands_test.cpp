@@ -365,6 +365,16 @@ TEST(SolidFeatures, FacesAreThoseOfAStepFile) {
   EXPECT_EQ(one("faces", {5, 0}), (Numbers{0, 1, 10, 11}));
   EXPECT_EQ(one("label", "roof"), (Numbers{2, 3, 4, 5, 8, 9}));
   EXPECT_EQ(one("label", "c"), (Numbers{10, 11}));
+  // A face without a name, behind the last of them, has none.
+  EXPECT_EQ(found(Json::array({Json{{"name", "a"}, {"label", "c"}}}),
+                  solid_files::step_mesh(cases::block({-5, -5, -5}, {5, 5, 5}), "0.5",
+                                         {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 6, 5}, {"", "", "", "", "", "c"}))[0],
+            (Numbers{11}));
+  std::string wrong = part;
+  wrong.replace(wrong.rfind(" 5\n"), 3, " x\n");
+  const auto reading = read_solid({"part", wrong});
+  ASSERT_FALSE(reading);
+  EXPECT_TRUE(says(reading.error().message, "its face is not a number from 0")) << reading.error().message;
   const auto of = [](const char* face) {
     return std::string(R"({"features": [{"name": "a", "faces": [)") + face + "]}]}";
   };
