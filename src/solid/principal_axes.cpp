@@ -77,6 +77,7 @@ PrincipalAxes principal_axes(const Mesh& mesh) {
   std::sort(made.axes.begin(), made.axes.end(),
             [&](Vector a, Vector b) { return along(spread, a) < along(spread, b); });
   made.axes[2] = cross(made.axes[0], made.axes[1]);
+  for (std::size_t k = 0; k < 3; ++k) made.spread[k] = along(spread, made.axes[k]);
   return made;
 }
 

@@ -19,6 +19,8 @@ struct PrincipalAxes {
   Vector centre;      ///< of the volume
   /// Right-handed; the body is spread least along the first, and most along the last.
   std::array<Vector, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  /// Along each of them: the square of the distance from the centre, over the volume, mm5.
+  std::array<double, 3> spread{};
 };
 
 /// \param mesh  closed, its triangles turned away from the material; if that cannot be told, or for a body
