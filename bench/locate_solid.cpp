@@ -45,10 +45,12 @@ solid::Mesh read_stl(const char* name) {
   return closed_mesh(std::move(mesh)).value().mesh;
 }
 
-void try_both(const cases::SolidCase& pair, std::uint64_t number, double gap, locate::SolidFreedom freedom) {
+/// Returns the time of the search.
+double try_both(const cases::SolidCase& pair, std::uint64_t number, double gap, locate::SolidFreedom freedom,
+                const locate::SolidPose& from = {}, double turn = 0.0873) {
   const solid::MeshClearance meter(pair.part, pair.blank);
   const double there = meter.inside(pair.there) ? meter.nearest(pair.there)->low : 0;
-  const locate::SolidProblem problem{pair.part, pair.blank, {}, freedom, 5, 0.0873};
+  const locate::SolidProblem problem{pair.part, pair.blank, from, freedom, 5, turn};
   double start = seconds();
   const auto placed = locate::place_solid(problem, {.gap = gap, .run = {}});
   fmt::print("{} {}: {} in {} triangles; drawn at {:.4f}; climbed to {:.6f} in {:.0f} ms, {} units\n",
@@ -60,17 +62,29 @@ void try_both(const cases::SolidCase& pair, std::uint64_t number, double gap, lo
   options.run.work_limit = 100'000;
   start = seconds();
   const auto found = locate::locate_solid(problem, options);
+  const double took = seconds() - start;
   fmt::print("    {:.6f} of at most {:.6f} in {:.0f} ms, {} boxes, {} units{}\n", found->best.clearance,
-             found->upper_bound, 1e3 * (seconds() - start), found->boxes, found->best.work,
+             found->upper_bound, 1e3 * took, found->boxes, found->best.work,
              found->status == locate::Status::optimal      ? ""
              : found->status == locate::Status::infeasible ? ", infeasible"
                                                            : ", not closed");
+  return took;
+}
+
+/// Some rotation, with the middle of the part where it would be without it.
+locate::SolidPose anyhow(const solid::Mesh& part, Random& random) {
+  locate::SolidPose pose;
+  for (double& q : pose.quaternion) q = random.uniform(-1, 1);
+  const solid::Box box = box_of(part.vertices);
+  const solid::Vector middle = 0.5 * (box.low + box.high);
+  pose.shift = middle - motion_of(pose).turned(middle);
+  return pose;
 }
 
 }  // namespace
 
 /// bench_locate_solid stl PART BLANK [GAP]
-/// bench_locate_solid [KIND|all] [CASES] [SEED] [GAP]
+/// bench_locate_solid [KIND|all] [CASES] [SEED] [GAP] [all-rotations]
 int main(int argc, char** argv) {
   const std::string_view wanted = argc > 1 ? argv[1] : "all";
   if (wanted == "stl" && argc > 3) {
@@ -87,10 +101,17 @@ int main(int argc, char** argv) {
   for (const std::string_view kind :
        {"convex", "uneven", "cored", "turned", "wavy", "fine", "fine-cored", "fine-turned"}) {
     if (wanted != "all" && wanted != kind) continue;
+    std::vector<double> took;
     for (std::uint64_t k = 0; k < count; ++k) {
       Random random(seed, 100 + k);
       const cases::SolidCase pair = make(kind, random);
-      try_both(pair, k, gap, locate::SolidFreedom::six);
+      took.push_back(argc > 5 ? try_both(pair, k, gap, locate::SolidFreedom::six, anyhow(pair.part, random),
+                                         locate::SolidProblem::kAllTurns)
+                              : try_both(pair, k, gap, locate::SolidFreedom::six));
     }
+    std::sort(took.begin(), took.end());
+    if (!took.empty())
+      fmt::print("{}: a search takes {:.0f} ms in the median, {:.0f} ms at most\n", kind,
+                 1e3 * took[took.size() / 2], 1e3 * took.back());
   }
 }

@@ -75,7 +75,7 @@ TEST(SolidBounds, NoContactAllowsLessThanAPoseOfTheBoxHas) {
                             within(frame.pivot, {size, size, size}, random)};
       (void)meter.measure(pose, 4, 64, contacts);
       for (std::size_t k = 0; k < contacts.size(); k += 1 + contacts.size() / 12)
-        if (auto made = bounds.known(contacts[k], frame.motion(pose))) known.push_back(std::move(*made));
+        if (auto made = bounds.known(contacts[k], pose)) known.push_back(std::move(*made));
     }
     for (int cell_number = 0; cell_number < 24; ++cell_number) {
       const double size = 2 * std::pow(0.4, cell_number % 8), turn = size / 100 * random.uniform(0, 2);
@@ -138,7 +138,7 @@ TEST(SolidBounds, ALoneContactAllowsWhatThePosesOfTheBoxHave) {
     std::vector<SolidContact> contacts;
     const MeasuredSolid start = meter.measure({}, 20, 1, contacts);
     if (!start.inside || contacts.empty()) continue;
-    const auto known = bounds.known(contacts.front(), frame.motion({}));
+    const auto known = bounds.known(contacts.front(), {});
     ASSERT_TRUE(known);
     for (int cell_number = 0; cell_number < 4; ++cell_number) {
       const double size = random.uniform(0.02, 1) * start.value, turn = size / 10 * random.uniform(0, 1);

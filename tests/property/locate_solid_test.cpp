@@ -111,8 +111,10 @@ TEST(PlaceSolid, RefusesWhatMakesNoSense) {
   EXPECT_EQ(refusal({mesh, mesh, {}}, 0), "gap 0 mm must be a positive number");
   EXPECT_EQ(refusal({mesh, mesh, {}, SolidFreedom::six, -1}),
             "a window of shifts by up to -1 mm must be a number from 0 to 1e+09");
-  EXPECT_EQ(refusal({mesh, mesh, {}, SolidFreedom::six, 1, 2}),
-            "a window of turns by up to 2 rad must lie between 0 and a quarter turn");
+  EXPECT_EQ(
+      refusal({mesh, mesh, {}, SolidFreedom::six, 1, 2}),
+      "a window of turns by up to 2 rad must lie between 0 and a quarter turn, or be half a turn, which is "
+      "all of them");
   EXPECT_EQ(refusal({mesh, mesh, {}, SolidFreedom::six, 1, 1, -0.5}),
             "coordinates that are off by -0.5 mm must be off by a number from 0 to 1e+09");
   EXPECT_EQ(refusal({mesh, mesh, {{0, 0, 0, 0}, {}}}),
@@ -153,6 +155,33 @@ TEST(LocateSolid, WhatItFindsIsThereAndNoPoseHasMoreThanTheBound) {
       EXPECT_GE(found->upper_bound, pair.optimum);
       expect_bound(pair, motion, found->upper_bound, random);
     }
+  }
+}
+
+TEST(LocateSolid, AllRotationsHaveTheBestOneAmongThem) {
+  Random random(cases::seed(), 66);
+  for (std::uint64_t k = 0; k < cases::case_count(2); ++k) {
+    const cases::SolidCase pair = cases::convex_in_convex(random, 16, 1.5);
+    SolidProblem problem{pair.part, pair.blank, {}};
+    for (double& q : problem.start.quaternion) q = random.uniform(-1, 1);
+    const solid::Box box = box_of(pair.part.vertices);
+    const Vector middle = 0.5 * (box.low + box.high);
+    problem.start.shift = middle - motion_of(problem.start)(middle);
+    problem.turn = SolidProblem::kAllTurns;
+    const auto found = locate::locate_solid(problem, {.gap = 0.05, .run = {}});
+    ASSERT_TRUE(found) << found.error().message;
+    ASSERT_EQ(found->status, locate::Status::optimal);
+    EXPECT_GE(found->upper_bound, pair.optimum);
+    EXPECT_GE(found->best.clearance, pair.optimum - 0.05);
+    EXPECT_EQ(found->proof.trees.size(), 4U);
+    expect_bound(pair, motion_of(found->best.pose), found->upper_bound, random);
+    // A start is found from there, however far off the part is.
+    problem.start.shift = problem.start.shift + Vector{1000, -500, 200};
+    const auto start = locate::find_start(problem, {});
+    ASSERT_TRUE(start) << start.error().message;
+    const auto placed = locate::place_solid({pair.part, pair.blank, *start}, {});
+    ASSERT_TRUE(placed && placed->inside);
+    EXPECT_GE(placed->clearance, pair.optimum - 0.05);
   }
 }
 

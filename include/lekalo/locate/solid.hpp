@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/parallel.hpp"
 #include "lekalo/base/run_control.hpp"
@@ -62,7 +63,8 @@ struct SolidProblem {
   double shift = 5;
   /// With `six` the window has every rotation by up to this from the start, and some by more: those with each
   /// part of tan(angle / 2) times the axis up to tan(turn / 2). With `c_xyz` it has the turns about z by up
-  /// to this. rad, at most a quarter turn.
+  /// to this. rad, at most a quarter turn; or kAllTurns, which stands for every rotation, or turn about z.
+  static constexpr double kAllTurns = kPi;
   double turn = 0.0872664625997165;
   /// Every coordinate may differ from the true one (the decimal in the file) by up to this, mm. The errors
   /// are taken off the clearance and added to the upper bound.
@@ -127,9 +129,15 @@ struct SolidResult {
   std::uint64_t boxes = 0;
 };
 
-/// A quick placement without a bound: climbs from the start to a place that no small motion makes better. It
-/// need not be the best one of the window. ErrorCode::usage for a window or numbers that make no sense,
-/// bad_input for meshes without triangles. Deterministic; single-threaded.
+/// A start for a part that may lie anywhere: the best place that climbs from rotations all over find, which
+/// are those that the freedom has, counted from the start of the problem; its window does not matter. Refuses
+/// what place_solid refuses. Deterministic; single-threaded.
+[[nodiscard]] Result<SolidPose> find_start(const SolidProblem& problem, const SolidOptions& options);
+
+/// A quick placement without a bound: climbs from the start to a place that no small motion makes better, and
+/// where the window has all turns from other rotations, too. It need not be the best one of the window.
+/// ErrorCode::usage for a window or numbers that make no sense, bad_input for meshes without triangles.
+/// Deterministic; single-threaded.
 [[nodiscard]] Result<SolidPlacement> place_solid(const SolidProblem& problem, const SolidOptions& options);
 
 /// Searches the whole window. Refuses what place_solid refuses. The same result for any number of threads.

@@ -6,6 +6,7 @@
 #include "lekalo/solid/principal_axes.hpp"
 #include "locate/solid/solid_climb.hpp"
 #include "locate/solid/solid_placement.hpp"
+#include "locate/solid/solid_start.hpp"
 
 namespace lekalo::locate {
 namespace {
@@ -13,28 +14,8 @@ namespace {
 using solid::PrincipalAxes;
 using solid::Vector;
 
-/// The axes of the part, as the start has them, are turned onto those of the blank, the first and second or
-/// their opposites; the place of the pivot follows from the centres. No window has half a turn, which is no
-/// Cayley vector.
-std::optional<FramedPose> aligned(const SolidFrame& frame, const PrincipalAxes& part,
-                                  const PrincipalAxes& blank, double first, double second) {
-  const solid::Motion start = motion_of({frame.start, {}});
-  const std::array<double, 3> sides{first, second, first * second};
-  solid::Motion turn;
-  turn.rotation = {};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector from = start.turned(part.axes[k]), to = sides[k] * blank.axes[k];
-    turn.rotation[0] = turn.rotation[0] + to.x * from;
-    turn.rotation[1] = turn.rotation[1] + to.y * from;
-    turn.rotation[2] = turn.rotation[2] + to.z * from;
-  }
-  const auto& [x, y, z] = turn.rotation;
-  constexpr double kHalfTurn = 1e-6;
-  const double square = 1 + x.x + y.y + z.z;
-  if (!(square > kHalfTurn)) return std::nullopt;
-  const Vector lever = turn.turned(start.turned(frame.pivot - part.centre));
-  return FramedPose{1 / square * Vector{z.y - y.z, x.z - z.x, y.x - x.y}, blank.centre + lever};
-}
+/// No window of one chart has half a turn: there x = tan(angle / 2) is beyond this.
+constexpr double kHalfTurn = 2000;
 
 }  // namespace
 
@@ -50,10 +31,11 @@ Result<SolidPlacement> place_solid_axes(const SolidProblem& problem, const Solid
   std::uint64_t tried = 0;
   for (const double first : {1.0, -1.0})
     for (const double second : {1.0, -1.0}) {
-      const auto pose = aligned(meter.frame(), part, blank, first, second);
-      if (!pose) continue;
+      const Vector a = first * blank.axes[0], b = second * blank.axes[1];
+      const FramedPose pose = aligned(meter.frame(), part, {a, b, cross(a, b)}, blank.centre);
+      if (!(norm(pose.x) < kHalfTurn)) continue;
       std::vector<SolidContact> contacts;
-      const MeasuredSolid there = meter.measure(meter.frame().window.held(*pose), kInfinity, 1, contacts);
+      const MeasuredSolid there = meter.measure(meter.frame().window.held(pose), kInfinity, 1, contacts);
       ++tried;
       if (!best || there.value > best->value) best = there;
     }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "lekalo/base/limits.hpp"
 #include "lekalo/geom/trig.hpp"
@@ -13,6 +12,7 @@
 #include "solid_climb.hpp"
 #include "solid_placement.hpp"
 #include "solid_search.hpp"
+#include "solid_start.hpp"
 
 namespace lekalo::locate {
 namespace {
@@ -26,6 +26,19 @@ constexpr double kClimbGain = 1e-5;
 bool finite(Vector v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 double first_trust(const SolidProblem& problem) { return 0.5 * std::max(problem.shift, 1e-3); }
+
+/// Gives the window its rotations.
+void set_turns(SolidFrame& frame, SolidFreedom freedom, double turn) {
+  const bool all = turn == SolidProblem::kAllTurns;
+  const geom::SinCos half = geom::sincos(0.5 * turn);
+  const double most = all ? 1 : half.sine / half.cosine;
+  Vector x;
+  if (freedom == SolidFreedom::six) x = {most, most, most};
+  if (freedom == SolidFreedom::c_xyz) x.z = most;
+  if (all && freedom == SolidFreedom::six) frame.charts = {0, 1, 2, 3};
+  if (all && freedom == SolidFreedom::c_xyz) frame.charts = {0, 3};
+  frame.window.low.x = -x, frame.window.high.x = x;
+}
 
 Result<void> check_demands(const SolidProblem& problem) {
   const auto& demands = problem.demands;
@@ -73,10 +86,12 @@ Result<void> check(const SolidProblem& problem, const SolidOptions& options) {
     return failure(ErrorCode::usage,
                    fmt::format("a window of shifts by up to {} mm must be a number from 0 to {:g}",
                                problem.shift, limits::kLargestCoordinate));
-  if (!(problem.turn >= 0) || !(problem.turn <= 0.5 * std::numbers::pi))
+  if (!(problem.turn >= 0) || (!(problem.turn <= 0.5 * kPi) && problem.turn != SolidProblem::kAllTurns))
     return failure(
         ErrorCode::usage,
-        fmt::format("a window of turns by up to {} rad must lie between 0 and a quarter turn", problem.turn));
+        fmt::format("a window of turns by up to {} rad must lie between 0 and a quarter turn, or be "
+                    "half a turn, which is all of them",
+                    problem.turn));
   for (const double error : {problem.part_coordinate_error, problem.blank_coordinate_error})
     if (!(error >= 0) || !(error <= limits::kLargestCoordinate))
       return failure(ErrorCode::usage,
@@ -112,12 +127,8 @@ SolidFrame frame_of(const SolidProblem& problem) {
   frame.pivot = 0.5 * (box.low + box.high);
   for (const Vector p : problem.part.vertices) frame.reach = std::max(frame.reach, norm(p - frame.pivot));
   const Vector at = motion_of(problem.start)(frame.pivot), shift{problem.shift, problem.shift, problem.shift};
-  const geom::SinCos half = geom::sincos(0.5 * problem.turn);
-  const double most = half.sine / half.cosine;
-  Vector turn;
-  if (problem.freedom == SolidFreedom::six) turn = {most, most, most};
-  if (problem.freedom == SolidFreedom::c_xyz) turn.z = most;
-  frame.window = {{-turn, at - shift}, {turn, at + shift}};
+  frame.window.low.at = at - shift, frame.window.high.at = at + shift;
+  set_turns(frame, problem.freedom, problem.turn);
   return frame;
 }
 
@@ -133,7 +144,7 @@ void measure_at_pose(const SolidMeter& meter, SolidPlacement& made) {
 SolidPlacement placement(const SolidMeter& meter, const FramedPose& found) {
   SolidPlacement made;
   made.pose.quaternion = meter.frame().quaternion(found);
-  if (!(found.x == Vector{})) {
+  if (!(found.x == Vector{}) || found.chart != 0) {
     double square = 0;
     for (const double q : made.pose.quaternion) square += q * q;
     for (double& q : made.pose.quaternion) q /= std::sqrt(square);
@@ -157,12 +168,24 @@ Result<SolidPlacement> place_solid(const SolidProblem& problem, const SolidOptio
   LEKALO_CHECK(check(problem, options));
   const SolidMeter meter(problem, frame_of(problem));
   std::uint64_t work = 0;
-  const MeasuredSolid best =
-      climb(meter, meter.frame().window.middle(), first_trust(problem), kClimbGain, options.run, work);
+  const MeasuredSolid best = first_climb(meter, first_trust(problem), kClimbGain, options.run, work);
   SolidPlacement made = placement(meter, best.pose);
   made.contacts = holding_contacts(meter, best, options.gap);
   made.work = work;
   return made;
+}
+
+Result<SolidPose> find_start(const SolidProblem& problem, const SolidOptions& options) {
+  LEKALO_CHECK(check(problem, options));
+  SolidFrame frame = frame_of(problem);
+  set_turns(frame, problem.freedom, SolidProblem::kAllTurns);
+  const solid::Box blank = box_of(problem.blank.vertices);
+  const Vector reach{frame.reach, frame.reach, frame.reach};
+  frame.window.low.at = blank.low - reach, frame.window.high.at = blank.high + reach;
+  const SolidMeter meter(problem, frame);
+  std::uint64_t work = 0;
+  const MeasuredSolid best = first_climb(meter, frame.reach, options.gap, options.run, work);
+  return placement(meter, best.pose).pose;
 }
 
 Result<std::optional<SolidPlacement>> solid_at(const SolidProblem& problem, const SolidPose& pose,
@@ -171,9 +194,8 @@ Result<std::optional<SolidPlacement>> solid_at(const SolidProblem& problem, cons
   const SolidMeter meter(problem, frame_of(problem));
   const SolidFrame& frame = meter.frame();
   const auto [w, x, y, z] = frame.start;
-  // The rotation after the start's.
-  const std::array<double, 4> turn = product(pose.quaternion, {w, -x, -y, -z});
-  const FramedPose framed{1 / turn[0] * Vector{turn[1], turn[2], turn[3]}, motion_of(pose)(frame.pivot)};
+  const FramedPose framed =
+      frame.framed(product(pose.quaternion, {w, -x, -y, -z}), motion_of(pose)(frame.pivot));
   const FramedPose held = frame.window.held(framed);
   if (!(held.x == framed.x && held.at == framed.at)) return std::nullopt;
   SolidPlacement made;

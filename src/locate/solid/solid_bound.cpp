@@ -135,7 +135,6 @@ std::optional<SolidForm> form_of(const SolidEdges& e, const CellView& cell) {
 
 SolidBounds::SolidBounds(const SolidMeter& meter)
     : meter_(meter),
-      start_(motion_of({meter.frame().start, {}})),
       scale_(std::max(norm(meter.clearance().blank().box().high - meter.clearance().blank().box().low),
                       2 * meter.frame().reach)),
       part_{meter.part(), meter.clearance().part(), true, meter.part_error(), none_},
@@ -204,7 +203,7 @@ std::optional<SolidFace> SolidBounds::face(const Side& side, std::uint32_t trian
 }
 
 /// Makes the part's point of contact known, as a certificate can name it.
-void SolidBounds::set_point(const SolidContact& contact, KnownSolid& made) const {
+void SolidBounds::set_point(const SolidContact& contact, const Motion& start, KnownSolid& made) const {
   // Places on a triangle are whole numbers of this part of its sides, which decimals hold.
   constexpr double kSteps = 1e9;
   const auto& t = part_.mesh.triangles[contact.demanded_triangle];
@@ -217,7 +216,7 @@ void SolidBounds::set_point(const SolidContact& contact, KnownSolid& made) const
   made.on_part = {contact.demanded_triangle, u / kSteps, v / kSteps};
   made.demand = contact.demand;
   const Vector place = from + made.on_part.u * a + made.on_part.v * b;
-  made.point = {{place, 0}, start_.turned(place - meter_.frame().pivot), off(part_, place)};
+  made.point = {{place, 0}, start.turned(place - meter_.frame().pivot), off(part_, place)};
 }
 
 /// No bound of the margin is below this where a term holds only if the allowance is not below another.
@@ -251,7 +250,7 @@ double SolidBounds::most(const PoseForm& sum, const PoseForm& open, const CellVi
 }
 
 /// The two edges on which the points of a contact lie.
-std::optional<SolidEdges> SolidBounds::edges(const SolidContact& contact) const {
+std::optional<SolidEdges> SolidBounds::edges(const SolidContact& contact, const Motion& start) const {
   if (contact.part_triangle == kNoTriangle) return std::nullopt;
   struct Edge {
     std::uint32_t number = 0;
@@ -272,8 +271,8 @@ std::optional<SolidEdges> SolidBounds::edges(const SolidContact& contact) const 
   if (!of_part || !of_blank) return std::nullopt;
   return SolidEdges{of_part->number,
                     of_blank->number,
-                    start_.turned(of_part->from - meter_.frame().pivot),
-                    start_.turned(of_part->along),
+                    start.turned(of_part->from - meter_.frame().pivot),
+                    start.turned(of_part->along),
                     of_blank->from,
                     of_blank->along,
                     part_.error + blank_.error + kRounding * (part_.tree.largest() + blank_.tree.largest()),
@@ -281,8 +280,8 @@ std::optional<SolidEdges> SolidBounds::edges(const SolidContact& contact) const 
 }
 
 /// A point of a datum that is held.
-KnownSolid SolidBounds::held(const SolidContact& contact) const {
-  const Vector seen = start_.turned(contact.part - meter_.frame().pivot);
+KnownSolid SolidBounds::held(const SolidContact& contact, const Motion& start) const {
+  const Vector seen = start.turned(contact.part - meter_.frame().pivot);
   KnownSolid made;
   made.held = SolidHeld{{contact.datum, contact.datum_point}, seen, -1 / kDatumWeight * contact.normal};
   return made;
@@ -298,12 +297,14 @@ PoseForm SolidBounds::form_of(const SolidHeld& held, const CellView& cell) const
   return form;
 }
 
-std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const Motion& motion) const {
-  if (contact.datum != kNoTriangle) return held(contact);
+std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const FramedPose& pose) const {
+  const SolidFrame& frame = meter_.frame();
+  const Motion start = motion_of({frame.start_of(pose.chart), {}}), motion = frame.motion(pose);
+  if (contact.datum != kNoTriangle) return held(contact, start);
   const Vector n = contact.normal;
   KnownSolid made;
-  const auto seen = [&](Vector p) { return start_.turned(p - meter_.frame().pivot); };
-  if (meter_.has_demands()) set_point(contact, made);
+  const auto seen = [&](Vector p) { return start.turned(p - frame.pivot); };
+  if (meter_.has_demands()) set_point(contact, start, made);
   // Balls in the part count with the least demand, so where more is asked for they say little.
   if (meter_.whole() && made.demand == meter_.least_demand(0))
     for (const SolidBall& one : balls(part_, contact.part, motion.turned_back(n)))
@@ -317,7 +318,7 @@ std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const 
   if ((made.part.empty() && !made.point) || made.blank.empty()) return std::nullopt;
   made.part_face = face(part_, contact.part_triangle);
   made.blank_face = face(blank_, contact.blank_triangle);
-  made.edges = edges(contact);
+  made.edges = edges(contact, start);
   if (made.blank_face)
     made.blank_face->width = std::max(0.0, meter_.width(contact.blank_triangle) - meter_.width_error());
   made.plane.normal = n;
@@ -330,10 +331,10 @@ std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const 
   made.plane.least = least - blank_.error - 4 * kRounding * (blank_.tree.largest() + std::abs(least));
   if (made.part_face) {
     SolidFace& f = *made.part_face;
-    f.normal = start_.turned(f.normal);
+    f.normal = start.turned(f.normal);
     for (std::size_t k = 0; k < 3; ++k) {
       f.corner[k] = seen(f.corner[k]);
-      f.inward[k] = start_.turned(f.inward[k]);
+      f.inward[k] = start.turned(f.inward[k]);
     }
   }
   return made;

@@ -9,7 +9,7 @@
 
 namespace lekalo::locate {
 
-/// A triangle that balls lie over; one of the part as seen from the pivot, turned as at the start.
+/// A triangle that balls lie over; one of the part as seen from the pivot, turned as at the chart's start.
 struct SolidFace {
   std::uint32_t triangle = 0;
   solid::Vector normal;
@@ -20,7 +20,8 @@ struct SolidFace {
   double width = 0;  ///< the least it has, mm
 };
 
-/// An edge of the part, from the pivot and turned as at the start, and one of the blank that passes it.
+/// An edge of the part, from the pivot and turned as at the chart's start, and one of the blank that passes
+/// it.
 struct SolidEdges {
   std::uint32_t part_edge = 0, blank_edge = 0;  ///< as in SolidTerm
   solid::Vector p, d, q, g;                     ///< from p to p + d, and from q to q + g
@@ -28,7 +29,7 @@ struct SolidEdges {
   double width = 0;                             ///< of the blank's triangle, mm, the least it has
 };
 
-/// A point of a datum, from the pivot and turned as at the start, that may not go far in a direction.
+/// A point of a datum, from the pivot and turned as at the chart's start, that may not go far in a direction.
 struct SolidHeld {
   SolidDatumPoint point;
   solid::Vector seen, direction;
@@ -39,7 +40,7 @@ struct SolidHeld {
 struct KnownSolid {
   struct PartBall {
     SolidBall ball;
-    solid::Vector seen;  ///< its centre from the pivot, turned as at the start
+    solid::Vector seen;  ///< its centre from the pivot, turned as at the chart's start
     double loss = 0;     ///< its centre may be off by this, mm
     [[nodiscard]] double radius() const { return ball.radius - loss; }
   };
@@ -86,9 +87,9 @@ class SolidBounds {
  public:
   explicit SolidBounds(const SolidMeter& meter);
 
-  /// None if there is no ball on one of the two sides.
-  [[nodiscard]] std::optional<KnownSolid> known(const SolidContact& contact,
-                                                const solid::Motion& motion) const;
+  /// A contact that was met at a pose, for boxes of its chart. None if there is no ball on one of the two
+  /// sides.
+  [[nodiscard]] std::optional<KnownSolid> known(const SolidContact& contact, const FramedPose& pose) const;
   /// The term of a contact that says most about a box, and the row of the program that stands for it.
   [[nodiscard]] std::optional<SolidRow> row(const KnownSolid& known, const CellView& cell) const;
   /// A term for a box, or none where it does not hold all over it.
@@ -111,17 +112,17 @@ class SolidBounds {
   [[nodiscard]] std::vector<SolidBall> balls(const Side& side, solid::Vector from,
                                              solid::Vector direction) const;
   [[nodiscard]] std::optional<SolidFace> face(const Side& side, std::uint32_t triangle) const;
-  [[nodiscard]] std::optional<SolidEdges> edges(const SolidContact& contact) const;
-  [[nodiscard]] KnownSolid held(const SolidContact& contact) const;
+  [[nodiscard]] std::optional<SolidEdges> edges(const SolidContact& contact,
+                                                const solid::Motion& start) const;
+  [[nodiscard]] KnownSolid held(const SolidContact& contact, const solid::Motion& start) const;
   [[nodiscard]] PoseForm form_of(const SolidHeld& held, const CellView& cell) const;
   [[nodiscard]] std::optional<SolidForm> form_of_allowance(const KnownSolid& known, SolidChoice choice,
                                                            const CellView& cell) const;
-  void set_point(const SolidContact& contact, KnownSolid& made) const;
+  void set_point(const SolidContact& contact, const solid::Motion& start, KnownSolid& made) const;
   [[nodiscard]] double least_margin(double allowance, const SolidDemand* demand) const;
 
   const SolidMeter& meter_;
   std::vector<double> none_;
-  solid::Motion start_;
   double scale_;
   Side part_, blank_;
 };

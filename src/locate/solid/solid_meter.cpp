@@ -17,6 +17,8 @@ using solid::Vector;
 
 /// So many vertices of each mesh are looked at where they cross.
 constexpr std::size_t kSamples = 96;
+/// And at most so many of them for a quick word.
+constexpr std::size_t kFewSamples = 32;
 /// The deepest crossings of one pose are used, at most this many.
 constexpr std::size_t kMostCrossings = 16;
 /// Points nearer to each other than this part of the coordinates give no direction.
@@ -350,6 +352,19 @@ bool SolidMeter::inside(const Motion& motion) const {
          std::all_of(blank_surfaces_.begin(), blank_surfaces_.end(), [&](const auto& vertices) {
            return std::any_of(vertices.begin(), vertices.end(), lies_outside);
          });
+}
+
+double SolidMeter::misfit(const Motion& motion) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < std::min(kFewSamples, of_part_.size()); ++k) {
+    const Vector q = motion(of_part_[k].place);
+    if (!clearance_.blank().holds(q)) sum += clearance_.blank().nearest(q)->high;
+  }
+  for (std::size_t k = 0; k < std::min(kFewSamples, of_blank_.size()); ++k) {
+    const Vector p = motion.back(of_blank_[k]);
+    if (clearance_.part().holds(p)) sum += clearance_.part().nearest(p)->high;
+  }
+  return sum;
 }
 
 SolidContact SolidMeter::foremost(const Motion& motion, Vector normal) const {

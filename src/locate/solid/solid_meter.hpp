@@ -98,6 +98,9 @@ class SolidMeter {
   [[nodiscard]] MeasuredPose measure(const solid::Motion& motion) const;
   /// How far the points of a datum are off at a pose at most, mm.
   [[nodiscard]] double off(const SolidDatum& datum, const solid::Motion& motion) const;
+  /// How far some points of either surface are on the wrong side of the other, all together, mm: a quick
+  /// word on how a pose compares with others.
+  [[nodiscard]] double misfit(const solid::Motion& motion) const;
   /// The contact of the part's foremost point against a normal, and nothing of the blank. With demands it is
   /// the one with the least margin over a half-space there.
   [[nodiscard]] SolidContact foremost(const solid::Motion& motion, solid::Vector normal) const;

@@ -6,6 +6,7 @@
 
 #include "lekalo/base/parallel.hpp"
 #include "solid_climb.hpp"
+#include "solid_start.hpp"
 
 namespace lekalo::locate {
 namespace {
@@ -17,8 +18,10 @@ constexpr std::array<double Vector::*, 3> kAxes{&Vector::x, &Vector::y, &Vector:
 
 /// So many boxes are halved at a time.
 constexpr std::size_t kAtOnce = 4;
-/// Contacts are looked for in one box this many times before it is halved.
+/// Contacts are looked for in one box this many times before it is halved; once where tan(angle / 2) of the
+/// turn from its middle may be more than that, for there the next ones say as little.
 constexpr int kRounds = 4;
+constexpr double kWide = 0.15;
 /// So many contacts of one pose are looked at, and so many are made known.
 constexpr std::size_t kLooked = 24, kMostNew = 12;
 /// A box hands at most this many on to its halves.
@@ -47,25 +50,34 @@ double value_at(const LinearBound<6>& bound, const Steps& z) {
 
 SolidSearch::SolidSearch(const SolidMeter& meter, const SolidOptions& options)
     : meter_(meter), options_(options), bounds_(meter) {
-  meet_first();
+  for (const std::uint8_t chart : meter_.frame().charts) first_.push_back(first_box(chart));
+  climb_first();
 }
 
-/// Makes six half-spaces known that bound the blank, each with the part's foremost vertex, so that every box
-/// has a bound; and the contacts at the start, from where it climbs.
-void SolidSearch::meet_first() {
-  const FramedPose start = meter_.frame().window.middle();
-  const Motion motion = meter_.frame().motion(start);
-  std::vector<SolidContact> contacts;
-  (void)meter_.measure(start, kInfinity, kLooked, contacts);
-  ++work_;
+void SolidSearch::climb_first() {
   tell(kTreesShare);
   RunControl climbing = options_.run;
   if (climbing.progress)
     climbing.progress = [this](const Progress& climbed) {
       tell(kTreesShare + climbed.fraction * (kClimbShare - kTreesShare));
     };
-  best_ = climb(meter_, start, size(meter_.frame().window), kWorthClimbing * options_.gap, climbing, work_);
+  best_ = first_climb(meter_, size(meter_.frame().window), kWorthClimbing * options_.gap, climbing, work_);
   tell(kClimbShare);
+}
+
+/// The whole window of a chart. Six half-spaces are known of it that bound the blank, each with the part's
+/// foremost vertex, so that every box has a bound; and the contacts in its middle.
+SolidSearch::Node SolidSearch::first_box(std::uint8_t chart) {
+  Node node;
+  node.cell = meter_.frame().window;
+  node.cell.low.chart = node.cell.high.chart = chart;
+  node.number = static_cast<std::uint32_t>(tree_.size());
+  tree_.emplace_back();
+  const FramedPose middle = node.cell.middle();
+  const Motion motion = meter_.frame().motion(middle);
+  std::vector<SolidContact> contacts;
+  (void)meter_.measure(middle, kInfinity, kLooked, contacts);
+  ++work_;
   for (double Vector::*const axis : kAxes)
     for (const double side : {-1.0, 1.0}) {
       Vector normal;
@@ -76,20 +88,25 @@ void SolidSearch::meet_first() {
                                         [&](Vector a, Vector b) { return side * a.*axis < side * b.*axis; });
       contacts.push_back(contact);
     }
-  for (const SolidContact& contact : contacts)
-    if (auto made = bounds_.known(contact, motion)) known_.push_back(std::move(*made));
+  for (const SolidContact& contact : contacts) {
+    auto made = bounds_.known(contact, middle);
+    if (!made) continue;
+    node.known.push_back(static_cast<std::uint32_t>(known_.size()));
+    known_.push_back(std::move(*made));
+  }
+  return node;
 }
 
 double SolidSearch::size(const SolidCell& cell) const {
   const double reach = 2 * meter_.frame().reach;
-  const auto [x, at] = cell.half();
-  return std::max({at.x, at.y, at.z, reach * x.x, reach * x.y, reach * x.z});
+  const FramedPose half = cell.half();
+  const Vector x = reach * half.x;
+  return std::max({half.at.x, half.at.y, half.at.z, x.x, x.y, x.z});
 }
 
 /// Bounds a box by the program of what is known, measures where that is highest, and makes known what it
 /// meets there.
 void SolidSearch::bound(Node& node, Found& found) const {
-  const SolidFrame& frame = meter_.frame();
   const CellView view(meter_, node.cell);
   const auto known = [&](std::uint32_t k) -> const KnownSolid& {
     return k < known_.size() ? known_[k] : found.known[k - known_.size()];
@@ -141,10 +158,10 @@ void SolidSearch::bound(Node& node, Found& found) const {
       if (closed(node.upper) && (best_.inside || node.upper < options_.min_allowance)) return;
       const Steps& z = solution.z;
       const double turn = 0.5 / view.reach;
-      pose = node.cell.held(
-          {view.middle.x + turn * Vector{z[3], z[4], z[5]}, view.middle.at + Vector{z[0], z[1], z[2]}});
+      pose = node.cell.held({view.middle.x + turn * Vector{z[3], z[4], z[5]},
+                             view.middle.at + Vector{z[0], z[1], z[2]}, view.middle.chart});
     }
-    if (round == kRounds) break;
+    if (round == (view.turn > kWide ? 1 : kRounds)) break;
     const auto here =
         measured_unless_stopped(meter_, pose, std::max(solution.bound, meter_.floor() + options_.gap),
                                 kLooked, options_.run, contacts);
@@ -157,7 +174,7 @@ void SolidSearch::bound(Node& node, Found& found) const {
     for (const SolidContact& contact : contacts) {
       if (added == kMostNew) break;
       if (contact.datum != kNoTriangle && contact.margin() > solution.bound) continue;
-      auto made = bounds_.known(contact, frame.motion(pose));
+      auto made = bounds_.known(contact, pose);
       if (!made) continue;
       const auto row = bounds_.row(*made, view);
       if (!row || !(value_at(row->bound, solution.z) < solution.bound - kWorthKnowing * options_.gap))
@@ -200,12 +217,12 @@ void SolidSearch::learn(Node& node, Found& found) {
 /// Halves a box along its widest side.
 std::array<SolidSearch::Node, 2> SolidSearch::halves(const Node& node) {
   const double reach = 2 * meter_.frame().reach;
-  const auto [x, at] = node.cell.half();
+  const FramedPose wide = node.cell.half();
   std::size_t widest = 0;
   double most = -1;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (at.*kAxes[k] > most) most = at.*kAxes[k], widest = k;
-    if (reach * x.*kAxes[k] > most) most = reach * x.*kAxes[k], widest = 3 + k;
+    if (wide.at.*kAxes[k] > most) most = wide.at.*kAxes[k], widest = k;
+    if (reach * wide.x.*kAxes[k] > most) most = reach * wide.x.*kAxes[k], widest = 3 + k;
   }
   std::array<Node, 2> half{node, node};
   const auto along = [&](FramedPose& pose) -> double& {
@@ -233,9 +250,7 @@ void SolidSearch::run() {
   const auto lower = [](const Node& a, const Node& b) {
     return a.upper != b.upper ? a.upper < b.upper : a.number > b.number;
   };
-  std::vector<Node> open, batch{1};
-  batch[0].cell = meter_.frame().window;
-  for (std::uint32_t k = 0; k < known_.size(); ++k) batch[0].known.push_back(k);
+  std::vector<Node> open, batch = std::move(first_);
   // Boxes with turns both ways so wide have no bound.
   for (std::size_t k = 0; k < batch.size();) {
     if (CellView(meter_, batch[k].cell).least_scale >= 0.5) {
@@ -293,18 +308,17 @@ SolidProof SolidSearch::proof() const {
   const SolidFrame& frame = meter_.frame();
   SolidProof made;
   made.pivot = frame.pivot;
-  SolidTree tree;
-  tree.quaternion = frame.start;
+  SolidTree whole;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto wider = [](double& low, double& high, double by) {
       if (by > 0) low -= by, high += by;
     };
-    tree.low[k] = frame.window.low.at.*kAxes[k];
-    tree.high[k] = frame.window.high.at.*kAxes[k];
-    wider(tree.low[k], tree.high[k], kOutwards * meter_.far());
-    tree.low[3 + k] = frame.window.low.x.*kAxes[k];
-    tree.high[3 + k] = frame.window.high.x.*kAxes[k];
-    wider(tree.low[3 + k], tree.high[3 + k], kOutwards * tree.high[3 + k]);
+    whole.low[k] = frame.window.low.at.*kAxes[k];
+    whole.high[k] = frame.window.high.at.*kAxes[k];
+    wider(whole.low[k], whole.high[k], kOutwards * meter_.far());
+    whole.low[3 + k] = frame.window.low.x.*kAxes[k];
+    whole.high[3 + k] = frame.window.high.x.*kAxes[k];
+    wider(whole.low[3 + k], whole.high[3 + k], kOutwards * whole.high[3 + k]);
   }
   // Each ball and plane that is used has one place in its table, in the order of their first use.
   using Kind = SolidTerm::Kind;
@@ -364,23 +378,27 @@ SolidProof SolidSearch::proof() const {
     }
     return written;
   };
-  std::vector<std::uint32_t> open{0};
-  while (!open.empty()) {
-    SolidTree::Node node = tree_[open.back()];
-    open.pop_back();
-    if (node.axis == Axis::leaf) {
-      const auto first = static_cast<std::uint32_t>(tree.terms.size());
-      for (std::uint32_t k = node.first; k < node.first + node.count; ++k)
-        tree.terms.push_back(term_of(terms_[k]));
-      node.first = first;
-    } else {
-      open.push_back(node.first + 1);
-      open.push_back(node.first);
-      node.first = 0;
+  for (std::uint32_t root = 0; root < frame.charts.size(); ++root) {
+    SolidTree tree = whole;
+    tree.quaternion = frame.start_of(frame.charts[root]);
+    std::vector<std::uint32_t> open{root};
+    while (!open.empty()) {
+      SolidTree::Node node = tree_[open.back()];
+      open.pop_back();
+      if (node.axis == Axis::leaf) {
+        const auto first = static_cast<std::uint32_t>(tree.terms.size());
+        for (std::uint32_t k = node.first; k < node.first + node.count; ++k)
+          tree.terms.push_back(term_of(terms_[k]));
+        node.first = first;
+      } else {
+        open.push_back(node.first + 1);
+        open.push_back(node.first);
+        node.first = 0;
+      }
+      tree.nodes.push_back(node);
     }
-    tree.nodes.push_back(node);
+    made.trees.push_back(std::move(tree));
   }
-  made.trees.push_back(std::move(tree));
   return made;
 }
 
@@ -400,7 +418,8 @@ void SolidSearch::count_closed(const SolidCell& closed_cell) {
     return of(part.x, whole.x) * of(part.y, whole.y) * of(part.z, whole.z);
   };
   const FramedPose whole = meter_.frame().window.half(), closed = closed_cell.half();
-  closed_share_ += share(closed.at, whole.at) * share(closed.x, whole.x);
+  closed_share_ += share(closed.at, whole.at) * share(closed.x, whole.x) /
+                   static_cast<double>(meter_.frame().charts.size());
 }
 
 }  // namespace lekalo::locate

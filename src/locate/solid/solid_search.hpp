@@ -50,7 +50,8 @@ class SolidSearch {
     std::uint64_t work = 0;
   };
 
-  void meet_first();
+  void climb_first();
+  [[nodiscard]] Node first_box(std::uint8_t chart);
   void bound(Node& node, Found& found) const;
   void learn(Node& node, Found& found);
   [[nodiscard]] std::array<Node, 2> halves(const Node& node);
@@ -68,8 +69,11 @@ class SolidSearch {
   const SolidOptions& options_;
   SolidBounds bounds_;
   std::vector<KnownSolid> known_;
-  /// The boxes so far. A split has the place of its low half in `first`, and the high half stands behind it.
-  std::vector<SolidTree::Node> tree_ = std::vector<SolidTree::Node>(1);
+  /// The boxes so far, those of the charts first. A split has the place of its low half in `first`, and the
+  /// high half stands behind it.
+  std::vector<SolidTree::Node> tree_;
+  /// The boxes that it begins with.
+  std::vector<Node> first_;
   /// The terms of those that are closed.
   std::vector<Term> terms_;
   MeasuredSolid best_;
