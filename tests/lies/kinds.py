@@ -204,6 +204,9 @@ def of_solids():
     inches = [["locate", "--part", "part.obj", "--blank", "blank.obj", "--units", "inch", "--shift", "1", "--tilt", "1",
                "--gap", "0.1", "-o", "r.json"]]
     yield placed("placement, solids, inches", [], inches, written=boxes, inputs=list(boxes))
+    any_turn = inches[0][:7] + ["--freedom", "c-xyz", "--window", "-180", "180", "--find-start", "--gap", "0.1", "-o",
+                                "r.json"]
+    yield placed("placement, solids, all turns", [], [any_turn], written=boxes, inputs=list(boxes))
     for name, spare in (("features", "0.2"), ("datums", "0.3")):
         file = f"{name}.json"
         asked = [near + ["--shift", "1", "--tilt", "1", "--features", file, "--gap", spare]]

@@ -300,30 +300,43 @@ def between(before, after):
     return space.product(after, before[:1] + times(before[1:], -1))
 
 
+def has_all_turns(document):
+    return document["window"]["turn_deg"] == 180
+
+
+def charts_of(document):
+    """What each tree is counted from, after the start."""
+    half_turns = [[F(k == part) for k in range(4)] for part in range(4)]
+    if not has_all_turns(document):
+        return half_turns[:1]
+    return {"xyz": half_turns[:1], "c-xyz": [half_turns[0], half_turns[3]], "six": half_turns}[document["freedom"]]
+
+
 def most_turns(document):
     degrees = document["window"]["turn_deg"]
     cosine, sine = exact.turn(exact.D(degrees.numerator) / degrees.denominator * exact.PI / 360)
-    most = F(sine / cosine)
+    most = F(1) if has_all_turns(document) else F(sine / cosine)
     return {"xyz": [F(0)] * 3, "c-xyz": [F(0), F(0), most], "six": [most] * 3}[document["freedom"]]
 
 
 def pose_is_allowed(document):
     window = document["window"]
     shift = window["shift"]
-    if shift < 0 or not 0 <= window["turn_deg"] <= 90:
+    if shift < 0 or not (0 <= window["turn_deg"] <= 90 or has_all_turns(document)):
         return False
     slack = F(0) if document["freedom"] == "xyz" else SLACK
-    w, *turn = between(quaternion(window), quaternion(document))
-    if w == 0 or any(abs(x / w) > most + slack for x, most in zip(turn, most_turns(document))):
+    parts = between(quaternion(window), quaternion(document))
+    largest = max(abs(w) for chart in charts_of(document) for w, part in zip(parts, chart) if part)
+    if any(abs(x) > (most + slack) * largest for x, most in zip(parts[1:], most_turns(document))):
         return False
     pivot = window["pivot"]
     size = shift + sum(map(abs, pivot)) + sum(abs(document[axis]) for axis in "xyz")
     return all(abs(x) <= shift + SLACK * size for x in sub(place(document, pivot), place(window, pivot)))
 
 
-def root_covers(document, tree):
+def root_covers(document, chart, tree):
     window = document["window"]
-    if any(between(quaternion(window), tree["quaternion"])[1:]):
+    if any(between(space.product(chart, quaternion(window)), tree["quaternion"])[1:]):
         return False
     middle = place(window, window["pivot"]) + [F(0)] * 3
     for axis, at, most in zip(proof.AXES, middle, [window["shift"]] * 3 + most_turns(document)):
@@ -452,9 +465,12 @@ class Solids:
                 ball[3] < 0 for table in ("part_balls", "blank_balls") for ball in certificate[table]):
             return False
         leaves = 0
-        covers = False
-        for tree in certificate["trees"]:
-            covers = covers or root_covers(document, tree)
+        charts = charts_of(document)
+        if len(certificate["trees"]) != len(charts):
+            return False
+        for chart, tree in zip(charts, certificate["trees"]):
+            if not root_covers(document, chart, tree):
+                return False
             if any(low > high for low, high in (tree[axis] for axis in proof.AXES)):
                 return False
             cells = [[tree[axis] for axis in proof.AXES]]
@@ -471,7 +487,7 @@ class Solids:
                     return False
             if cells:
                 return False
-        return covers and (not document["certificate_file"] or document["certificate_file"]["boxes"] == leaves)
+        return not document["certificate_file"] or document["certificate_file"]["boxes"] == leaves
 
     def leaf_holds(self, leaf, cell, tree, certificate, bound, part, blank, faces):
         def edges(mesh):

@@ -85,8 +85,10 @@ TEST(SolidFields, ListsAndLengthsEndAtTheirLimits) {
   EXPECT_EQ(told([](Json& r) { r["quaternion"] = {1e12, 0, 0, 0}; }), "unproved");
   EXPECT_TRUE(says(told([](Json& r) { r["x"] = 1e12; }), "refuted; "));
   EXPECT_EQ(told([](Json& r) { r["x"] = 1.0000001e12; }), kBad + "field x is beyond 1e+12 mm");
-  EXPECT_EQ(told([](Json& r) { r["window"]["turn_deg"] = -1; }),
-            kBad + "field window.turn_deg is not from 0 to 90");
+  for (const double degrees : {-1.0, 90.5, 179.5, 180.5})
+    EXPECT_EQ(told([&](Json& r) { r["window"]["turn_deg"] = degrees; }),
+              kBad + "field window.turn_deg is neither from 0 to 90 nor 180");
+  EXPECT_EQ(told([](Json& r) { r["freedom"] = "six", r["window"]["turn_deg"] = 180; }), "unproved");
   EXPECT_EQ(told([](Json& r) { r["freedom"] = "six", r["window"]["turn_deg"] = 90; }), "unproved");
   EXPECT_EQ(told([](Json& r) { r["window"]["shift"] = 0; }), "unproved");
   EXPECT_EQ(told([](Json& r) { r["gap"] = 1e13; }), kBad + "a length is beyond all sizes");

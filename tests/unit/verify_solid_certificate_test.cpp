@@ -383,15 +383,89 @@ TEST(SolidCertificate, TheRootCoversTheWindow) {
                    "its rotations are counted from another one than the window's"));
   EXPECT_TRUE(says(with("/trees/0/quaternion", {0, 0, 0, 0}), "quaternion is 0, which is no rotation"));
   EXPECT_TRUE(says(with("/pivot/1", 1e-300), "the pivot of the certificate is not that of the window"));
-  EXPECT_TRUE(says(with("/trees", Json::array()), "refuted; there is no tree"));
+  EXPECT_EQ(with("/trees", Json::array()), "refuted; certificate.trees has 0 trees, and the window takes 1");
   EXPECT_TRUE(says(with("/trees/0/x", {1, -1}), "trees[0].x is not in ascending order"));
-  // Of several trees one may cover it; all have to hold.
   Json two = by_planes();
   two["trees"].push_back(two["trees"][0]);
-  two["trees"][0]["x"] = {0, 0.1};
-  EXPECT_EQ(cube_in_cube(two).told(), "confirmed");
-  two["trees"][0]["nodes"][0].erase(std::size_t{1});
-  EXPECT_TRUE(says(cube_in_cube(two).told(), "certificate.trees[0].nodes[0]: its terms do not prove"));
+  EXPECT_EQ(cube_in_cube(two).told(), "refuted; certificate.trees has 2 trees, and the window takes 1");
+}
+
+/// The ball within the part in a tree for each of these rotations.
+Json by_charts(const std::vector<std::array<double, 4>>& quaternions, const std::array<double, 3>& turn) {
+  Json made = by_middle(turn);
+  const Json tree = made["trees"][0];
+  made["trees"] = Json::array();
+  for (const auto& q : quaternions) {
+    made["trees"].push_back(tree);
+    made["trees"][made["trees"].size() - 1]["quaternion"] = {q[0], q[1], q[2], q[3]};
+  }
+  return made;
+}
+
+TEST(SolidCertificate, AllRotationsTakeFourTreesAndTurnsAboutZTwo) {
+  using Quaternions = std::vector<std::array<double, 4>>;
+  const auto six = [](const Quaternions& q, const std::array<double, 3>& turn = {1, 1, 1}) {
+    return cube_in_cube(by_charts(q, turn), 1, "six", 0.5, 180).told();
+  };
+  const auto about_z = [](const Quaternions& q, const std::array<double, 3>& turn = {0, 0, 1}) {
+    return cube_in_cube(by_charts(q, turn), 1, "c-xyz", 0.5, 180).told();
+  };
+  const std::array<double, 4> one{1, 0, 0, 0}, i{0, 1, 0, 0}, j{0, 0, 1, 0}, k{0, 0, 0, 1};
+  EXPECT_EQ(six({one, i, j, k}), "confirmed");
+  EXPECT_EQ(six({one, {0, -3, 0, 0}, j, k}), "confirmed");
+  EXPECT_EQ(about_z({one, k}), "confirmed");
+  const std::string other = ": its rotations are counted from another one than the window's";
+  EXPECT_EQ(six({one, i, k, j}), "refuted; certificate.trees[2]" + other + "; certificate.trees[3]" + other);
+  EXPECT_EQ(six({i, i, j, k}), "refuted; certificate.trees[0]" + other);
+  EXPECT_EQ(six({one, i, j, {1e-17, 0, 0, 1}}), "refuted; certificate.trees[3]" + other);
+  EXPECT_EQ(six({one, i, j}), "refuted; certificate.trees has 3 trees, and the window takes 4");
+  EXPECT_EQ(six({one, i, j, k, one}), "refuted; certificate.trees has 5 trees, and the window takes 4");
+  EXPECT_EQ(about_z({one}), "refuted; certificate.trees has 1 trees, and the window takes 2");
+  EXPECT_EQ(about_z({one, i}), "refuted; certificate.trees[1]" + other);
+  EXPECT_EQ(cube_in_cube(by_charts({one}, {0, 0, 0}), 1, "xyz", 0.5, 180).told(), "confirmed");
+  // Each side of each tree counts.
+  for (const char* axis : {"turn_x", "turn_y", "turn_z"})
+    for (const Json& range : {Json{-0.9999999999999999, 1}, Json{-1, 0.9999999999999999}})
+      for (std::size_t tree = 0; tree < 4; ++tree) {
+        Json made = by_charts({one, i, j, k}, {1, 1, 1});
+        made["trees"][tree][axis] = range;
+        EXPECT_TRUE(says(cube_in_cube(made, 1, "six", 0.5, 180).told(),
+                         "refuted; certificate.trees[" + std::to_string(tree) + "]: " + axis + " from "));
+      }
+}
+
+TEST(SolidCertificate, TheChartsAreCountedFromTheStart) {
+  SolidResultFiles files =
+      cube_in_cube(by_charts({{1, 2, 3, 4}, {-2, 1, -4, 3}, {-3, 4, 1, -2}, {-4, -3, 2, 1}}, {1, 1, 1}), 1,
+                   "six", 0.5, 180);
+  files.result["window"]["quaternion"] = {1, 2, 3, 4};
+  EXPECT_EQ(files.told(), "confirmed");
+  const Json right = files.result["certificate"]["trees"];
+  for (std::size_t tree = 0; tree < 4; ++tree)
+    for (std::size_t part = 0; part < 4; ++part) {
+      Json& trees = files.result["certificate"]["trees"];
+      trees = right;
+      trees[tree]["quaternion"][part] = -right[tree]["quaternion"][part].get<double>();
+      EXPECT_TRUE(says(files.told(), "counted from another one")) << tree << part;
+    }
+}
+
+TEST(SolidCertificate, OfAllTurnsThePoseMayHaveAnyThatIsFree) {
+  const auto with = [](const char* freedom, const std::array<double, 4>& q) {
+    SolidResultFiles files = cube_in_cube(nullptr, 1, freedom, 0.5, 180);
+    files.result["quaternion"] = {q[0], q[1], q[2], q[3]};
+    files.result["contacts"] = Json::array(), files.result["clearance"] = 0.5;
+    return files.told();
+  };
+  EXPECT_EQ(with("six", {0, 1, 0, 0}), "unproved");
+  EXPECT_EQ(with("six", {1, 1, 1, 1}), "unproved");
+  EXPECT_EQ(with("c-xyz", {0, 0, 0, 1}), "unproved");
+  EXPECT_EQ(with("c-xyz", {1, 0, 0, -1}), "unproved");
+  EXPECT_EQ(with("c-xyz", {1e-15, 0, 3e-15, 1}), "unproved");
+  EXPECT_TRUE(
+      says(with("c-xyz", {0, 0, 5e-15, 1}), "rotation from the start's has the turn_y 5e-15, beyond 0"));
+  EXPECT_TRUE(says(with("c-xyz", {0, 1, 0, 0}), "rotation from the start's has the turn_x inf, beyond 0"));
+  EXPECT_TRUE(says(with("xyz", {0, 0, 0, 1}), "rotation from the start's has the turn_z inf, beyond 0"));
 }
 
 TEST(SolidCertificate, AWindowWithAStartMovesTheRoot) {

@@ -244,7 +244,7 @@ TEST(SolidCheck, EveryFieldIsThereOnceAndKnown) {
             "bad input: result.json: field quaternion is not a list of 4 numbers within 1e+12");
   EXPECT_EQ(with("/x", 1e13), "bad input: result.json: field x is beyond 1e+12 mm");
   EXPECT_EQ(with("/window/turn_deg", 91),
-            "bad input: result.json: field window.turn_deg is not from 0 to 90");
+            "bad input: result.json: field window.turn_deg is neither from 0 to 90 nor 180");
   EXPECT_EQ(with("/window/shift", -1), "bad input: result.json: field window.shift is below 0");
   EXPECT_EQ(with("/inside", "true"), "bad input: result.json: field inside is neither true nor false");
   for (const char* key : {"certificate", "offset"})

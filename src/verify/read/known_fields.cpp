@@ -112,6 +112,8 @@ constexpr Known kPlacement[] = {{"format", kFormat},
 constexpr Known kSolidInputs[] = {{"role"},      {"path"},   {"sha256"},   {"units"},
                                   {"triangles"}, {"points"}, {"deviation"}};
 constexpr Known kSolidWindow[] = {{"quaternion"}, {"x"}, {"y"}, {"z"}, {"pivot"}, {"shift"}, {"turn_deg"}};
+constexpr Known kSolidSymmetryAxes[] = {{"direction"}, {"turns"}};
+constexpr Known kSolidSymmetry[] = {{"tolerance"}, {"rotations"}, {"centre"}, {"axes", kSolidSymmetryAxes}};
 constexpr Known kSolidContacts[] = {{"part_point"},     {"blank_point"}, {"part_triangle"},
                                     {"blank_triangle"}, {"distance"},    {"multiplier"}};
 constexpr Known kSolidTrees[] = {{"quaternion"}, {"x"},      {"y"},      {"z"},
@@ -141,6 +143,8 @@ constexpr Known kSolidPlacement[] = {{"format", kFormat},
                                      {"version"},
                                      {"method"},
                                      {"freedom"},
+                                     {"start"},
+                                     {"symmetry", kSolidSymmetry},
                                      {"window", kSolidWindow},
                                      {"quaternion"},
                                      {"x"},

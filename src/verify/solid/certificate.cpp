@@ -303,7 +303,9 @@ Result<void> SolidCertificate::check(Json certificate, const std::string& name) 
   if (!same_pivot) findings_.emplace_back("the pivot of the certificate is not that of the window");
 
   std::size_t nodes = 0;
-  std::optional<std::string> beyond = "there is no tree";
+  const std::vector<std::size_t> charts = charts_of(window_);
+  std::vector<std::string> beyond;
+  std::size_t trees = 0;
   fields.each("trees", [&](Json item, const std::string& path) {
     if (!complaint.empty()) return;
     const auto start = numbers_of<4>(Fields(item, path, complaint).get("quaternion"), complaint,
@@ -315,14 +317,17 @@ Result<void> SolidCertificate::check(Json certificate, const std::string& name) 
     TreeCheck tree(item, path, frame, bounds_, tables, findings_, complaint);
     const PoseBox root = tree.root();
     if (!complaint.empty()) return;
-    if (beyond) {
-      beyond = beyond_box(window_, root, *start);
-      if (beyond) beyond = fmt::format("{}: {}", path, *beyond);
-    }
+    if (trees < charts.size())
+      if (const auto part = beyond_box(window_, charts[trees], root, *start))
+        beyond.push_back(fmt::format("{}: {}", path, *part));
+    ++trees;
     tree.walk(nodes, leaves_);
   });
   if (!complaint.empty()) return bad();
-  if (beyond) findings_.push_back(*beyond);
+  if (trees != charts.size())
+    findings_.push_back(
+        fmt::format("certificate.trees has {} trees, and the window takes {}", trees, charts.size()));
+  findings_.insert(findings_.end(), beyond.begin(), beyond.end());
   return {};
 }
 

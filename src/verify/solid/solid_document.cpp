@@ -138,8 +138,9 @@ class Reader {
     w.shift = length(window, "shift");
     w.turn_deg = window.number("turn_deg");
     if (sgn(w.shift.digits) < 0) window.complain("field window.shift is below 0");
-    if (sgn(w.turn_deg.digits) < 0 || compare(w.turn_deg, Decimal{9, 1}) > 0)
-      window.complain("field window.turn_deg is not from 0 to 90");
+    if (sgn(w.turn_deg.digits) < 0 ||
+        (compare(w.turn_deg, Decimal{9, 1}) > 0 && compare(w.turn_deg, Decimal{18, 1}) != 0))
+      window.complain("field window.turn_deg is neither from 0 to 90 nor 180");
   }
 
   void read_contact(Json item, const std::string& path) {
