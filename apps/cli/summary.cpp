@@ -248,12 +248,44 @@ std::string datum_lines(const io::SolidDocument& d) {
 }
 
 std::string window_text(const io::SolidDocument& d) {
+  constexpr double kAllTurns = 180;
+  const bool six = d.freedom == locate::SolidFreedom::six;
   std::string text = fmt::format("within {} mm", d.window.shift);
-  if (d.freedom == locate::SolidFreedom::c_xyz)
-    text += fmt::format(" and {} degrees about z", d.window.turn_deg);
-  else if (d.freedom == locate::SolidFreedom::six)
-    text += fmt::format(" and {} degrees", d.window.turn_deg);
+  if (d.freedom != locate::SolidFreedom::xyz && d.window.turn_deg == kAllTurns)
+    return text + " of the start, " + (six ? "turned anyhow," : "turned anyhow about z,");
+  if (d.freedom != locate::SolidFreedom::xyz)
+    text += fmt::format(" and {} degrees{}", d.window.turn_deg, six ? "" : " about z");
   return text + " of the start";
+}
+
+std::string start_line(const io::SolidDocument& d) {
+  if (d.start != "found") return "";
+  const solid::Vector at = motion_of(d.window.start)(d.window.pivot);
+  return fmt::format(
+      "  start              found by climbs from all over: the middle of the part at ({:.3f}, {:.3f}, "
+      "{:.3f})\n",
+      at.x, at.y, at.z);
+}
+
+/// Says what other poses are as good as this one.
+std::string symmetry_lines(const io::SolidDocument& d) {
+  if (!d.symmetry) return "";
+  constexpr std::size_t kMostTold = 3;
+  const solid::Symmetry& found = d.symmetry->found;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(kMostTold, found.axes.size()); ++k) {
+    const auto& [axis, turns] = found.axes[k];
+    text += fmt::format(
+        "  symmetric          the part is the same after {} about its axis ({:.4f}, {:.4f}, {:.4f})\n",
+        turns == 0 ? "any turn" : fmt::format("1/{} of a turn", turns), axis.x, axis.y, axis.z);
+  }
+  const std::string more =
+      found.axes.size() > kMostTold ? fmt::format(" ({} axes in all)", found.axes.size()) : "";
+  const std::string poses = found.rotations == 0
+                                ? "the turn about that axis is free"
+                                : fmt::format("this pose is one of {} equal ones", found.rotations);
+  return text + fmt::format("  symmetric          so {}{}; estimated, within {} mm\n", poses, more,
+                            d.symmetry->tolerance);
 }
 
 std::string bound_line(const io::SolidDocument& d) {
@@ -302,7 +334,8 @@ std::string demand_line(const io::SolidDocument& d) {
   const std::string demands = d.demands ? datum_lines(d) + demands_line(d) : "";
   if (!d.inside())
     return demands +
-           "  to be tried        a wider window (--shift, --tilt), another start (--start), other --units\n";
+           "  to be tried        a wider window (--shift, --tilt), another start (--find-start, --start), "
+           "other --units\n";
   if (d.demands) return demands;
   if (!(*d.shortfall() > 0))
     return d.min_allowance > 0 ? fmt::format("  demanded           {} mm: met\n", d.min_allowance) : "";
@@ -365,8 +398,9 @@ std::string locate_summary(const io::LocateDocument& d, const std::vector<std::s
 }
 
 std::string solid_summary(const io::SolidDocument& d, const std::vector<std::string>& written) {
-  return headline(d) + "\n" + pose_lines(d) + bound_line(d) + demand_line(d) + scan_lines(d) +
-         contact_lines(d) + program_lines(d.nc) + note_lines(d.warnings, written);
+  return headline(d) + "\n" + pose_lines(d) + symmetry_lines(d) + start_line(d) + bound_line(d) +
+         demand_line(d) + scan_lines(d) + contact_lines(d) + program_lines(d.nc) +
+         note_lines(d.warnings, written);
 }
 
 void tell(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stderr); }

@@ -143,7 +143,9 @@ TEST(JobsLocateSolid, TheFieldsOfTheResultStandInTheirOrder) {
                                                    "version",
                                                    "method",
                                                    "freedom",
+                                                   "start",
                                                    "window",
+                                                   "symmetry",
                                                    "quaternion",
                                                    "x",
                                                    "y",
@@ -275,6 +277,104 @@ TEST(JobsLocateSolid, ThePartIsFoundWhereItWasTurnedAway) {
   EXPECT_EQ(verdict(job, located), verify::Verdict::confirmed);
 }
 
+/// The part of a convex job, turned far away and moved.
+SolidLocateJob far_job() {
+  Random random(4);
+  cases::SolidCase made = cases::convex_in_convex(random, 20, 2);
+  solid::Motion away = cases::turn({3, -1, 2}, 2.9);
+  away.shift = {300, -200, 100};
+  for (solid::Vector& p : made.part.vertices) p = away(p);
+  SolidLocateJob job = convex_job();
+  job.part.bytes = solid_files::stl_text(made.part);
+  job.blank.bytes = solid_files::ply<double>(made.blank, solid_files::PlyForm::little);
+  return job;
+}
+
+TEST(JobsLocateSolid, AllRotationsAreProvedWhereverThePartLies) {
+  SolidLocateJob job = far_job();
+  job.options.tilt_deg = 180, job.options.gap = 0.1;
+  const LocatedSolid located = made(job);
+  const auto json = cases::Json::parse(located.result);
+  EXPECT_EQ(json["status"], "optimal");
+  EXPECT_EQ(json["start"], "drawn");
+  EXPECT_EQ(json["window"]["turn_deg"], 180);
+  EXPECT_EQ(json["certificate"]["trees"].size(), 4U);
+  EXPECT_LE(*located.document.clearance, 2.0);
+  EXPECT_GE(*located.document.upper_bound, 2.0);
+  EXPECT_EQ(verdict(job, located), verify::Verdict::confirmed);
+  // The middle of the part may be anywhere in the blank, and little farther off.
+  const solid::Vector at = motion_of(located.document.window.start)(located.document.window.pivot);
+  const double shift = located.document.window.shift;
+  EXPECT_GT(shift, norm(at) / std::sqrt(3));
+  EXPECT_LT(shift, norm(at) + 200);
+  job.options.shift = 1;
+  EXPECT_EQ(made(job).document.window.shift, 1);
+}
+
+TEST(JobsLocateSolid, AStartIsFoundFromAllOver) {
+  SolidLocateJob job = far_job();
+  job.options.find_start = true;
+  const LocatedSolid located = made(job);
+  const auto json = cases::Json::parse(located.result);
+  EXPECT_EQ(json["start"], "found");
+  EXPECT_EQ(json["status"], "optimal");
+  EXPECT_EQ(json["window"]["turn_deg"], 5);
+  EXPECT_EQ(json["window"]["shift"], 5);
+  EXPECT_NEAR(*located.document.clearance, 2, 0.01);
+  EXPECT_EQ(verdict(job, located), verify::Verdict::confirmed);
+  EXPECT_EQ(made(job).result, located.result);
+}
+
+TEST(JobsLocateSolid, AllTurnsAboutZAreLookedAt) {
+  SolidLocateJob job = convex_job();
+  Random random(6);
+  const cases::SolidCase pair = cases::convex_in_convex(random, 20, 2);
+  solid::Mesh part = pair.part;
+  solid::Motion away = cases::turn({0, 0, 1}, 2);
+  away.shift = {50, 0, 0};
+  for (solid::Vector& p : part.vertices) p = away(pair.there(p));
+  job.part.bytes = solid_files::stl_text(part);
+  job.blank.bytes = solid_files::ply<double>(pair.blank, solid_files::PlyForm::little);
+  job.options.freedom = SolidFreedom::c_xyz;
+  job.options.window_from_deg = -180, job.options.window_to_deg = 180;
+  for (const bool find : {false, true}) {
+    job.options.find_start = find;
+    const LocatedSolid located = made(job);
+    EXPECT_EQ(located.document.status, "optimal");
+    EXPECT_EQ(located.document.window.turn_deg, 180);
+    EXPECT_EQ(cases::Json::parse(located.result)["certificate"]["trees"].size(), 2U);
+    EXPECT_NEAR(*located.document.clearance, 2, 0.01);
+    EXPECT_EQ(located.document.pose.quaternion[1], 0);
+    EXPECT_EQ(located.document.pose.quaternion[2], 0);
+    EXPECT_EQ(verdict(job, located), verify::Verdict::confirmed);
+  }
+  // A shift alone may be found, too.
+  job.options.freedom = SolidFreedom::xyz;
+  job.options.method = SolidMethod::climb;
+  const LocatedSolid shifted = made(job);
+  EXPECT_EQ(shifted.document.window.start.quaternion, (std::array<double, 4>{1, 0, 0, 0}));
+  EXPECT_EQ(verdict(job, shifted), verify::Verdict::unproved);
+}
+
+TEST(JobsLocateSolid, ThePartsSymmetryIsTold) {
+  const LocatedSolid block = made(block_job());
+  const auto json = cases::Json::parse(block.result);
+  EXPECT_EQ(json["symmetry"]["rotations"], 4);
+  EXPECT_EQ(json["symmetry"]["tolerance"], 0.01);
+  EXPECT_EQ(json["symmetry"]["centre"], (cases::Json{0, 0, 0}));
+  ASSERT_EQ(json["symmetry"]["axes"].size(), 3U);
+  EXPECT_EQ(json["symmetry"]["axes"][0]["turns"], 2);
+  SolidLocateJob round = block_job();
+  round.part.bytes =
+      solid_files::stl_text(cases::turned({{0, -8}, {12, -8}, {12, -4}, {8, -4}, {8, 8}, {0, 8}}, 200, 0));
+  const auto of_round = cases::Json::parse(made(round).result);
+  EXPECT_TRUE(of_round["symmetry"]["rotations"].is_null());
+  EXPECT_TRUE(of_round["symmetry"]["axes"][0]["turns"].is_null());
+  SolidLocateJob uneven = convex_job();
+  uneven.options.method = SolidMethod::climb;
+  EXPECT_TRUE(cases::Json::parse(made(uneven).result)["symmetry"].is_null());
+}
+
 TEST(JobsLocateSolid, TheCertificateMayBeAFileOfItsOwn) {
   SolidLocateJob job = convex_job();
   job.options.gap = 0.1;
@@ -310,6 +410,7 @@ TEST(JobsLocateSolid, FacesHaveTheirOwnDemands) {
   const auto json = cases::Json::parse(located.result);
   EXPECT_EQ(json["status"], "optimal");
   EXPECT_EQ(json["inputs"][2]["role"], "features");
+  EXPECT_TRUE(json["symmetry"].is_null());
   EXPECT_TRUE(json["upper_bound"].is_null());
   EXPECT_TRUE(json["gap"].is_null());
   const auto& demands = json["demands"];

@@ -60,11 +60,12 @@ struct LocateWords {
       start, mesh, mesh_step, offset, offset_out, axes;
   std::vector<std::string> part_layers, blank_layers;
   std::vector<std::string> window, offset_decimals;
-  bool json = false, strict = false;
+  bool json = false, strict = false, find_start = false;
 };
 
 constexpr double kLargestWindowAngle = 720.0;  // degrees: either way of writing a window fits
 constexpr double kClosedWindow = 1e-9;         // degrees: a smaller opening is none
+constexpr double kAllTurns = 180;              // degrees: a solid turned by up to this is turned anyhow
 constexpr double kLongestTime = 1e7;           // seconds
 
 void read_window(const std::vector<std::string>& words, WordReader& read, LocateOptions& o) {
@@ -141,9 +142,17 @@ void read_search(const LocateWords& words, WordReader& read, LocateOptions& o) {
 
 void read_solid_search(const LocateWords& words, WordReader& read, LocateOptions& o) {
   read.choice("--freedom", words.freedom, kFreedoms, o.solid.freedom);
-  read.number("--tilt", words.tilt, 0.0, 90.0, "an angle from 0 to 90 degrees", o.solid.tilt_deg);
-  read.number("--shift", words.shift, 0.0, kLargestLength, "a length in mm of 0 or more", o.solid.shift);
+  const char* const tilts = "an angle from 0 to 90 degrees, or 180, which is every rotation";
+  read.number("--tilt", words.tilt, 0.0, kAllTurns, tilts, o.solid.tilt_deg);
+  read.require(o.solid.tilt_deg <= 90 || o.solid.tilt_deg == kAllTurns,
+               fmt::format("--tilt: {} is not {}", words.tilt, tilts));
+  if (!words.shift.empty())
+    read.number("--shift", words.shift, 0.0, kLargestLength, "a length in mm of 0 or more",
+                o.solid.shift.emplace());
   o.start = words.start;
+  o.solid.find_start = words.find_start;
+  read.require(!words.find_start || words.start.empty(),
+               "--find-start and --start FILE: the start is either looked for or given");
 }
 
 /// The statements about a scanner's mesh, of which those about its points are read already.
@@ -335,9 +344,9 @@ constexpr std::array<std::string_view, 30> kOfBoth{
     "--nc",          "--nc-out",          "--nc-mode",       "--control",
     "--allow",       "--chord-tolerance", "--wcs",           "--nc-angle-decimals",
     "--scan-frame",  "--features"};
-constexpr std::array<std::string_view, 12> kOfSolids{
-    "--freedom", "--tilt",      "--shift",  "--start",      "--underside", "--flat",
-    "--mesh",    "--mesh-step", "--offset", "--offset-out", "--axes",      "--offset-decimals"};
+constexpr std::array<std::string_view, 13> kOfSolids{
+    "--freedom", "--tilt",      "--shift",  "--start",      "--find-start", "--underside",      "--flat",
+    "--mesh",    "--mesh-step", "--offset", "--offset-out", "--axes",       "--offset-decimals"};
 
 bool is_typed(const FormOption& option) {
   if (const auto* const flag = std::get_if<bool*>(&option.to)) return **flag;
@@ -382,7 +391,7 @@ void read_for_either(const LocateWords& words, const std::vector<FormOption>& op
 
 /// The rotation of solids is looked at in one window, which depends on their freedom.
 void check_turns(const LocateWords& words, LocateOptions& o) {
-  constexpr double kWidest = 180;
+  const double apart = o.solid.window_to_deg - o.solid.window_from_deg;
   const auto complain = [&](bool wrong, const char* sentence) {
     if (wrong) o.not_for_solids += (o.not_for_solids.empty() ? "" : "; ") + std::string(sentence);
   };
@@ -391,8 +400,8 @@ void check_turns(const LocateWords& words, LocateOptions& o) {
       window && !about_z,
       "--window, the turn about z, goes with --freedom c-xyz; --tilt DEG is how far the part may be turned "
       "about any axis");
-  complain(window && about_z && o.solid.window_to_deg - o.solid.window_from_deg > kWidest,
-           "--window: the turns of a solid lie at most 180 degrees apart");
+  complain(window && about_z && apart > kAllTurns && apart < 2 * kAllTurns,
+           "--window: the turns of a solid lie at most 180 degrees apart, or 360, which are all of them");
   complain(!words.tilt.empty() && o.solid.freedom != locate::SolidFreedom::six,
            "--tilt goes with --freedom six");
   complain(
@@ -532,11 +541,15 @@ void add_solid_options(Form& form, LocateWords& w) {
   const OptionAdder add(form, "Solids");
   add("--freedom", w.freedom, list_of(kFreedoms, "|"),
       "The part is shifted; also turned about z by --window; or turned about any axis by --tilt [six]");
-  add("--tilt", w.tilt, "DEG", "How far the part may be turned from the start, about any axis [5]");
+  add("--tilt", w.tilt, "DEG",
+      "How far the part may be turned from the start, about any axis; 180 is every rotation [5]");
   add("--shift", w.shift, "MM",
-      "How far the middle of the part may move from the start, along each axis [5]");
+      "How far the middle of the part may move from the start, along each axis [5; with all turns to "
+      "anywhere in the blank]");
   add("--start", w.start, "FILE",
       "Result of an earlier placement, whose pose is the start [the part where its file has it]");
+  add("--find-start", w.find_start,
+      "Look for the start: climb from rotations all over and from the axes of inertia");
 }
 
 void add_program_options(Form& form, LocateWords& w) {

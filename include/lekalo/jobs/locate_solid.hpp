@@ -47,16 +47,20 @@ struct SolidLocateOptions {
   /// The unit of both files, millimetres without.
   std::optional<io::SolidUnit> units;
   locate::SolidFreedom freedom = locate::SolidFreedom::six;
-  /// The middle of the part's box may move by this along each axis, mm, >= 0.
-  double shift = 5;
-  /// With `six`: the part may be turned by up to this from the start about any axis, degrees, from 0 to 90.
+  /// The middle of the part's box may move by this along each axis, mm, >= 0. Without it by 5; where there
+  /// are all turns, by as much as it takes to be anywhere in the blank.
+  std::optional<double> shift = {};
+  /// With `six`: the part may be turned by up to this from the start about any axis, degrees, from 0 to 90;
+  /// or 180, which is every rotation.
   double tilt_deg = 5;
   /// With `c_xyz`: the turns about the z axis that are looked at, from -720 to 720, ascending, 180 apart or
-  /// less.
+  /// less; or 360 apart or more, which are all.
   double window_from_deg = -5, window_to_deg = 5;
   double gap = 1e-2;         ///< see locate::SolidOptions, mm, > 0
   double min_allowance = 0;  ///< mm, >= 0
   SolidMethod method = SolidMethod::certified;
+  /// The start is found by locate::find_start; there is no file of one then.
+  bool find_start = false;
   /// Without it the blank is taken as drawn.
   std::optional<SolidScanOptions> scan;
   /// The way a program is rewritten; its `z` is that of the placement.

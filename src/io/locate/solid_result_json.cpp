@@ -36,6 +36,21 @@ void write(JsonWriter& json, const SolidWindow& window) {
   json.fields({{"shift", window.shift}, {"turn_deg", window.turn_deg}}).end();
 }
 
+/// Endless ones have null for their number.
+void write(JsonWriter& json, const std::optional<SolidSymmetryRecord>& symmetry) {
+  if (!symmetry) return void(json.value(nullptr));
+  const auto number = [](std::uint32_t count) { return count > 0 ? std::optional(count) : std::nullopt; };
+  const solid::Symmetry& found = symmetry->found;
+  json.begin_object().fields({{"tolerance", symmetry->tolerance}, {"rotations", number(found.rotations)}});
+  write(json.key("centre"), found.centre);
+  json.key("axes").begin_list();
+  for (const solid::SymmetryAxis& axis : found.axes) {
+    write(json.begin_object().key("direction"), axis.direction);
+    json.field("turns", number(axis.turns)).end();
+  }
+  json.end().end();
+}
+
 void write(JsonWriter& json, const locate::SolidTouch& touch) {
   write(json.begin_object().key("part_point"), touch.part);
   write(json.key("blank_point"), touch.blank);
@@ -98,8 +113,9 @@ void write_head(JsonWriter& json, const SolidDocument& d) {
   list_of_lines(line_of(json, "inputs"), d.inputs, [&](const SolidInputRecord& one) { write(json, one); });
   list_of_lines(line_of(json, "warnings"), d.warnings, [&](const std::string& one) { json.value(one); });
   lines(json, {{"seed", 0}, {"work", d.work}, {"version", kVersion}, {"method", d.method}});
-  lines(json, {{"freedom", io::name_of(d.freedom)}});
+  lines(json, {{"freedom", io::name_of(d.freedom)}, {"start", d.start}});
   write(line_of(json, "window"), d.window);
+  write(line_of(json, "symmetry"), d.symmetry);
 }
 
 void write_placement(JsonWriter& json, const SolidDocument& d) {

@@ -13,6 +13,7 @@
 #include "lekalo/io/locate/solid_certificate.hpp"
 #include "lekalo/io/text/sha256.hpp"
 #include "lekalo/locate/solid_reference.hpp"
+#include "lekalo/solid/symmetry.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "solid_documents.hpp"
 #include "solid_offset.hpp"
@@ -75,7 +76,8 @@ void warn_of_start(const SolidInputs& in, std::vector<std::string>& warnings) {
     if (out > p.shift)
       warnings.push_back(fmt::format(
           "at the start the part reaches {:.4g} mm out of the box around the blank along {}, farther than it "
-          "may be shifted ({} mm); let it begin elsewhere with --start, move a file, or say --shift",
+          "may be shifted ({} mm); let it begin elsewhere with --start or --find-start, move a file, or say "
+          "--shift",
           out, axis, p.shift));
 }
 
@@ -215,13 +217,29 @@ Result<void> self_check(const SolidLocateJob& job, const SolidInputs& in, Locate
   return made.document.offset ? check_offset(made) : Result<void>{};
 }
 
-Result<Found> searched(const SolidInputs& in, const SolidLocateOptions& o, const RunControl& run,
-                       const Stopwatch& stopwatch, double& seconds) {
+/// Its progress is told as a small part of the whole.
+Result<locate::SolidPose> found_start(const SolidInputs& in, const SolidLocateOptions& o,
+                                      const RunControl& run) {
+  constexpr double kShare = 0.001;
+  RunControl finding = run;
+  if (run.progress)
+    finding.progress = [&](const Progress& climbed) {
+      run.progress({climbed.work, kShare * climbed.fraction});
+    };
+  return locate::find_start(in.problem, {o.gap, 0, o.threads, finding});
+}
+
+Result<Found> searched(const SolidLocateOptions& o, const RunControl& run, const Stopwatch& stopwatch,
+                       SolidInputs& in, double& seconds) {
   const auto now = [&] { return stopwatch ? stopwatch() : 0; };
   // The search looks at the control itself, and ends with its best so far.
   const RunControl nobody;
   const Listening listening(nobody);
   const double start = now();
+  if (o.find_start) {
+    LEKALO_TRY(in.problem.start, found_start(in, o, run));
+  }
+  set_window(o, in);
   Result<Found> found = found_by_method(in, o, run);
   seconds = now() - start;
   return found;
@@ -235,7 +253,13 @@ io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&
   d.warnings.insert(d.warnings.end(), in.notices.begin(), in.notices.end());
   warn_of_names(job, d.warnings);
   d.work = found.best.work, d.freedom = job.options.freedom;
-  d.window = {in.problem.start, in.pivot, job.options.shift, in.turn_deg};
+  d.start = job.options.find_start ? "found" : job.start ? "file" : "drawn";
+  d.window = {in.problem.start, in.pivot, in.problem.shift, in.turn_deg};
+  // Poses that differ by such a rotation differ in their clearance by no more than is searched for. Features
+  // tell faces apart.
+  if (!job.features)
+    if (solid::Symmetry of_part = solid::symmetry(in.problem.part, job.options.gap); !of_part.axes.empty())
+      d.symmetry = {job.options.gap, std::move(of_part)};
   const double share = job.options.offset ? kWordedLoss : 0x1p-49;
   d.pose = found.best.pose, d.clearance = safe_clearance(found.best, in, share);
   d.min_allowance = job.options.min_allowance;
@@ -288,7 +312,7 @@ Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& r
                                   const Stopwatch& stopwatch) {
   LEKALO_TRY(SolidInputs in, read_inputs(job));
   double seconds = 0;
-  LEKALO_TRY(Found found, searched(in, job.options, run, stopwatch, seconds));
+  LEKALO_TRY(Found found, searched(job.options, run, stopwatch, in, seconds));
   // The findings are told to the end, whoever has asked for the stop.
   const RunControl nobody;
   std::optional<Listening> to_the_end;

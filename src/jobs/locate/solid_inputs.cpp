@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "lekalo/base/angle.hpp"
@@ -18,6 +19,9 @@ namespace {
 using locate::SolidFreedom;
 using locate::SolidPose;
 using solid::Vector;
+
+/// Stands for all turns.
+constexpr double kAllTurnsDeg = 180;
 
 enum class FileKind : std::uint8_t { outline, scan, points, solid };
 
@@ -156,21 +160,23 @@ SolidPose turned_about_vertical(const SolidPose& pose, Vector pivot, double degr
 /// result states.
 double radians_up(double degrees) {
   if (degrees == 0) return 0;
+  if (degrees == kAllTurnsDeg) return locate::SolidProblem::kAllTurns;
   return std::min(degrees * kDegree * (1 + 0x1p-50) + 4 * geom::kSinCosError, 0.5 * kPi);
 }
 
-void set_window(const SolidLocateOptions& o, SolidInputs& in) {
-  locate::SolidProblem& p = in.problem;
-  const solid::Box box = box_of(p.part.vertices);
-  in.pivot = 0.5 * (box.low + box.high);
-  p.freedom = o.freedom, p.shift = o.shift;
-  if (o.freedom == SolidFreedom::six) in.turn_deg = o.tilt_deg;
-  if (o.freedom == SolidFreedom::c_xyz) {
-    const double middle = 0.5 * (o.window_from_deg + o.window_to_deg);
-    in.turn_deg = std::max(o.window_to_deg - middle, middle - o.window_from_deg);
-    p.start = turned_about_vertical(p.start, in.pivot, middle);
-  }
-  p.turn = radians_up(in.turn_deg);
+/// How far the pivot may be from its place at the start, along any axis, while the part is inside the blank:
+/// a corner of it that demands something lies in the blank's box then. In tenths of a millimetre.
+double shift_within_blank(const locate::SolidProblem& p, Vector pivot) {
+  constexpr double kTenths = 10;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < p.part.triangles.size(); ++t)
+    if (p.demands.empty() || p.demands[t])
+      for (const std::uint32_t v : p.part.triangles[t])
+        nearest = std::min(nearest, norm(p.part.vertices[v] - pivot));
+  const solid::Box blank = box_of(p.blank.vertices);
+  const Vector at = motion_of(p.start)(pivot), below = at - blank.low, above = blank.high - at;
+  const double most = nearest + std::max({below.x, below.y, below.z, above.x, above.y, above.z});
+  return (std::floor(kTenths * most) + 1) / kTenths;
 }
 
 /// Gives the blank's triangles their widths.
@@ -244,8 +250,26 @@ Result<SolidInputs> read_inputs(const SolidLocateJob& job) {
   if (job.options.scan) LEKALO_CHECK(read_scan(*job.options.scan, in));
   if (in.meshed) LEKALO_CHECK(hold_against_points(job, in));
   LEKALO_CHECK(read_start(job.start, in.problem.start));
-  set_window(job.options, in);
+  const solid::Box box = box_of(in.problem.part.vertices);
+  in.pivot = 0.5 * (box.low + box.high);
+  in.problem.freedom = job.options.freedom;
   return in;
+}
+
+void set_window(const SolidLocateOptions& o, SolidInputs& in) {
+  constexpr double kUsualShift = 5;
+  locate::SolidProblem& p = in.problem;
+  if (o.freedom == SolidFreedom::six) in.turn_deg = o.tilt_deg;
+  if (o.freedom == SolidFreedom::c_xyz && o.window_to_deg - o.window_from_deg >= 2 * kAllTurnsDeg) {
+    in.turn_deg = kAllTurnsDeg;
+  } else if (o.freedom == SolidFreedom::c_xyz) {
+    const double middle = 0.5 * (o.window_from_deg + o.window_to_deg);
+    in.turn_deg = std::max(o.window_to_deg - middle, middle - o.window_from_deg);
+    p.start = turned_about_vertical(p.start, in.pivot, middle);
+  }
+  p.turn = radians_up(in.turn_deg);
+  const bool all = in.turn_deg == kAllTurnsDeg;
+  p.shift = o.shift.value_or(all ? shift_within_blank(p, in.pivot) : kUsualShift);
 }
 
 }  // namespace lekalo::jobs

@@ -31,7 +31,7 @@ struct MeshedPoints {
 struct SolidInputs {
   locate::SolidProblem problem;
   solid::Vector pivot;  ///< of its window
-  double turn_deg = 0;  ///< the half width of its turns
+  double turn_deg = 0;  ///< the half width of its turns; 180 for all of them
   ReadSolid part, blank;
   /// Counts as the blank instead of a file of points.
   std::optional<MeshedPoints> meshed;
@@ -50,7 +50,10 @@ struct SolidInputs {
   std::vector<std::string> notices;
 };
 
-/// Reads each file once and closes the meshes. The start is turned to the middle of the turns looked at.
+/// Reads each file once and closes the meshes. The window is still to be set.
 [[nodiscard]] Result<SolidInputs> read_inputs(const SolidLocateJob& job);
+
+/// Sets the window about the start, which is turned to the middle of the turns looked at.
+void set_window(const SolidLocateOptions& options, SolidInputs& in);
 
 }  // namespace lekalo::jobs

@@ -10,6 +10,7 @@
 #include "lekalo/io/solid/solid_file.hpp"
 #include "lekalo/locate/guaranteed_solid.hpp"
 #include "lekalo/locate/solid.hpp"
+#include "lekalo/solid/symmetry.hpp"
 
 namespace lekalo::io {
 
@@ -74,6 +75,12 @@ struct OffsetRecord {
   FileRecord output;
 };
 
+/// The rotations that bring the part onto itself, as far as was seen.
+struct SolidSymmetryRecord {
+  double tolerance = 0;  ///< mm
+  solid::Symmetry found;
+};
+
 struct SolidDocument {
   std::string status;  ///< optimal, stopped, infeasible, unproved
   std::string method;  ///< certified, climb, icp, axes
@@ -81,7 +88,9 @@ struct SolidDocument {
   std::vector<std::string> warnings;
   std::uint64_t work = 0;
   locate::SolidFreedom freedom = locate::SolidFreedom::six;
+  std::string start;  ///< how the start of the window was come by: drawn, file, found
   SolidWindow window;
+  std::optional<SolidSymmetryRecord> symmetry;  ///< none of a part without
   locate::SolidPose pose;
   /// The least allowance, of what has a demand, mm. There is none where the part is not inside the blank.
   std::optional<double> clearance;
