@@ -296,13 +296,15 @@ class Walk {
   /// of them. From most of them its first corner is farther away than that it needs a second look.
   In in_half_plane(const Member& half_plane, const Corners& corners, double length_of_piece) {
     const Side& line = primitives_[half_plane.side.primitive].shape.sides[0];
+    const auto height_of = [&](const Vec& corner) { return cross(half_plane.along, corner - line.from); };
+    const double room = 2 * kAside * reach_, far = (just(room) + just(length_of_piece)).high;
     bool within = true, without = true;
     ++work_;
+    const Span first = height_of(corners.at[0]);
+    if (first.low > far) return In::yes;
+    if (first.high < -far) return In::no;
     for (std::size_t i = 0; i < corners.count; ++i) {
-      const Span height = cross(half_plane.along, corners.at[i] - line.from);
-      const double room = 2 * kAside * reach_, far = (just(room) + just(length_of_piece)).high;
-      if (i == 0 && height.low > far) return In::yes;
-      if (i == 0 && height.high < -far) return In::no;
+      const Span height = height_of(corners.at[i]);
       within = within && height.low > room, without = without && height.high < -room;
     }
     return within ? In::yes : (without ? In::no : In::open);
