@@ -14,7 +14,7 @@
 #include "verify/locate/outline.hpp"
 #include "verify/number/exact.hpp"
 #include "verify/number/interval.hpp"
-#include "verify/number/span.hpp"
+#include "verify/number/surely.hpp"
 #include "verify/read/json.hpp"
 
 namespace lekalo::verify_arithmetic_test {
@@ -95,6 +95,14 @@ TEST(VerifyArithmetic, EveryOperationEnclosesTheExactResult) {
       EXPECT_TRUE(holds((a.flat * b.flat) / b.flat, a.exact));
     }
   }
+}
+
+TEST(VerifyArithmetic, ANumberIsSurelyAboveWhatItsSpanDoesNotTouch) {
+  EXPECT_FALSE(surely_above({1, 2}, {0, 1}));
+  EXPECT_TRUE(surely_above({1, 2}, {0, step_down(1)}));
+  EXPECT_FALSE(is_positive({0, 1}));
+  EXPECT_TRUE(is_positive({step_up(0), 1}));
+  EXPECT_FALSE(is_positive({std::nan(""), 1}));
 }
 
 TEST(VerifyArithmetic, IntervalsAcrossZeroMultiplyAndSquareToTheirExtremes) {

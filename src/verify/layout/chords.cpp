@@ -7,6 +7,7 @@
 
 #include "grid_number.hpp"
 #include "lekalo/base/angle.hpp"
+#include "verify/number/surely.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -44,9 +45,9 @@ Span distance(const Vec& c, const Vec& from, const Vec& to) {
   const Span ends{std::min(length(from - c).low, length(to - c).low),
                   std::min(length(from - c).high, length(to - c).high)};
   const Span before = dot(c - from, along), after = dot(to - c, along);
-  if (std::min(before.high, after.high) <= 0) return ends;
+  if (is_positive(-before) || is_positive(-after)) return ends;
   const Span line = absolute(cross(along, c - from)) / length(along);
-  if (std::min(before.low, after.low) > 0) return line;
+  if (is_positive(before) && is_positive(after)) return line;
   return {line.low, ends.high};
 }
 
@@ -64,15 +65,16 @@ std::optional<std::string> fault_of_arc(const std::vector<Vec>& chain, const Dra
     const bool at_first = i == 0, at_last = i + 2 == chain.size();
     const double end = std::min(at_first ? first.low : most, at_last ? last.low : most);
     const Span chord = distance(arc.centre, chain[i], chain[i + 1]);
-    const double farthest =
-        std::max(length(chain[i] - arc.centre).high, length(chain[i + 1] - arc.centre).high);
     if (outside) {
       const double nearest_allowed = at_first || at_last ? end - kCorner : most + 2 * kStep;
-      if (!(chord.low >= nearest_allowed)) return "a chord cuts into an arc";
-      if (!(farthest <= most + reach)) return "a chord is farther from an arc than the tolerance";
+      if (!surely_above(chord, just(nearest_allowed))) return "a chord cuts into an arc";
+      if (!surely_above(just(most + reach), length(chain[i] - arc.centre)) ||
+          !surely_above(just(most + reach), length(chain[i + 1] - arc.centre)))
+        return "a chord is farther from an arc than the tolerance";
     } else {
       // The ends are no farther from those of the arc than they may be.
-      if (!at_last && !(length(chain[i + 1] - arc.centre).high <= std::max(least - 2 * kStep, 2 * kStep)))
+      if (!at_last &&
+          !surely_above(just(std::max(least - 2 * kStep, 2 * kStep)), length(chain[i + 1] - arc.centre)))
         return "a chord reaches out of an arc";
       if (!(chord.high >= least - reach)) return "a chord is farther from an arc than the tolerance";
     }
@@ -109,7 +111,7 @@ class Walk {
   bool backwards_;
 };
 
-bool near(const Vec& a, const Vec& b) { return length(a - b).low <= kCorner; }
+bool near(const Vec& a, const Vec& b) { return !surely_above(length(a - b), just(kCorner)); }
 
 /// Returns how many points the walk must go to reach the next vertex of the drawing: of several near points
 /// in a row the nearest one. Returns nothing when there is none.

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include "verify/number/span.hpp"
+#include "verify/number/surely.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -175,7 +175,7 @@ double CertificateCheck::flat_bound(const WrittenInterval& interval, const Sinus
   const FlatTurn from = flat_turn(interval.from), to = flat_turn(interval.to);
   const Span slope_from = b * from.cosine - a * from.sine, slope_to = b * to.cosine - a * to.sine;
   const bool narrow = to.nearest - from.nearest < 3;
-  const bool no_crest = narrow && (slope_from.high < 0 || slope_to.low > 0);
+  const bool no_crest = narrow && (is_positive(-slope_from) || is_positive(slope_to));
   const Span at_from = a * from.cosine + b * from.sine, at_to = a * to.cosine + b * to.sine;
   const double top = no_crest ? std::max(at_from.high, at_to.high) : square_root(a * a + b * b).high;
   const double bound = (plus(k, top) / divisor).high;

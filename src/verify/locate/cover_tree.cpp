@@ -7,7 +7,7 @@
 #include "grown_ball.hpp"
 #include "lekalo/base/limits.hpp"
 #include "verify/number/interval.hpp"
-#include "verify/number/span.hpp"
+#include "verify/number/surely.hpp"
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
 
@@ -185,7 +185,7 @@ bool CoverTree::read_leaf(Json contacts, std::vector<Term>& terms, std::string& 
     term.part = part - problem_.pivot;
     if (mirrored_) term.part.x = {-term.part.x.high, -term.part.x.low};
     term.blank = blank;
-    if (term.multiplier.low > 0) terms.push_back(term);
+    if (is_positive(term.multiplier)) terms.push_back(term);
   }
   return !terms.empty() || complain("its multipliers sum to nothing");
 }

@@ -6,7 +6,7 @@
 #include "grown_ball.hpp"
 #include "lekalo/verify/verify.hpp"
 #include "verify/number/interval.hpp"
-#include "verify/number/span.hpp"
+#include "verify/number/surely.hpp"
 #include "verify/shape/edge_of_side.hpp"
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
@@ -17,9 +17,6 @@ namespace {
 
 /// A claim counts as not confirmed when it takes more pieces of outlines, or squares, than this.
 constexpr std::size_t kMostPieces = 200'000;
-
-bool surely_above(Span a, Span b) { return a.low > b.high; }
-bool is_positive(Span value) { return surely_above(value, just(0)); }
 
 bool above(const Decimal& a, const Decimal& b) { return compare(a, b) > 0; }
 

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "lekalo/base/stop.hpp"
-#include "verify/number/span.hpp"
+#include "verify/number/surely.hpp"
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
 #include "verify/shape/stretch.hpp"
@@ -56,6 +56,13 @@ Vec nearest_point(const Side& piece, const Vec& c) {
   return piece.from + along * just(std::min(std::max(0.0, share), 1.0));
 }
 
+/// Says whether all of this, a point or a piece, is surely farther than `by` from a side.
+template <class Place>
+bool surely_off(const Place& place, const Shape& part, std::size_t side, double by) {
+  return gap(box_of(place), part.tree->box(side)) > by ||
+         surely_above(distance(place, part.sides[side]), just(by));
+}
+
 class GrownBall {
  public:
   GrownBall(const Shape& part, const std::vector<double>& growth, const Vec& c, double wanted)
@@ -67,7 +74,7 @@ class GrownBall {
       // A rim is taken to be wider by what the arc's ends miss its circle, so that it holds the true one.
       const double by = rim ? (just(-growth[k]) + just(side.off)).high : growth[k];
       if (rim) rims_.push_back({k, by});
-      if ((just(apart) - just(by)).low >= wanted) continue;
+      if (surely_above(just(apart) - just(by), just(wanted))) continue;
       if (!(by > side.off)) add(side);
       if (!(by > 0)) continue;
       if (!rim) grown_.push_back({k, by});
@@ -88,7 +95,7 @@ class GrownBall {
       if (covered == Covered::wholly) continue;
       // No other piece is nearer.
       if (covered == Covered::no || looked == kMostPieces ||
-          (!turns_far && !(length(piece.side.to - piece.side.from).high > shortest)))
+          (!turns_far && surely_above(just(shortest), length(piece.side.to - piece.side.from))))
         return piece.apart;
       for (const Side& half : halves(piece.side)) add(half, piece.apart);
     }
@@ -123,7 +130,7 @@ class GrownBall {
   void add_parallels(const Side& side, double by) {
     if (side.arc) {
       add(with_radius(side, side.radius + just(by)));
-      if (const Span inner = side.radius - just(by); inner.high >= 0) add(with_radius(side, inner));
+      if (!surely_above(just(by), side.radius)) add(with_radius(side, side.radius - just(by)));
       if (side.sweep == Sweep::full) return;
       add(half_circle(side.centre + side.first * side.radius, -side.first, by));
       add(half_circle(side.centre + side.last * side.radius, side.last, by));
@@ -139,20 +146,18 @@ class GrownBall {
 
   [[nodiscard]] bool may_reach(const Strip& strip, const Vec& p) const {
     return gap(box_of(p), part_.tree->box(strip.side)) < strip.by &&
-           distance(p, part_.sides[strip.side]).high < strip.by;
+           surely_above(just(strip.by), distance(p, part_.sides[strip.side]));
   }
   /// Says whether every point of the piece is nearer to the strip's side than the strip is wide.
   [[nodiscard]] bool reaches(const Strip& strip, const Side& piece, const Corners& corners) const {
     const Side& side = part_.sides[strip.side];
-    return (just(farthest(piece, corners, side)) + just(side.off)).high < strip.by;
+    return surely_above(just(strip.by), just(farthest(piece, corners, side)) + just(side.off));
   }
   /// Says whether all of this, a point or a piece, is further from every rim's side than the rim is wide.
   template <class Place>
   [[nodiscard]] bool off_rims(const Place& place) const {
-    return std::all_of(rims_.begin(), rims_.end(), [&](const Strip& rim) {
-      const Side& side = part_.sides[rim.side];
-      return gap(box_of(place), part_.tree->box(rim.side)) > rim.by || distance(place, side).low > rim.by;
-    });
+    return std::all_of(rims_.begin(), rims_.end(),
+                       [&](const Strip& rim) { return surely_off(place, part_, rim.side, rim.by); });
   }
 
   [[nodiscard]] bool holds_middle() const {
@@ -183,7 +188,7 @@ class GrownBall {
     // is nearer.
     if (holds(part_, nearest) == true) {
       here = here || off_rims(nearest);
-      if (off_rims(piece.side) && distance(piece.side, part_).low > 0) return Covered::wholly;
+      if (off_rims(piece.side) && is_positive(distance(piece.side, part_))) return Covered::wholly;
     }
     return here ? Covered::partly : Covered::no;
   }
@@ -265,10 +270,7 @@ double off_rims(const Shape& part, const std::vector<double>& growth, const Vec&
   for (std::size_t k = 0; k < growth.size(); ++k)
     if (growth[k] < 0) rims.push_back(k);
   const auto in_rest = [&](const Vec& q) {
-    const auto is_off = [&](std::size_t k) {
-      return gap(box_of(q), part.tree->box(k)) >= -growth[k] ||
-             (just(distance(q, part.sides[k]).low) + just(growth[k])).low >= 0;
-    };
+    const auto is_off = [&](std::size_t k) { return surely_off(q, part, k, -growth[k]); };
     return std::all_of(rims.begin(), rims.end(), is_off) && holds(part, q) == true;
   };
   if (in_rest(p)) return 0;

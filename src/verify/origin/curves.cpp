@@ -8,6 +8,7 @@
 
 #include "drawing.hpp"
 #include "verify/number/interval.hpp"
+#include "verify/number/surely.hpp"
 #include "verify/shape/stretch.hpp"
 
 namespace lekalo::verify {
@@ -23,11 +24,8 @@ Vec direction_of_degrees(const Fraction& degrees) {
           {turn.sine.low_double(), turn.sine.high_double()}};
 }
 
-/// Says whether a number is surely above 0.
-bool positive(const Span& a) { return a.low > 0; }
-
 /// Says whether a line of a length, or a circle of a radius, draws nothing. Beyond the doubles it may draw.
-bool is_nothing(const Span& size) { return !positive(size) && size.high < kInfinity; }
+bool is_nothing(const Span& size) { return !is_positive(size) && size.high < kInfinity; }
 
 using Poles = std::array<Vec, 4>;
 
@@ -61,7 +59,7 @@ double off_its_chord(const Poles& p) {
   const Span whole = length(chord);
   double aside = 0;
   for (std::size_t k = 1; k < 3; ++k) {
-    if (!positive(dot(chord, p[k] - p[0])) || !positive(dot(chord, p[3] - p[k]))) return off_by_bend(p);
+    if (!is_positive(dot(chord, p[k] - p[0])) || !is_positive(dot(chord, p[3] - p[k]))) return off_by_bend(p);
     aside = std::max(aside, (absolute(cross(chord, p[k] - p[0])) / whole).high);
   }
   return std::min(aside, off_by_bend(p));
@@ -85,9 +83,9 @@ std::optional<CurvePiece> arc_along(const Poles& p) {
   Poles v;
   for (std::size_t k = 0; k < 4; ++k) v[k] = p[ccw ? k : 3 - k] - centre;
   // The sector is convex, so it holds the cubic if it holds the poles.
-  if (!positive(cross(v[0], v[3]))) return std::nullopt;
+  if (!is_positive(cross(v[0], v[3]))) return std::nullopt;
   for (std::size_t k = 1; k < 3; ++k)
-    if (!positive(cross(v[0], v[k])) || !positive(cross(v[k], v[3]))) return std::nullopt;
+    if (!is_positive(cross(v[0], v[k])) || !is_positive(cross(v[k], v[3]))) return std::nullopt;
   const auto own = [](const Vec& a) { return dot(a, a); };
   const Span two = just(2), three = just(3);
   const std::array<Span, 7> squares{own(v[0]),
@@ -99,7 +97,7 @@ std::optional<CurvePiece> arc_along(const Poles& p) {
                                     own(v[3])};
   Span square = squares[0];
   for (const Span& s : squares) square = {std::min(square.low, s.low), std::max(square.high, s.high)};
-  if (!positive(square)) return std::nullopt;
+  if (!is_positive(square)) return std::nullopt;
   const Span away = square_root(square);
   Side side;
   side.arc = true;
@@ -142,7 +140,7 @@ void CurveMaker::in_parts(const Part& whole, const char* curves, const Take& tak
 void CurveMaker::arc(const Affine& map, const DrawnArc& arc) {
   const Vec turned{-map.x.y, map.x.x};
   const Span size = length(map.x);
-  const bool mirrors = positive(-cross(map.x, map.y));
+  const bool mirrors = is_positive(-cross(map.x, map.y));
   const Vec off = mirrors ? map.y + turned : map.y - turned;
   if (!(length(off).high <= kKeepsCircles * size.low)) {
     if (!arc.from_deg) return strokes(map, arc);

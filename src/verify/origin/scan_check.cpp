@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "verify/number/span.hpp"
+#include "verify/number/surely.hpp"
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
 
@@ -220,8 +220,8 @@ class ScanCheck {
       for (const std::size_t k : all) {
         while (hull.size() >= begin + 2 &&
                // A point goes only if it surely lies on the inner side.
-               cross(points_[hull.back()] - points_[hull[hull.size() - 2]], points_[k] - points_[hull.back()])
-                       .high < 0)
+               is_positive(cross(points_[hull[hull.size() - 2]] - points_[hull.back()],
+                                 points_[k] - points_[hull.back()])))
           hull.pop_back();
         hull.push_back(k);
       }
@@ -254,19 +254,19 @@ class ScanCheck {
       for (const ScanEdge& edge : outline) {
         const Vec &a = points_[edge.from], &b = points_[edge.to];
         const auto above = [&](const Vec& q) -> std::optional<bool> {
-          if (q.y.low > p.y.high) return true;
-          if (q.y.high < p.y.low) return false;
+          if (surely_above(q.y, p.y)) return true;
+          if (surely_above(p.y, q.y)) return false;
           return std::nullopt;
         };
         const auto from = above(a), to = above(b);
-        if (std::max(a.x.high, b.x.high) < p.x.low) continue;
+        if (surely_above(p.x, a.x) && surely_above(p.x, b.x)) continue;
         if (!from || !to) return std::nullopt;
         if (*from == *to) continue;
         // An edge that runs upwards with p on its left is met by the ray from p to the right.
         const Span turn = *to ? cross(b - a, p - a) : cross(a - b, p - b);
-        if (turn.low > 0)
+        if (is_positive(turn))
           odd = !odd;
-        else if (!(turn.high < 0))
+        else if (!is_positive(-turn))
           return std::nullopt;
       }
     return odd;

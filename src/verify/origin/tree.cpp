@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "verify/number/interval.hpp"
+#include "verify/number/surely.hpp"
 #include "verify/read/known_fields.hpp"
 
 namespace lekalo::verify {
@@ -189,7 +190,7 @@ class TreeReader {
       only(value, path, {"from", "to", "shape"});
       const Vec from = point(fields, "from"), along = point(fields, "to") - from;
       if (!complaint_.empty()) return map;
-      if (!(length_of(along).low > 0)) return complain(path + " is a line through one point twice"), map;
+      if (!is_positive(length_of(along))) return complain(path + " is a line through one point twice"), map;
       const Vec u = unit(along);
       m.mirrored = true, m.cosine = squared(u.y) - squared(u.x), m.sine = -(just(2) * u.x * u.y);
       keep(map, from);
@@ -225,7 +226,8 @@ class TreeReader {
   };
   Rectangle rectangle(Fields& fields) {
     const Vec size = point(fields, "size");
-    if (!(size.x.low > 0 && size.y.low > 0)) fields.complain(fields.name("size") + " is not above 0");
+    if (!is_positive(size.x) || !is_positive(size.y))
+      fields.complain(fields.name("size") + " is not above 0");
     if (has(fields, "corner")) {
       const Vec corner = point(fields, "corner");
       return {corner, corner + size};
@@ -258,7 +260,7 @@ class TreeReader {
       only(value, path, {"from", "to", "width"});
       const Vec from = point(fields, "from"), end = point(fields, "to");
       const Span half = length(fields, "width") * just(0.5);
-      if (!(length_of(end - from).low > 0)) return complain(path + " is a slot of no length");
+      if (!is_positive(length_of(end - from))) return complain(path + " is a slot of no length");
       const Vec aside = left_of(unit(end - from));
       outline.line(from - aside * half, end - aside * half);
       outline.arc(end, half, -aside, aside, Sweep::half);
@@ -323,7 +325,7 @@ class TreeReader {
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t before = (k + 3) % 4;
       // Side k runs from the corner before to this one.
-      if ((k % 2 == 0 ? width : height).low > 0)
+      if (is_positive(k % 2 == 0 ? width : height))
         outline.line(centres[before] + axes[k] * r, centres[k] + axes[k] * r);
       outline.arc(centres[k], r, axes[k], axes[(k + 1) % 4], Sweep::less);
     }

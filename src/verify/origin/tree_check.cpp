@@ -14,7 +14,7 @@
 #include "lekalo/base/parallel.hpp"
 #include "near.hpp"
 #include "tree_value.hpp"
-#include "verify/number/span.hpp"
+#include "verify/number/surely.hpp"
 #include "verify/shape/contour_tree.hpp"
 #include "verify/shape/shape_distance.hpp"
 #include "verify/shape/shape_inside.hpp"
@@ -63,7 +63,7 @@ struct Member {
 /// Says whether the line or circle that carries a side is surely farther than `room` from a point.
 bool is_away(const Member& member, const Side& side, const Vec& p, double room) {
   const Span off = side.arc ? length(p - side.centre) - side.radius : cross(member.along, p - side.from);
-  return (absolute(off) - just(room) - just(side.off)).low > 0;
+  return is_positive(absolute(off) - just(room) - just(side.off));
 }
 
 /// A tree and the region that is to be it, arranged for walks along their sides.
@@ -81,7 +81,7 @@ struct Ground {
     const double limit = kFar * reach;
     sides.visit_near(box_of(p), limit, [&](std::size_t m) {
       const auto [k, i] = members[m].side;
-      far = far && distance(p, primitives[k].shape.sides[i]).low > limit;
+      far = far && surely_above(distance(p, primitives[k].shape.sides[i]), just(limit));
     });
     for (std::size_t k = 0, begin = near; k < half_planes.size() && far; ++k) {
       near = (begin + k) % half_planes.size();
@@ -206,8 +206,8 @@ class Walk {
       if (!ground_.outline.first_not_within({{piece, 0}}, 2 * kAside * reach_, work_, 0)) return true;
       const Beside known = beside(piece, corners, false);
       if (known.left == In::open || known.right == In::open) return false;
-      missing = missing ||
-                (known.left != known.right && distance(middle_of(piece), ground_.used).low > kFar * reach_);
+      missing = missing || (known.left != known.right &&
+                            surely_above(distance(middle_of(piece), ground_.used), just(kFar * reach_)));
       return known.left == known.right || missing;
     });
     if (missing) found_.fault = fmt::format("it lacks the outline of the tree about {}", text_of(at_));
@@ -227,7 +227,7 @@ class Walk {
 
   static In in_half_plane(const Side& line, const Vec& p) {
     const Span turn = cross(line.to - line.from, p - line.from);
-    return turn.low > 0 ? In::yes : (turn.high < 0 ? In::no : In::open);
+    return is_positive(turn) ? In::yes : (is_positive(-turn) ? In::no : In::open);
   }
   [[nodiscard]] In in_primitive(const Primitive& primitive, const Vec& p) const {
     if (primitive.half_plane) return in_half_plane(primitive.shape.sides[0], p);
@@ -276,7 +276,7 @@ class Walk {
       const Vec& at = corners.at[i];
       const Span height =
           side.arc ? length(at - side.centre) - side.radius : cross(side.to - side.from, at - side.from);
-      before = before && height.high < 0, behind = behind && height.low > 0;
+      before = before && is_positive(-height), behind = behind && is_positive(height);
     }
     // The corners are on one side of a line, or within a circle, with all between them.
     if (before || (behind && !side.arc)) return true;
@@ -287,9 +287,9 @@ class Walk {
           std::min(length(corners.at[0] - side.centre).low, length(corners.at[1] - side.centre).low);
       Span least = square_root(just(nearest) * just(nearest) - half * half);
       if (piece.arc) least = least - half * half / piece.radius;
-      if (least.low > side.radius.high) return true;
+      if (surely_above(least, side.radius)) return true;
     }
-    return distance(piece, side).low > 0;
+    return is_positive(distance(piece, side));
   }
 
   /// Says whether a half-plane holds all of a piece of this length and of the stretches beside it, or nothing
@@ -297,15 +297,15 @@ class Walk {
   In in_half_plane(const Member& half_plane, const Corners& corners, double length_of_piece) {
     const Side& line = primitives_[half_plane.side.primitive].shape.sides[0];
     const auto height_of = [&](const Vec& corner) { return cross(half_plane.along, corner - line.from); };
-    const double room = 2 * kAside * reach_, far = (just(room) + just(length_of_piece)).high;
+    const Span room = just(2 * kAside * reach_), far = room + just(length_of_piece);
     bool within = true, without = true;
     ++work_;
     const Span first = height_of(corners.at[0]);
-    if (first.low > far) return In::yes;
-    if (first.high < -far) return In::no;
+    if (surely_above(first, far)) return In::yes;
+    if (surely_above(-first, far)) return In::no;
     for (std::size_t i = 0; i < corners.count; ++i) {
       const Span height = height_of(corners.at[i]);
-      within = within && height.low > room, without = without && height.high < -room;
+      within = within && surely_above(height, room), without = without && surely_above(-height, room);
     }
     return within ? In::yes : (without ? In::no : In::open);
   }
@@ -364,7 +364,7 @@ class Walk {
     Beside known;
     known.left = known.right = decide_half_planes(piece, corners, apart);
     if (known.left != In::open) return known;
-    if (piece.arc && !(piece.radius.low > 2 * aside)) return known;
+    if (piece.arc && !surely_above(piece.radius, just(2 * aside))) return known;
     const Stretch left(aside_of(piece, aside)), right(aside_of(piece, -aside));
     const Vec &at_left = left.middle, &at_right = right.middle;
     const Vec middle = middle_of(piece);
@@ -452,7 +452,7 @@ class Walk {
   [[nodiscard]] std::array<Part, 2> cut(const Part& part) const {
     std::array<Part, 2> two{part, part};
     const bool long_enough =
-        length(part.piece.to - part.piece.from).low > kEnd * kShortAtCorner * kShort * reach_;
+        surely_above(length(part.piece.to - part.piece.from), just(kEnd * kShortAtCorner * kShort * reach_));
     const std::array<Side, 2> pieces = part.begins_at_corner != part.ends_at_corner && long_enough
                                            ? with_end_cut_off(part.piece, part.begins_at_corner)
                                            : halves(part.piece);

@@ -9,6 +9,7 @@
 #include "shape_distance.hpp"
 #include "shape_inside.hpp"
 #include "sticking_out.hpp"
+#include "verify/number/surely.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -47,7 +48,7 @@ Span clearance(const Shape& part, const Shape& placed_part, const Shape& blank,
       same_outline(part, blank))
     return {0, 0};
   const Span apart = distance(placed_part, blank);
-  const std::optional<bool> inside = apart.low > 0 ? lies_within(placed_part, blank) : std::nullopt;
+  const std::optional<bool> inside = is_positive(apart) ? lies_within(placed_part, blank) : std::nullopt;
   if (inside && *inside) return apart;
   if (!inside && shift) {
     const Touch touch = touches_from_inside(part, blank, *shift);
@@ -56,7 +57,7 @@ Span clearance(const Shape& part, const Shape& placed_part, const Shape& blank,
   // Some point of the part is within apart.high of the boundary, and more is known where the part sticks out.
   const double width = std::max(kSticksOutTolerance, kSticksOutShare * largest_coordinate(placed_part));
   const Span out = sticking_out(placed_part, blank, width, -claimed);
-  return {-out.high, out.low > 0 ? -out.low : apart.high};
+  return {-out.high, is_positive(out) ? -out.low : apart.high};
 }
 
 Result<Enclosure> verify_clearance(const Document& part, const Document& blank, const Placement& at) {

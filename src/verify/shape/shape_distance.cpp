@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "lekalo/base/stop.hpp"
-#include "verify/number/span.hpp"
+#include "verify/number/surely.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -71,7 +71,7 @@ void add_lines(const Side& a, const Side& b, Least& least) {
   const Vec u = a.to - a.from, v = b.to - b.from;
   const auto opposite = [](Span s, Span t) {
     const Span product = s * t;
-    return product.high < 0 ? Sure::yes : (product.low > 0 ? Sure::no : Sure::maybe);
+    return is_positive(-product) ? Sure::yes : (is_positive(product) ? Sure::no : Sure::maybe);
   };
   least.add({0, 0}, both(opposite(cross(u, b.from - a.from), cross(u, b.to - a.from)),
                          opposite(cross(v, a.from - b.from), cross(v, a.to - b.from))));
@@ -91,7 +91,7 @@ void add_line_arc(const Side& line, const Side& arc, Least& least) {
   // The line may cross the circle here. Where rounding leaves the root open, both crossings become wide, but
   // neither they nor a foot just outside are lost.
   const Span half = square_root((arc.radius - height) * (arc.radius + height));
-  const Sure crosses = height.high < arc.radius.low ? Sure::yes : Sure::maybe;
+  const Sure crosses = surely_above(arc.radius, height) ? Sure::yes : Sure::maybe;
   for (const Span step : {half, -half}) {
     const Span place = at + step;
     const Vec p = line.from + u * place - arc.centre;
@@ -110,7 +110,7 @@ void add_arcs(const Side& a, const Side& b, Least& least) {
   // With one centre the least distance is that of an end from the other arc, as one of two arcs that have a
   // direction in common begins there. Ends are among the candidates already. Moving one arc to the other's
   // centre changes this distance, and those of the ends, by no more than the move.
-  if (!(apart.low > kOneCentre * std::min(a.radius.high, b.radius.high)))
+  if (!surely_above(apart, just(kOneCentre * std::min(a.radius.high, b.radius.high))))
     return least.lower((apart + apart).high);
   const auto axis = [&](Span whole, Span parts, const Vec& of_a, const Vec& of_b) {
     if (!(whole.low >= parts.high)) return false;
@@ -177,18 +177,18 @@ bool carriers_apart(const Side& a, const Side& b) {
   if (a.arc && !b.arc) return carriers_apart(b, a);
   if (a.arc) {
     const Span apart = length(b.centre - a.centre), off = just(a.off) + just(b.off);
-    return (absolute(a.radius - b.radius) - off).low > apart.high ||
-           apart.low > (a.radius + b.radius + off).high;
+    return surely_above(absolute(a.radius - b.radius) - off, apart) ||
+           surely_above(apart, a.radius + b.radius + off);
   }
   const Vec along = a.to - a.from;
   if (b.arc) {
     const Span height = cross(along, b.centre - a.from);
-    return squared(height).low >
-           ((squared(along.x) + squared(along.y)) * squared(b.radius + just(b.off))).high;
+    return surely_above(squared(height),
+                        (squared(along.x) + squared(along.y)) * squared(b.radius + just(b.off)));
   }
   const auto on_one_side = [](const Vec& u, const Vec& v, const Vec& w) {
     const Span from = cross(u, v), to = cross(u, w);
-    return (from.low > 0 && to.low > 0) || (from.high < 0 && to.high < 0);
+    return (is_positive(from) && is_positive(to)) || (is_positive(-from) && is_positive(-to));
   };
   return on_one_side(along, b.from - a.from, b.to - a.from) ||
          on_one_side(b.to - b.from, a.from - b.from, a.to - b.from);

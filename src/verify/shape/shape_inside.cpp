@@ -9,6 +9,7 @@
 #include "lekalo/base/limits.hpp"
 #include "lekalo/base/stop.hpp"
 #include "shape_distance.hpp"
+#include "verify/number/surely.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -26,17 +27,15 @@ Side turned(Side side, const Ray& ray) {
 }
 
 /// Returns -1 when a is certainly below b, 1 when it is certainly above, 0 when that cannot be told.
-int compare(Span a, Span b) { return a.high < b.low ? -1 : (a.low > b.high ? 1 : 0); }
+int compare(Span a, Span b) { return surely_above(b, a) ? -1 : (surely_above(a, b) ? 1 : 0); }
 
 /// Counts how often a line passes the ray from p to the right upwards, less how often downwards.
 std::optional<int> crossings_of_line(const Vec& begin, const Vec& end, const Vec& p) {
-  const auto is_left = [&](const Vec& v) { return v.x.high < p.x.low; };
-  const auto is_right = [&](const Vec& v) { return v.x.low > p.x.high; };
-  if (is_left(begin) && is_left(end)) return 0;
+  if (surely_above(p.x, begin.x) && surely_above(p.x, end.x)) return 0;
   const int from = compare(begin.y, p.y), to = compare(end.y, p.y);
   if (from * to == 0) return std::nullopt;
   if (from == to) return 0;
-  if (is_right(begin) && is_right(end)) return to;
+  if (surely_above(begin.x, p.x) && surely_above(end.x, p.x)) return to;
   const int turn = compare(cross(end - begin, p - begin), just(0));
   if (turn == 0) return std::nullopt;
   return turn == to ? to : 0;
@@ -212,7 +211,7 @@ bool cross_again(const Side& a, const Side& b, const Vec& shared) {
   const Vec other = b.arc ? a.centre + part - w : shared - part;
   const Span apart = length(other - shared);
   const Span depth = squared(apart) / (just(8) * a.radius);
-  return depth.low > kLoop + kLoopOfRadius * a.radius.high && surely_beside(a, other) &&
+  return surely_above(depth, just(kLoop) + just(kLoopOfRadius) * a.radius) && surely_beside(a, other) &&
          surely_beside(b, other);
 }
 
@@ -237,7 +236,7 @@ std::optional<std::string> fault_of_neighbours(const Shape& shape, std::size_t i
 std::optional<std::string> fault_of_three(const Shape& shape, std::size_t i, std::size_t j) {
   const Side &a = shape.sides[i], &b = shape.sides[j];
   if (!(a.arc || b.arc) || !a.written || !b.written) return std::nullopt;
-  if (distance(b.to, a).low > 0 && distance(a.from, b).low > 0) return std::nullopt;
+  if (is_positive(distance(b.to, a)) && is_positive(distance(a.from, b))) return std::nullopt;
   return fmt::format("sides {} and {} meet, or cannot be told from it", std::min(i, j), std::max(i, j));
 }
 
@@ -308,7 +307,7 @@ std::optional<std::string> fault_of(const Shape& shape) {
         if (fault) return fault;
         if (next || round) continue;
         if (carriers_apart(shape.sides[i], shape.sides[j])) continue;
-        if (!(distance(shape.sides[i], shape.sides[j]).low > 0))
+        if (!is_positive(distance(shape.sides[i], shape.sides[j])))
           return fmt::format("sides {} and {} meet, or cannot be told from it", i, j);
       }
     }

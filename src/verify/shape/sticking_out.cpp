@@ -9,7 +9,7 @@
 #include "shape_distance.hpp"
 #include "shape_inside.hpp"
 #include "stretch.hpp"
-#include "verify/number/span.hpp"
+#include "verify/number/surely.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -26,7 +26,14 @@ struct Stretch {
   Side piece;
   /// No point of the piece sticks out by more.
   double high = 0;
-  friend bool operator<(const Stretch& a, const Stretch& b) { return a.high < b.high; }
+};
+
+/// The thing that may stick out most comes first.
+struct ByHigh {
+  template <class Thing>
+  bool operator()(const Thing& a, const Thing& b) const {
+    return a.high < b.high;
+  }
 };
 
 class Search {
@@ -68,7 +75,7 @@ class Search {
         box, most, [&](std::size_t k) { most = std::min(most, farthest(piece, corners, blank_.sides[k])); });
     // None of the piece sticks out when all of it lies in the blank's material.
     const Vec middle = (piece.from + piece.to) * just(0.5);
-    if (from_blank(middle).low > (just(farthest(piece, middle)) + just(piece.off)).high &&
+    if (surely_above(from_blank(middle), just(farthest(piece, middle)) + just(piece.off)) &&
         holds(blank_, middle) == true)
       return 0;
     return most;
@@ -102,7 +109,6 @@ class Search {
   struct Square {
     Vec centre;
     double half = 0, high = 0;
-    friend bool operator<(const Square& a, const Square& b) { return a.high < b.high; }
   };
 
   struct Nearest {
@@ -123,7 +129,9 @@ class Search {
   [[nodiscard]] std::optional<double> maximum_in(const Vec& centre, double radius, Span out,
                                                  double known) const;
 
-  void add(std::priority_queue<Square>& open, const Vec& centre, double half, double at_most) {
+  using Squares = std::priority_queue<Square, std::vector<Square>, ByHigh>;
+
+  void add(Squares& open, const Vec& centre, double half, double at_most) {
     const double radius = 1.4142136 * half;
     const Span out = from_blank(centre);
     double high = std::min(at_most, (out + just(radius)).high);
@@ -131,18 +139,18 @@ class Search {
     if (high <= high_) return;
     const Span to_part = signed_distance(centre, part_);
     // The square holds no material of the part.
-    if (to_part.high < -radius) return;
+    if (surely_above(-to_part, just(radius))) return;
     // All of the square lies in the blank.
-    if (out.low > radius && holds(blank_, centre) == true) return;
+    if (surely_above(out, just(radius)) && holds(blank_, centre) == true) return;
     const std::optional<double> maximum = maximum_in(centre, radius, out, high);
     if (!maximum) return;
     high = std::min(high, *maximum);
-    if (to_part.low >= 0) reached_at(centre, 0);
+    if (is_positive(to_part)) reached_at(centre, 0);
     open.push({centre, half, high});
   }
 
   void inside_the_outline() {
-    std::priority_queue<Square> open;
+    Squares open;
     const Span x = just(0.5) * (just(part_.low_x) + just(part_.high_x)),
                y = just(0.5) * (just(part_.low_y) + just(part_.high_y));
     const double blur = (x.high - x.low) + (y.high - y.low);
@@ -169,7 +177,7 @@ class Search {
   double tolerance_, enough_;
   std::size_t most_pieces_;
   double low_ = 0, high_ = kInfinity;
-  std::priority_queue<Stretch> open_;
+  std::priority_queue<Stretch, std::vector<Stretch>, ByHigh> open_;
 };
 
 /// Looks for a local maximum of the distance in a disc. At a local maximum x the nearest points y of the
@@ -185,12 +193,12 @@ std::optional<double> Search::maximum_in(const Vec& centre, double radius, Span 
   const Span reach = out + just(2 * radius);
   std::vector<std::size_t> sides;
   blank_.tree->visit_near(box_of(centre), reach.high, [&](std::size_t k) {
-    if (!(distance(centre, blank_.sides[k]).low > reach.high)) sides.push_back(k);
+    if (!surely_above(distance(centre, blank_.sides[k]), reach)) sides.push_back(k);
   });
   for (const std::size_t k : sides) {
     const Side& side = blank_.sides[k];
     // The bounds below fail near the centre of an arc.
-    if (side.arc && !(length(centre - side.centre).low > 2 * radius)) return kInfinity;
+    if (side.arc && !surely_above(length(centre - side.centre), just(2 * radius))) return kInfinity;
     add_nearest(side, centre, radius, reach, near);
   }
   // The distance from one line has no maximum, and that from one arc has it in the centre.
@@ -206,10 +214,10 @@ std::optional<double> Search::maximum_in(const Vec& centre, double radius, Span 
   std::array<Vec, 2> tries{near.front().away, Vec{}};
   for (const Nearest& one : near) tries[1] = tries[1] + one.away;
   for (Vec& n : tries) {
-    if (!(length(n).low > 1e-6)) continue;
+    if (!surely_above(length(n), just(1e-6))) continue;
     n = unit(n);
     const bool all = std::all_of(near.begin(), near.end(), [&](const Nearest& one) {
-      return dot(n, one.from).low > one.blur * 1.000001;
+      return surely_above(dot(n, one.from), just(one.blur) * just(1.000001));
     });
     if (all) return std::nullopt;
   }
@@ -242,7 +250,8 @@ void Search::add_nearest(const Side& side, const Vec& centre, double radius, Spa
     const Span clamped{std::clamp(share.low, 0.0, 1.0), std::clamp(share.high, 0.0, 1.0)};
     const Vec from = centre - (side.from + along * clamped);
     const Span play = just(radius) / whole;
-    const bool between = (share - play).low > 0 && (share + play).high < 1 && length(from).low > radius;
+    const bool between = surely_above(share, play) && surely_above(just(1), share + play) &&
+                         surely_above(length(from), just(radius));
     return add(from, 2 * radius, between ? just(0) : curve_at(length(from)));
   }
   const Vec w = centre - side.centre;
@@ -252,12 +261,12 @@ void Search::add_nearest(const Side& side, const Vec& centre, double radius, Spa
   // or beyond one of them when that is more than half a turn.
   const double after = cross(side.first, w).low, before = cross(w, side.last).low;
   const double faced = side.sweep == Sweep::more ? std::max(after, before) : std::min(after, before);
-  const bool beside = apart.low > radius && (side.sweep == Sweep::full || faced > radius);
+  const bool beside = surely_above(apart, just(radius)) && (side.sweep == Sweep::full || faced > radius);
   // Inside a circle the distance from it is concave.
-  const Span curve = far.low > side.radius.high ? curve_at(far) : just(0);
+  const Span curve = surely_above(far, side.radius) ? curve_at(far) : just(0);
   add(w - unit(w) * side.radius, blur, beside ? curve : just(kInfinity));
   for (const Vec* end : {&side.from, &side.to})
-    if (!(length(centre - *end).low - side.off > reach.high))
+    if (!surely_above(length(centre - *end) - just(side.off), reach))
       add(centre - *end, radius + side.off, curve_at(length(centre - *end)));
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "shape_distance.hpp"
+#include "verify/number/surely.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -14,12 +15,17 @@ bool all_face(const Side& arc, const Corners& corners) {
   bool after = true, before = true;
   for (std::size_t i = 0; i < corners.count; ++i) {
     const Vec d = corners.at[i] - arc.centre;
-    after = after && cross(arc.first, d).low >= 0;
-    before = before && cross(d, arc.last).low >= 0;
+    after = after && is_positive(cross(arc.first, d));
+    before = before && is_positive(cross(d, arc.last));
   }
   // A half-plane that holds the corners holds all between them. An arc of less than half a turn faces the
   // intersection of two half-planes, a longer one their union, of which one must hold all.
   return arc.sweep == Sweep::more ? after || before : after && before;
+}
+
+/// Says whether a direction is surely less than half a turn behind an arc's beginning, and before its end.
+bool surely_between(const Side& arc, const Vec& direction) {
+  return is_positive(cross(arc.first, direction)) && is_positive(cross(direction, arc.last));
 }
 
 double middle_of(Span a) { return 0.5 * a.low + 0.5 * a.high; }
@@ -40,7 +46,7 @@ std::optional<Vec> about_the_middle(const Side& arc) {
   if (!surely_not_zero(towards)) return std::nullopt;
   const Vec cut = unit(towards);
   // Two turns of less than a half each add up to this arc's turn, and not to a full turn more.
-  if (cross(arc.first, cut).low > 0 && cross(cut, arc.last).low > 0) return cut;
+  if (surely_between(arc, cut)) return cut;
   return std::nullopt;
 }
 
@@ -119,7 +125,7 @@ std::optional<std::array<Side, 2>> cut_beside(const Side& piece, const Vec& poin
     const Vec towards{just(middle_of(away.x)), just(middle_of(away.y))};
     if (!surely_not_zero(towards)) return std::nullopt;
     const Vec direction = unit(towards);
-    if (!(cross(piece.first, direction).low > 0 && cross(direction, piece.last).low > 0)) return std::nullopt;
+    if (!surely_between(piece, direction)) return std::nullopt;
     return parts(piece, direction);
   }
   const Vec along = piece.to - piece.from;

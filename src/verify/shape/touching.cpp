@@ -6,6 +6,7 @@
 #include "lekalo/base/stop.hpp"
 #include "shape_distance.hpp"
 #include "shape_inside.hpp"
+#include "verify/number/surely.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -204,7 +205,7 @@ class Touching {
     for (std::size_t i = 0; i < of_part_.size(); ++i)
       for (const std::size_t j : sides_meeting(blank_, part_.tree->box(i))) {
         ask();
-        if (distance(part_.sides[i], blank_.sides[j]).low > 0) continue;
+        if (is_positive(distance(part_.sides[i], blank_.sides[j]))) continue;
         if (!of_part_[i].known || !of_blank_[j].known) return false;
         if (!cut_where_they_touch(of_part_[i], of_blank_[j])) return false;
       }
