@@ -61,6 +61,41 @@ TEST(SolidDeviation, IsSaidInTheHeaderOfAMeshByLekaloStep) {
             "part.ply:4: this line of the header is not known");
 }
 
+/// Two triangles with these lines in the header and these rows of vertices and faces.
+std::string faces(const std::string& begin, const std::string& of_vertex, const std::string& of_face,
+                  const std::string& last, const std::vector<std::string>& rows) {
+  std::string made = "ply\nformat ascii 1.0\n" + begin +
+                     "element vertex 3\nproperty double x\nproperty double y\nproperty double z\n" +
+                     of_vertex + "element face 2\nproperty list uchar int vertex_indices\n" + of_face + last +
+                     "end_header\n";
+  for (const std::string& row : rows) made += row + "\n";
+  const auto read = read_solid({"part.ply", made});
+  if (!read) return read.error().message;
+  std::string told;
+  for (std::size_t t = 0; t < read->face_of.size(); ++t)
+    told += fmt::format("{} \"{}\" ", read->face_of[t], read->groups[read->group_of[t]]);
+  return told;
+}
+
+TEST(SolidDeviation, FacesHaveTheNumbersAndNamesOfTheBody) {
+  const std::string by_step = "comment lekalo-step 1\ncomment deviation 0\n", face = "property int face\n",
+                    names = "element body_face 2\nproperty list uchar uchar name\n",
+                    others = "element other 1\nproperty list uchar uchar name\n";
+  const std::vector<std::string> rows{"0 0 0", "1 0 0", "0 1 0", "3 0 1 2 1", "3 0 1 2 2", "2 97 98", "1 99"};
+  EXPECT_EQ(faces(by_step, "", face, names, rows), "1 \"c\" 2 \"\" ");
+  // Of other programs, of vertices, of other things and as lists they are something else.
+  EXPECT_EQ(faces("", "", face, names, rows), "");
+  EXPECT_EQ(faces(by_step, "property int face\n", face, names,
+                  {"0 0 0 5", "1 0 0 6", "0 1 0 7", "3 0 1 2 1", "3 0 1 2 2", "2 97 98", "1 99"}),
+            "1 \"c\" 2 \"\" ");
+  EXPECT_EQ(faces(by_step, "", face, others + names,
+                  {"0 0 0", "1 0 0", "0 1 0", "3 0 1 2 1", "3 0 1 2 2", "1 100", "2 97 98", "1 99"}),
+            "1 \"c\" 2 \"\" ");
+  EXPECT_EQ(faces(by_step, "", "property list uchar int face\n", "",
+                  {"0 0 0", "1 0 0", "0 1 0", "3 0 1 2 1 1", "3 0 1 2 1 2"}),
+            "");
+}
+
 SolidResultFiles deviating(const char* part, const char* blank) {
   SolidResultFiles files = cube_in_cube();
   for (const auto& [text, file, half, input] :

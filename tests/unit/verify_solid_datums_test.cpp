@@ -92,8 +92,11 @@ TEST(SolidDatums, PointsOnAnAxisAndOnAPointDoTheSame) {
   point.of_result["name"] = "pin", point.point = {0, 0};
   EXPECT_EQ(point.told(), "confirmed");
   // All of the direction counts: 0.25 of 5 and 0.5 of 3.
-  point.direction = {0, 4, 3}, point.multiplier = 1.0 / 3;
-  EXPECT_TRUE(says(point.told(), "do not prove"));
+  point.multiplier = 1.0 / 3;
+  for (const Json& direction : {Json{0, 4, 3}, Json{4, 0, 3}}) {
+    point.direction = direction;
+    EXPECT_TRUE(says(point.told(), "do not prove"));
+  }
 }
 
 TEST(SolidDatums, HowFarThePartIsOffIsMeasured) {

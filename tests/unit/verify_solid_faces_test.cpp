@@ -202,6 +202,34 @@ TEST(SolidFaces, ABallCountsWithTheLeastDemandOfAll) {
         << t;
 }
 
+/// The low face along an axis lies 0.5 within the blank's, on a datum or 0.25 off it.
+std::string on_datum(std::size_t axis, double level, double off) {
+  Json normal = {0, 0, 0}, through = {0, 0, 0}, high = {5, 5, 5};
+  normal[axis] = 1, through[axis] = level, high[axis] = -5;
+  const Json low{{"name", "low"}, {"box", Json::array({Json{-5, -5, -5}, high})}},
+      datum{{"name", "seat"},
+            {"feature", "low"},
+            {"plane", {{"normal", normal}, {"through", through}}},
+            {"within", 0.375}};
+  SolidResultFiles files =
+      with_demands({{"minimum", 0}, {"features", Json::array({low})}, {"datums", Json::array({datum})}},
+                   Json::array({demand_of_result("low", 2, 0, 1)}), nullptr, 0.5, 1);
+  files.result[std::string(1, "xyz"[axis])] = -0.5, files.result["clearance"] = 0.5;
+  files.result["contacts"] = Json::array();
+  files.result["demands"]["datums"] = Json::array({Json{{"name", "seat"}, {"within", 0.375}, {"off", off}}});
+  return files.told();
+}
+
+TEST(SolidFaces, APartMayLieExactlyOnItsDatum) {
+  for (const std::size_t axis : {0U, 1U, 2U}) {
+    EXPECT_EQ(on_datum(axis, -5.5, 0), "unproved");
+    EXPECT_TRUE(says(on_datum(axis, -5.5, -1e-9), "the part is said to be off it by up to -1e-09 mm"));
+  }
+  // More may be said by a share of the blank's size.
+  EXPECT_EQ(on_datum(2, -5.25, 0.250005), "unproved");
+  EXPECT_TRUE(says(on_datum(2, -5.25, 0.250015), "said to be off it"));
+}
+
 TEST(SolidFaces, NumbersBesideDemandsAreThoseOfTheMargin) {
   const auto with = [](const char* path, Json value) {
     SolidResultFiles files = low(0.25);

@@ -167,9 +167,8 @@ class TreeCheck {
     return true;
   }
 
-  static bool is_of_point(LeafTerm::Kind kind) {
-    return kind >= LeafTerm::Kind::point && kind != LeafTerm::Kind::datum;
-  }
+  /// \pre it is not of a datum
+  static bool is_of_point(LeafTerm::Kind kind) { return kind >= LeafTerm::Kind::point; }
   static bool is_of_part_ball(LeafTerm::Kind kind) { return kind <= LeafTerm::Kind::face; }
 
   [[nodiscard]] std::optional<std::size_t> number_of_part(LeafTerm::Kind kind, Json value) const {
@@ -226,10 +225,9 @@ class TreeCheck {
   /// Gives the term of a datum its point, and of its direction what leads straight off the datum.
   bool hold(LeafTerm& term) {
     const DatumPoint* const point = tables_.datum_point(term.part);
-    const Both3* const direction = tables_.direction(term.blank);
-    if (point == nullptr || direction == nullptr) return false;
+    if (point == nullptr) return false;
     const SolidDatum& datum = *point->datum;
-    const Exact3 u = straight_off(datum, as<Fraction>(*direction));
+    const Exact3 u = straight_off(datum, as<Fraction>(*tables_.direction(term.blank)));
     if (sgn(dot(u, u)) == 0) {
       findings_.push_back(
           fmt::format("{} has a direction that does not lead off the datum \"{}\"", name(), datum.name));

@@ -16,7 +16,7 @@ struct SolidDatum {
   On on = On::plane;
   Both3 through{};    ///< a point of the plane or the line, or the point
   Both3 direction{};  ///< across the plane or along the line, of any length but 0
-  double within = 0;  ///< mm; the double nearest to the decimal
+  double within{};    ///< mm; the double nearest to the decimal
   /// The triangles whose corners are the points, in ascending order; none where the points are given.
   std::vector<std::uint32_t> triangles = {};
   std::vector<Both3> points = {};  ///< three of each triangle, or those given; part coordinates
