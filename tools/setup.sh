@@ -16,6 +16,7 @@ packages=(
   libpng-dev                                                 # M-images
   libcairo2-dev fonts-dejavu-core                            # PNG pictures; their texts, Cyrillic too
   libexpat1-dev                                              # XML of SVG drawings
+  zlib1g-dev                                                 # ZIP of 3MF models
   libboost-dev libsqlite3-dev                                # the server of the editor: HTTP and WebSocket, its store
   # the reference method; its pkg-config file also names libraries that its package does not bring
   coinor-libipopt-dev libblas-dev liblapack-dev libgfortran-12-dev

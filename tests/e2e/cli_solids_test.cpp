@@ -3,6 +3,7 @@
 #include "e2e/cli_run.hpp"
 #include "support/solid_cases.hpp"
 #include "support/solid_files.hpp"
+#include "support/three_mf_files.hpp"
 
 /// `lekalo locate` for solids, as a person runs it.
 namespace lekalo::test::cli_solids_test {
@@ -52,6 +53,36 @@ TEST_F(Solids, APlacementIsFoundToldAndConfirmed) {
   EXPECT_EQ(verify("r.json").status, 0);
   write_bytes(folder_ / "c.json", files.at("c.json") + "\n");
   EXPECT_EQ(verify("r.json").status, 4);
+}
+
+TEST_F(Solids, A3mfIsPlacedInItsOwnUnitAndConfirmed) {
+  using namespace three_mf_files;
+  const std::string inches = "unit=\"inch\"";
+  solid::Mesh part = kPart;
+  for (solid::Vector& p : part.vertices) p = 1 / 25.4 * p;
+  write_bytes(folder_ / "part.3mf", archive(model(object(1, mesh(part), "name=\"part\""), item(1), inches)));
+  write_bytes(folder_ / "casting.3mf", archive(kBlank));
+  const Words words{"locate", "--part",    "part.3mf", "--blank", "casting.3mf", "--method",
+                    "climb",  "--freedom", "xyz",      "-o",      "r.json",      "--json"};
+  const Ran ran = run(folder_.path(), words);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NEAR(ran.json()["clearance"], 2, 0.05);
+  EXPECT_EQ(ran.json()["inputs"][0]["units"], "inch");
+  EXPECT_EQ(verify("r.json").status, 1);  // no bound, and the rest is confirmed
+  std::string result = ran.out;
+  const std::size_t unit = result.find("\"inch\"");
+  write_bytes(folder_ / "r.json", result.replace(unit, 6, "\"mm\""));
+  const Ran refuted = verify("r.json");
+  EXPECT_EQ(refuted.status, 4);
+  EXPECT_NE((refuted.out + refuted.err).find("the part is said to be in another unit than part.3mf says"),
+            std::string::npos)
+      << refuted.err;
+  const Ran refused = run(folder_.path(), words + Words{"--units", "inch"});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(
+      refused.err.find("casting.3mf: '3D/3dmodel.model': line 2: the file says mm, but inch was asked for"),
+      std::string::npos)
+      << refused.err;
 }
 
 TEST_F(Solids, AProgramOfThreeAxesIsWrittenForThePlacement) {

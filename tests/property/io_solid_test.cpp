@@ -13,6 +13,7 @@
 #include "support/cases.hpp"
 #include "support/solid_files.hpp"
 #include "support/solids.hpp"
+#include "support/three_mf_files.hpp"
 
 namespace lekalo::io::io_solid_test {
 namespace {
@@ -64,6 +65,7 @@ TEST(SolidFile, EveryFormatReadsBackToTheSameNumbers) {
     expect_read(solid_files::stl_text(mesh), "STL", loose(mesh));
     expect_read(solid_files::stl_binary(mesh), "STL", loose(single));
     expect_read(solid_files::obj(mesh), "OBJ", mesh);
+    expect_read(three_mf_files::archive(mesh), "3MF", mesh);
     expect_read(solid_files::points(mesh.vertices, " ,;\t"[random.below(4)]), "points", {mesh.vertices, {}});
     for (const solid_files::PlyForm form : solid_files::kPlyForms) {
       for (const bool faces_first : {false, true}) {
@@ -219,8 +221,11 @@ TEST(SolidFile, MutatedFilesAreReadOrRefusedWithASentence) {
   Random shape(1);
   const Mesh mesh = cases::ring(shape, 4, 3, 50, 3);
   std::vector<std::string> seeds{
-      solid_files::stl_text(mesh), solid_files::stl_binary(mesh), solid_files::obj(mesh),
+      solid_files::stl_text(mesh),
+      solid_files::stl_binary(mesh),
+      solid_files::obj(mesh),
       solid_files::points(mesh.vertices),
+      three_mf_files::archive(mesh),
       "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\ng a b\nf 1 2 3 4 5\nf -1 -2 -3\n"};
   for (const solid_files::PlyForm form : solid_files::kPlyForms)
     seeds.push_back(solid_files::ply<float>(mesh, form, form == solid_files::PlyForm::big));

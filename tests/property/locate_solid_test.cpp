@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/solid/mesh_clearance.hpp"
 #include "support/cases.hpp"
 #include "support/castings.hpp"
@@ -298,6 +299,26 @@ TEST(LocateSolid, ProgressIsToldFromTheBeginningAndAStopIsSeenWithinAMeasurement
     EXPECT_EQ(found->status, locate::Status::stopped);
     EXPECT_GE(found->upper_bound, 1.25);
     EXPECT_LE(found->best.clearance, 1.25);
+  }
+}
+
+TEST(LocateSolid, AStopEndsTheJobUntilThereIsAPoseToShow) {
+  Random random(cases::seed(), 69);
+  const solid::Mesh body = cases::ring(random, 60, 40, 50, 10);
+  for (const std::size_t stop_at : {0U, 2U}) {
+    std::atomic<bool> stop = false;
+    std::size_t calls = 0;
+    locate::SolidOptions options;
+    options.run.stop = &stop;
+    options.run.progress = [&](const Progress&) { stop = stop || calls++ == stop_at; };
+    const auto found = stoppable(options.run, [&] {
+      return locate::locate_solid({body, body, {}}, options);
+    });
+    // The trees are not made to their end, but the climb keeps what it began from.
+    ASSERT_EQ(found.has_value(), stop_at == 2);
+    if (!found) continue;
+    ASSERT_TRUE(*found) << (*found).error().message;
+    EXPECT_EQ((*found)->status, locate::Status::stopped);
   }
 }
 

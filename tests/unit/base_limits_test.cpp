@@ -1,6 +1,7 @@
 // The limits of numbers (lekalo/base/limits.hpp) are one set: readers and checker take a number at its limit
 // and refuse the next, with file, place and limit; the schema and docs/limits.md state the same.
 
+#include "lekalo/base/archive_limits.hpp"
 #include "lekalo/base/limits.hpp"
 
 #include <fmt/core.h>
@@ -332,6 +333,10 @@ TEST(Limits, ThePageStatesThem) {
         with_commas(kMostId),
         fmt::format("{:g}", kMostMoney),
         with_commas(kMostSolidItems) + " each",
+        fmt::format("| {} times as long as it is packed, or {} bytes |", kMostUnpackedTimes,
+                    with_commas(kSmallUnpacked)),
+        fmt::format("| {}; {} |", with_commas(kMostPlacedObjects), kMostObjectLevels),
+        "| " + with_commas(kMostPlacedCopies) + " each |",
         with_commas(kMostCertificateRows) + " each",
         fmt::format("{}; {} |", with_commas(kMostCertificateNodes), kMostCertificateTerms),
         with_commas(most_meeting_boxes(0)) + " and 16 for each edge",

@@ -235,7 +235,7 @@ TEST(SolidRefusal, EveryBadFileGivesOneSentenceWithItsPlaceAndTheWayOut) {
   const std::string rows = "0 0 0\n1 0 0\n0 1 0\n";
   const std::string iges = std::string(72, ' ') + "S      1\n";
   const std::string not_a_solid =
-      "this is no solid that can be read; STL, PLY, OBJ and points in text 'x y z' are";
+      "this is no solid that can be read; STL, PLY, OBJ, 3MF and points in text 'x y z' are";
   const std::string export_it = "; export it as STL, PLY or OBJ from the program that it comes from";
   const std::vector<Bad> all{
       // other kinds
@@ -247,7 +247,8 @@ TEST(SolidRefusal, EveryBadFileGivesOneSentenceWithItsPlaceAndTheWayOut) {
       {"OFF", "a.off", "OFF\n8 6 12\n0 0 0\n", "this is an OFF model" + export_it},
       {"gzip", "a.stl", "\x1f\x8b\x08", "this file is compressed by gzip; unpack it first: gunzip, or 7-Zip"},
       {"3MF", "a.3mf", "PK\x03\x04....3D/3dmodel.model",
-       "this is a 3MF model; export it as STL, PLY or OBJ, which its program can, too"},
+       "there is no directory at the end of this ZIP archive; it is cut off or damaged, export or copy it "
+       "again"},
       {"ZIP", "a.zip", "PK\x03\x04....part.stl",
        "this is a ZIP archive; unpack it first, and give the model in it"},
       {"something else", "a.json", "{}", not_a_solid},

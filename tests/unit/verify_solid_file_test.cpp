@@ -116,8 +116,8 @@ TEST(SolidReader, TrianglesWithoutAreaAreLeftOutUnlessTheSurfaceClosesAlongThem)
 }
 
 TEST(SolidReader, WhatIsNotReadIsSaidAndLeftOpen) {
-  EXPECT_EQ(reading("ISO-10303-21;\n"), "open: it is none of STL, OBJ and PLY");
-  EXPECT_EQ(reading(""), "open: it is none of STL, OBJ and PLY");
+  EXPECT_EQ(reading("ISO-10303-21;\n"), "open: it is none of STL, OBJ, PLY and 3MF");
+  EXPECT_EQ(reading(""), "open: it is none of STL, OBJ, PLY and 3MF");
   EXPECT_EQ(reading("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"),
             "open: the face on line 5 has 4 corners, and only triangles are read");
   EXPECT_EQ(reading("v 0 0 0 2\n"), "open: the vertex on line 1 has a weight");

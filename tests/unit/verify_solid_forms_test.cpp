@@ -142,9 +142,9 @@ TEST(SolidForms, WordsOfAnStlAreWhole) {
               std::string::npos)
         << to << ": " << reading(replaced(text, from, to));
   EXPECT_EQ(reading("SoLiD\nEndSolid\n"), "s: there are no triangles in it");
-  EXPECT_EQ(reading("splid\nendsolid\n"), "open: it is none of STL, OBJ and PLY");
+  EXPECT_EQ(reading("splid\nendsolid\n"), "open: it is none of STL, OBJ, PLY and 3MF");
   EXPECT_EQ(reading(solid_files::stl_binary({})), "s: there are no triangles in it");
-  EXPECT_EQ(reading(std::string(83, ' ')), "open: it is none of STL, OBJ and PLY");
+  EXPECT_EQ(reading(std::string(83, ' ')), "open: it is none of STL, OBJ, PLY and 3MF");
 }
 
 TEST(SolidForms, AnObjMayHaveTabsAndNumbersFromItsEnd) {

@@ -9,7 +9,7 @@
 #include "lekalo/base/limits.hpp"
 #include "support/drawn_text.hpp"
 #include "verify/origin/drawing.hpp"
-#include "verify/origin/xml.hpp"
+#include "verify/read/xml.hpp"
 #include "verify/shape/shape_distance.hpp"
 
 /// What the checker's own reader of SVG takes a drawing for, curve by curve.

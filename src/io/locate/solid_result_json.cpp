@@ -199,16 +199,4 @@ const char* name_of(locate::SolidFreedom freedom) noexcept {
   return "six";
 }
 
-const char* name_of(SolidUnit unit) noexcept {
-  switch (unit) {
-    case SolidUnit::inch:
-      return "inch";
-    case SolidUnit::metre:
-      return "m";
-    case SolidUnit::millimetre:
-      break;
-  }
-  return "mm";
-}
-
 }  // namespace lekalo::io

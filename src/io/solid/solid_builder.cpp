@@ -17,6 +17,12 @@ DecimalFactor decimal_factor(SolidUnit unit) noexcept {
       return decimal_factor(LengthUnit::inch);
     case SolidUnit::metre:
       return {1, 3};
+    case SolidUnit::micron:
+      return {1, -3};
+    case SolidUnit::centimetre:
+      return {1, 1};
+    case SolidUnit::foot:
+      return {3048, -1};
     case SolidUnit::millimetre:
       break;
   }
@@ -30,11 +36,21 @@ std::string too_many_triangles() {
   return fmt::format("more than {} triangles; thin the mesh out first", kMostSolidTriangles);
 }
 
-SolidBuilder::SolidBuilder(const std::string& name, std::string_view format, SolidUnit unit)
-    : unit_(decimal_factor(unit)) {
+SolidBuilder::SolidBuilder(const std::string& name, std::string_view format, std::optional<SolidUnit> asked)
+    : asked_(asked) {
   file_.name = name;
   file_.format = format;
+  file_.unit = asked.value_or(SolidUnit::millimetre);
+  unit_ = decimal_factor(file_.unit);
+}
+
+std::string SolidBuilder::set_unit(SolidUnit unit) {
   file_.unit = unit;
+  unit_ = decimal_factor(unit);
+  if (asked_.value_or(unit) == unit) return {};
+  return fmt::format(
+      "the file says {}, but {} was asked for; leave --units out, or give the other file in {}, too",
+      name_of(unit), name_of(*asked_), name_of(unit));
 }
 
 Result<void> SolidBuilder::set_deviation(double millimetres) {

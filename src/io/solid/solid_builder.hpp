@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,13 +17,16 @@ namespace lekalo::io {
 /// Gathers what a reader of solids finds, and counts.
 class SolidBuilder {
  public:
-  SolidBuilder(const std::string& name, std::string_view format, SolidUnit unit);
+  SolidBuilder(const std::string& name, std::string_view format, std::optional<SolidUnit> asked);
 
   [[nodiscard]] const std::string& name() const noexcept { return file_.name; }
   [[nodiscard]] DecimalFactor unit() const noexcept { return unit_; }
   [[nodiscard]] std::size_t vertices() const noexcept { return file_.mesh.vertices.size(); }
   [[nodiscard]] std::size_t triangles() const noexcept { return file_.mesh.triangles.size(); }
 
+  /// The file says its unit. Returns what is wrong where it was asked to be read in another one, or nothing.
+  /// \pre nothing was added
+  [[nodiscard]] std::string set_unit(SolidUnit unit);
   /// Fails where the file was asked to be read in another unit than mm.
   [[nodiscard]] Result<void> set_deviation(double millimetres);
   void reserve(std::size_t vertices, std::size_t triangles);
@@ -46,6 +50,7 @@ class SolidBuilder {
 
  private:
   SolidFile file_;
+  std::optional<SolidUnit> asked_;
   DecimalFactor unit_;
   std::map<std::string, std::uint32_t, std::less<>> number_of_group_;
   std::uint32_t group_ = 0;
@@ -73,6 +78,8 @@ struct SolidFormat {
 [[nodiscard]] Result<void> read_obj(std::string_view bytes, SolidBuilder& made);
 [[nodiscard]] bool is_ply(std::string_view bytes);
 [[nodiscard]] Result<void> read_ply(std::string_view bytes, SolidBuilder& made);
+[[nodiscard]] bool is_three_mf(std::string_view bytes);
+[[nodiscard]] Result<void> read_three_mf(std::string_view bytes, SolidBuilder& made);
 [[nodiscard]] bool is_points(std::string_view bytes);
 [[nodiscard]] Result<void> read_points(std::string_view bytes, SolidBuilder& made);
 

@@ -17,7 +17,8 @@ namespace lekalo::io {
 namespace {
 
 /// In the order in which they are asked; points are what is left.
-constexpr std::array<SolidFormat, 4> kSolidFormats{{{&kPlyFormat, is_ply, read_ply},
+constexpr std::array<SolidFormat, 5> kSolidFormats{{{&kThreeMfFormat, is_three_mf, read_three_mf},
+                                                    {&kPlyFormat, is_ply, read_ply},
                                                     {&kStlFormat, is_stl, read_stl},
                                                     {&kObjFormat, is_obj, read_obj},
                                                     {&kPointsFormat, is_points, read_points}}};
@@ -53,10 +54,8 @@ std::string other_kind(std::string_view bytes) {
   if (bytes.starts_with("ISO-10303-21"sv))
     return "this is a STEP model; make a mesh of it that says how far it is from the model at most: "
            "lekalo-step FILE -o FILE.ply (tools/setup.sh --step installs what that program needs)";
-  if (bytes.starts_with("PK\x03\x04"sv))
-    return bytes.find("3D/"sv) != std::string_view::npos
-               ? "this is a 3MF model; export it as STL, PLY or OBJ, which its program can, too"
-               : "this is a ZIP archive; unpack it first, and give the model in it";
+  if (bytes.starts_with("PK\x03\x04"sv) && !is_three_mf(bytes))
+    return "this is a ZIP archive; unpack it first, and give the model in it";
   const auto export_it = [](std::string_view what) {
     return fmt::format("{}; export it as STL, PLY or OBJ from the program that it comes from", what);
   };
@@ -133,6 +132,24 @@ Result<void> read_points(std::string_view bytes, SolidBuilder& made) {
   return {};
 }
 
+const char* name_of(SolidUnit unit) noexcept {
+  switch (unit) {
+    case SolidUnit::inch:
+      return "inch";
+    case SolidUnit::metre:
+      return "m";
+    case SolidUnit::micron:
+      return "micron";
+    case SolidUnit::centimetre:
+      return "cm";
+    case SolidUnit::foot:
+      return "foot";
+    case SolidUnit::millimetre:
+      break;
+  }
+  return "mm";
+}
+
 const FileFormat* solid_format_by_content(std::string_view bytes) {
   const SolidFormat* const format = format_by_content(bytes);
   return format == nullptr ? nullptr : format->file;
@@ -140,10 +157,10 @@ const FileFormat* solid_format_by_content(std::string_view bytes) {
 
 bool is_only_solid(std::string_view bytes, const std::string& name) {
   constexpr FileFormat kOthers[] = {
-      {"STEP", {".step", ".stp"}}, {"IGES", {".iges", ".igs"}}, {"3MF", {".3mf"}}, {"OFF", {".off"}}};
+      {"STEP", {".step", ".stp"}}, {"IGES", {".iges", ".igs"}}, {"OFF", {".off"}}};
   if (const FileFormat* const format = solid_format_by_content(bytes))
-    return format == &kStlFormat || format == &kObjFormat;
-  return kStlFormat.is_named_so(name) || kObjFormat.is_named_so(name) ||
+    return format == &kStlFormat || format == &kObjFormat || format == &kThreeMfFormat;
+  return kStlFormat.is_named_so(name) || kObjFormat.is_named_so(name) || kThreeMfFormat.is_named_so(name) ||
          std::any_of(std::begin(kOthers), std::end(kOthers),
                      [&](const FileFormat& other) { return other.is_named_so(name); });
 }
@@ -156,11 +173,12 @@ Result<SolidFile> parse_solid(std::string_view bytes, const std::string& name, c
       if (one.file->is_named_so(name)) format = &one;
   }
   if (format == nullptr)
-    return refuse(name, "this is no solid that can be read; STL, PLY, OBJ and points in text 'x y z' are");
-  SolidBuilder made(name, format->file->name, options.units.value_or(SolidUnit::millimetre));
+    return refuse(name,
+                  "this is no solid that can be read; STL, PLY, OBJ, 3MF and points in text 'x y z' are");
+  SolidBuilder made(name, format->file->name, options.units);
   LEKALO_CHECK(format->read(bytes, made));
   SolidFile file = made.take();
-  if (!options.units && !file.deviation)
+  if (!options.units && !file.deviation && format->file != &kThreeMfFormat)
     file.notices.push_back(fmt::format("{}: the file does not say its unit; it is read as mm{}", name,
                                        suggestion(file.mesh.vertices)));
   return file;

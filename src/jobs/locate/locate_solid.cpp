@@ -232,9 +232,6 @@ Result<locate::SolidPose> found_start(const SolidInputs& in, const SolidLocateOp
 Result<Found> searched(const SolidLocateOptions& o, const RunControl& run, const Stopwatch& stopwatch,
                        SolidInputs& in, double& seconds) {
   const auto now = [&] { return stopwatch ? stopwatch() : 0; };
-  // The search looks at the control itself, and ends with its best so far.
-  const RunControl nobody;
-  const Listening listening(nobody);
   const double start = now();
   if (o.find_start) {
     LEKALO_TRY(in.problem.start, found_start(in, o, run));

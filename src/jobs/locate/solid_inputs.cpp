@@ -94,7 +94,7 @@ Result<void> read_blank(const SolidLocateJob& job, SolidInputs& in) {
 Result<void> read_features(const SolidLocateJob& job, const io::SolidFile& part, SolidInputs& in) {
   if (!job.features) return {};
   LEKALO_TRY(const io::SolidFeatureFile file,
-             io::parse_solid_features(job.features->bytes, job.features->name, job.options.units));
+             io::parse_solid_features(job.features->bytes, job.features->name, part.unit));
   io::SolidDemandRecord& demands = in.demands.emplace();
   demands.minimum.reset();
   if (!file.as_cast) demands.minimum = std::max(job.options.min_allowance, file.minimum.value_or(0));

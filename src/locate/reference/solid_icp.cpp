@@ -89,6 +89,8 @@ Result<SolidPlacement> place_solid_icp(const SolidProblem& problem, const SolidO
   LEKALO_CHECK(check(problem, options));
   const SolidMeter meter(problem, frame_of(problem));
   SolidRegistration registration(meter);
+  const RunControl nobody;
+  const Listening to_the_end(nobody);
   FramedPose pose = meter.frame().window.middle();
   std::uint64_t steps = 0;
   double before = kInfinity;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lekalo/base/limits.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/locate/solid_at.hpp"
 #include "solid_climb.hpp"
@@ -169,6 +170,8 @@ Result<SolidPlacement> place_solid(const SolidProblem& problem, const SolidOptio
   const SolidMeter meter(problem, frame_of(problem));
   std::uint64_t work = 0;
   const MeasuredSolid best = first_climb(meter, first_trust(problem), kClimbGain, options.run, work);
+  const RunControl nobody;
+  const Listening to_the_end(nobody);
   SolidPlacement made = placement(meter, best.pose);
   made.contacts = holding_contacts(meter, best, options.gap);
   made.work = work;
@@ -210,6 +213,8 @@ Result<SolidResult> locate_solid(const SolidProblem& problem, const SolidOptions
   if (options.run.progress) options.run.progress({});
   const SolidMeter meter(problem, frame_of(problem));
   SolidSearch search(meter, options);
+  const RunControl nobody;
+  const Listening to_the_end(nobody);
   search.run();
   SolidResult result;
   result.best = placement(meter, search.best().pose);

@@ -80,6 +80,9 @@ MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trus
   std::vector<SolidContact> here, there;
   Pool pool;
   MeasuredSolid best = meter.measure(from, kInfinity, kContacts, here);
+  // There is something to show from here on.
+  const RunControl nobody;
+  const Listening to_the_end(nobody);
   ++work;
   add(pool, here);
   const double widest = trust;

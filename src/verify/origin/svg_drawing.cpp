@@ -8,7 +8,7 @@
 
 #include "drawing.hpp"
 #include "verify/number/interval.hpp"
-#include "xml.hpp"
+#include "verify/read/xml.hpp"
 
 namespace lekalo::verify {
 namespace {

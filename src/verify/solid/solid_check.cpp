@@ -142,6 +142,8 @@ Result<std::optional<SolidMesh>> SolidCheck::read_input(const char* role, const 
   if (reading.mesh.triangles.size() != written.triangles)
     find("the {} is said to have {} triangles, but {} has {}", role, written.triangles, document.name,
          reading.mesh.triangles.size());
+  if (reading.unit != written.unit)
+    find("the {} is said to be in another unit than {} says", role, document.name);
   const auto& [is, said] = std::tie(reading.deviation, written.deviation);
   if (is.has_value() != said.has_value() || (is && compare(*is, *said) != 0))
     find("the {} is said to deviate {} from the body that it stands for, but {} says {}", role,

@@ -17,7 +17,8 @@ constexpr std::array<std::string_view, 4> kStatuses{"optimal", "stopped", "infea
 constexpr std::array<std::string_view, 7> kRoles{"part",     "blank", "start", "points",
                                                  "features", "nc",    "allow"};
 /// In the order of SolidUnit and of SolidFreedom.
-constexpr std::array<std::string_view, 3> kUnits{"mm", "inch", "m"}, kFreedoms{"xyz", "c-xyz", "six"};
+constexpr std::array<std::string_view, 6> kUnits{"mm", "inch", "m", "micron", "cm", "foot"};
+constexpr std::array<std::string_view, 3> kFreedoms{"xyz", "c-xyz", "six"};
 
 tl::unexpected<Error> bad(const std::string& name, const std::string& sentence) {
   return failure(ErrorCode::bad_input, fmt::format("{}: {}", name, sentence));

@@ -404,9 +404,7 @@ class FeatureReader {
     return n;
   }
   Both in_mm(const Decimal& number) {
-    const Fraction unit =
-        unit_ == SolidUnit::inch ? Fraction(127, 5) : Fraction(unit_ == SolidUnit::metre ? 1000 : 1);
-    Both made{to_fraction(number) * unit};
+    Both made{to_fraction(number) * to_fraction(millimetres_of(unit_))};
     made.near = enclosed(made.exact);
     return made;
   }

@@ -244,6 +244,24 @@ void split(std::string_view line, std::vector<std::string_view>& words) {
   }
 }
 
+Decimal millimetres_of(SolidUnit unit) {
+  switch (unit) {
+    case SolidUnit::inch:
+      return {254, -1};
+    case SolidUnit::metre:
+      return {1, 3};
+    case SolidUnit::micron:
+      return {1, -3};
+    case SolidUnit::centimetre:
+      return {1, 1};
+    case SolidUnit::foot:
+      return {3048, -1};
+    case SolidUnit::millimetre:
+      break;
+  }
+  return {1, 0};
+}
+
 std::optional<std::string> SolidMaker::add_vertex(const std::string_view* words) {
   std::array<Decimal, 3> numbers;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -255,7 +273,7 @@ std::optional<std::string> SolidMaker::add_vertex(const std::string_view* words)
 }
 
 std::optional<std::string> SolidMaker::add_vertex(const std::array<double, 3>& xyz) {
-  if (unit_ == SolidUnit::millimetre) return add_near(xyz);
+  if (unit() == SolidUnit::millimetre) return add_near(xyz);
   std::array<Decimal, 3> numbers;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     // This one is beyond the sizes in any unit; what is not finite is no decimal.
@@ -266,11 +284,11 @@ std::optional<std::string> SolidMaker::add_vertex(const std::array<double, 3>& x
 }
 
 std::optional<std::string> SolidMaker::add(std::array<Decimal, 3> numbers) {
+  const Decimal factor = millimetres_of(unit());
   std::array<double, 3> near{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Decimal& number = numbers[axis];
-    if (unit_ == SolidUnit::inch) number.digits *= 254, --number.exponent;
-    if (unit_ == SolidUnit::metre) number.exponent += 3;
+    number.digits *= factor.digits, number.exponent += factor.exponent;
     near[axis] = approximate(number);
     if (std::abs(near[axis]) < limits::kSmallestCoordinate) near[axis] = 0, number = {};
   }
@@ -322,6 +340,8 @@ Result<bool> read_by_content(SolidMaker& made) {
   const std::string_view word = first_word(document.bytes);
   if (is_binary_stl(document.bytes)) {
     LEKALO_CHECK(read_binary_stl(made));
+  } else if (document.bytes.starts_with("PK\x03\x04")) {
+    LEKALO_CHECK(read_three_mf(made));
   } else if (word == "ply") {
     LEKALO_CHECK(read_ply(made));
   } else if (is_word(word, "solid")) {
@@ -339,7 +359,7 @@ Result<bool> read_by_content(SolidMaker& made) {
 Result<SolidReading> read_solid(const Document& document, SolidUnit unit) {
   SolidMaker made(document, unit);
   LEKALO_TRY(const bool known, read_by_content(made));
-  if (!known) made.leave_open("it is none of STL, OBJ and PLY");
+  if (!known) made.leave_open("it is none of STL, OBJ, PLY and 3MF");
   SolidReading reading = made.take();
   if (reading.open || !reading.mesh.triangles.empty()) return reading;
   if (first_word(document.bytes) != "ply") return bad(document, "there are no triangles in it");

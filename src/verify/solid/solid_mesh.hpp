@@ -44,13 +44,16 @@ struct SolidMesh {
   }
 };
 
-/// The unit of the numbers in a file, which none of the formats says.
-enum class SolidUnit : std::uint8_t { millimetre, inch, metre };
+/// The unit of the numbers in a file; of the formats only 3MF says it.
+enum class SolidUnit : std::uint8_t { millimetre, inch, metre, micron, centimetre, foot };
+[[nodiscard]] Decimal millimetres_of(SolidUnit unit);
 
 struct SolidReading {
   SolidMesh mesh;
-  /// The names that a text STL or an OBJ gives its triangles, and of each triangle which one; both are empty
-  /// where there are none.
+  /// As the file says, or as it was asked to be read.
+  SolidUnit unit = SolidUnit::millimetre;
+  /// The names that a text STL, an OBJ or a 3MF gives its triangles, and of each triangle which one; both are
+  /// empty where there are none.
   std::vector<std::string> groups;
   std::vector<std::uint32_t> group_of;
   /// A mesh by lekalo-step says how far the body may be from the triangles at most, mm.
@@ -61,8 +64,9 @@ struct SolidReading {
   std::optional<std::string> open;
 };
 
-/// Reads STL, OBJ or PLY, told apart by content, as docs/formats.md says, with triangles alone. bad_input
-/// names the line, or the triangle or row of a binary file. A millimetre is exactly so much of the unit.
+/// Reads STL, OBJ, PLY or 3MF, told apart by content, as docs/formats.md says, with triangles alone.
+/// bad_input names the line, or the triangle or row of a binary file. A millimetre is exactly so much of the
+/// unit.
 [[nodiscard]] Result<SolidReading> read_solid(const Document& document,
                                               SolidUnit unit = SolidUnit::millimetre);
 

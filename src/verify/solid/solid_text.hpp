@@ -13,10 +13,11 @@ namespace lekalo::verify {
 /// Collects what a reader finds in a file.
 class SolidMaker {
  public:
-  SolidMaker(const Document& document, SolidUnit unit) : document_(document), unit_(unit) {}
+  SolidMaker(const Document& document, SolidUnit unit) : document_(document) { reading_.unit = unit; }
 
   [[nodiscard]] const Document& document() const { return document_; }
   [[nodiscard]] std::size_t vertices() const { return reading_.mesh.near.size(); }
+  [[nodiscard]] std::size_t triangles() const { return reading_.mesh.triangles.size(); }
 
   /// Returns the sentence of refusal for the three numbers of a text, or none.
   [[nodiscard]] std::optional<std::string> add_vertex(const std::string_view* words);
@@ -30,7 +31,9 @@ class SolidMaker {
   /// The last triangle is of a face of a STEP file.
   void set_face(std::uint32_t face) { reading_.face_of.push_back(face); }
   void set_deviation(Decimal millimetres) { reading_.deviation = std::move(millimetres); }
-  [[nodiscard]] SolidUnit unit() const { return unit_; }
+  [[nodiscard]] SolidUnit unit() const { return reading_.unit; }
+  /// The file says it.
+  void set_unit(SolidUnit unit) { reading_.unit = unit; }
   /// Gives the file up: it is not read any further.
   void leave_open(std::string sentence) { reading_.open = std::move(sentence); }
   [[nodiscard]] bool is_open() const { return reading_.open.has_value(); }
@@ -42,7 +45,6 @@ class SolidMaker {
   [[nodiscard]] std::optional<std::string> add_near(const std::array<double, 3>& millimetres);
 
   const Document& document_;
-  SolidUnit unit_;
   SolidReading reading_;
   std::map<std::string, std::size_t> numbers_;  ///< of groups
   std::uint32_t group_ = 0;
@@ -52,5 +54,6 @@ class SolidMaker {
 void split(std::string_view line, std::vector<std::string_view>& words);
 
 [[nodiscard]] Result<void> read_ply(SolidMaker& made);
+[[nodiscard]] Result<void> read_three_mf(SolidMaker& made);
 
 }  // namespace lekalo::verify

@@ -132,6 +132,5 @@ struct SolidDocument {
 
 /// Names as they stand in results.
 [[nodiscard]] const char* name_of(locate::SolidFreedom freedom) noexcept;
-[[nodiscard]] const char* name_of(SolidUnit unit) noexcept;
 
 }  // namespace lekalo::io

@@ -19,8 +19,10 @@ namespace lekalo::io {
 inline constexpr std::size_t kMostSolidVertices = limits::kMostSolidItems,
                              kMostSolidTriangles = limits::kMostSolidItems;
 
-/// The unit of the numbers in a file of a solid; none of the formats says it.
-enum class SolidUnit : std::uint8_t { millimetre, inch, metre };
+/// The unit of the numbers in a file of a solid; of the formats only 3MF says it, and may say the last three.
+enum class SolidUnit : std::uint8_t { millimetre, inch, metre, micron, centimetre, foot };
+/// The word for it: mm, inch, m, micron, cm or foot.
+[[nodiscard]] const char* name_of(SolidUnit unit) noexcept;
 
 struct SolidOptions {
   /// Millimetres without, with a notice.
@@ -31,7 +33,7 @@ struct SolidOptions {
 /// (solid::closed_mesh does). Millimetres.
 struct SolidFile {
   std::string name;
-  std::string_view format;  ///< "STL", "OBJ", "PLY" or "points"
+  std::string_view format;  ///< "STL", "OBJ", "PLY", "3MF" or "points"
   SolidUnit unit = SolidUnit::millimetre;
   solid::Mesh mesh;  ///< no triangles: the file holds points
   /// The names that the file gives to parts of the surface, each once, and which of them each triangle has;
@@ -49,21 +51,23 @@ struct SolidFile {
 };
 
 /// The format of a solid or of points in space by what is in the bytes, however their file is called: STL,
-/// OBJ, PLY or points; nullptr for anything else. It looks at the beginning and at the number of the bytes.
+/// OBJ, PLY, 3MF or points; nullptr for anything else. It looks at the beginning and at the number of the
+/// bytes, and of an archive for the name of a model.
 [[nodiscard]] const FileFormat* solid_format_by_content(std::string_view bytes);
 
-/// Says whether a file holds a solid and can hold nothing else: STL or OBJ by its content, or by its name
-/// where the content fits no format; by that, too, models that are not read (STEP, IGES, 3MF, OFF). PLY and
+/// Says whether a file holds a solid and can hold nothing else: STL, OBJ or 3MF by its content, or by its
+/// name where the content fits no format; by that, too, models that are not read (STEP, IGES, OFF). PLY and
 /// points may also be measured outlines.
 [[nodiscard]] bool is_only_solid(std::string_view bytes, const std::string& name);
 
-/// Reads STL (text and binary), OBJ, PLY (text and binary, either order) and text of points "x y z"
+/// Reads STL (text and binary), OBJ, PLY (text and binary, either order), 3MF and text of points "x y z"
 /// (docs/formats.md), told apart by their content. The ending of the name says what was meant where the
 /// content fits none.
 ///
 /// Fails with bad_input and one sentence that names file, line, triangle or row, what stands there and the
 /// way out. Cost: O(bytes), and for faces with dents the square of their corners, 2,000 at most. Memory: at
-/// most 100 bytes for a byte of the file.
+/// most 100 bytes for a byte of the file; of a 3MF for a byte of its models, which are at most 100 times as
+/// long as they are packed.
 [[nodiscard]] Result<SolidFile> parse_solid(std::string_view bytes, const std::string& name,
                                             const SolidOptions& options = {});
 

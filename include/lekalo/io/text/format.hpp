@@ -32,5 +32,6 @@ inline constexpr FileFormat kPlyFormat{"PLY", {".ply"}};
 /// (io/solid/solid_file.hpp).
 inline constexpr FileFormat kStlFormat{"STL", {".stl"}};
 inline constexpr FileFormat kObjFormat{"OBJ", {".obj"}};
+inline constexpr FileFormat kThreeMfFormat{"3MF", {".3mf"}};
 
 }  // namespace lekalo::io

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <optional>
 #include <system_error>
+#include <utility>
+
+#include "lekalo/base/stop.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -17,54 +19,56 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; 
 
 class XmlReader {
  public:
-  explicit XmlReader(std::string_view text) : text_(text) {
+  XmlReader(std::string_view text, XmlTaker& taker) : text_(text), taker_(taker) {
     if (text_.substr(0, 3) == "\xEF\xBB\xBF") text_.remove_prefix(3);
   }
 
-  std::optional<XmlElement> read() {
-    std::vector<XmlElement> open;
+  /// Returns whether there is a root and it ends.
+  bool read() {
     while (at_ < text_.size()) {
+      ask();
       if (text_[at_] != '<') {
         const std::size_t end = std::min(text_.find('<', at_), text_.size());
-        if (!open.empty()) open.back().text += resolved(text_.substr(at_, end - at_));
-        if (!good_) return std::nullopt;
+        if (!open_.empty()) taker_.text(resolved(text_.substr(at_, end - at_)));
+        if (!good_) return false;
         at_ = end;
       } else if (begins("<!--")) {
         skip_to("-->");
       } else if (begins("<![CDATA[")) {
         const std::size_t begin = at_ + 9;
         skip_to("]]>");
-        if (!open.empty()) open.back().text += text_.substr(begin, at_ - 3 - begin);
+        if (good_ && !open_.empty()) taker_.text(text_.substr(begin, at_ - 3 - begin));
       } else if (begins("<?")) {
         skip_to("?>");
       } else if (begins("<!")) {
         skip_declaration();
       } else if (begins("</")) {
         at_ += 2;
-        if (open.empty() || name() != open.back().name) return std::nullopt;
+        if (open_.empty() || name() != open_.back()) return false;
         skip_blanks();
-        if (!take('>')) return std::nullopt;
-        if (open.size() == 1) return std::move(open.front());
-        XmlElement done = std::move(open.back());
-        open.pop_back();
-        open.back().children.push_back(std::move(done));
+        if (!take('>')) return false;
+        if (end_is_last()) return true;
       } else {
         ++at_;
-        open.emplace_back();
-        if (open.size() > kDeepestElement) return std::nullopt;
-        const bool empty = read_tag(open.back());
-        if (!good_) return std::nullopt;
-        if (!empty) continue;
-        if (open.size() == 1) return std::move(open.front());
-        XmlElement done = std::move(open.back());
-        open.pop_back();
-        open.back().children.push_back(std::move(done));
+        if (open_.size() == kDeepestElement) return false;
+        XmlElement element;
+        const bool empty = read_tag(element);
+        if (!good_) return false;
+        open_.push_back(element.name);
+        taker_.begin(std::move(element));
+        if (empty && end_is_last()) return true;
       }
     }
-    return std::nullopt;
+    return false;
   }
 
  private:
+  /// Closes the element that is open; the root is the last.
+  bool end_is_last() {
+    taker_.end();
+    open_.pop_back();
+    return open_.empty();
+  }
   [[nodiscard]] bool begins(std::string_view with) const { return text_.substr(at_, with.size()) == with; }
   void skip_to(std::string_view end) {
     const std::size_t found = text_.find(end, at_);
@@ -159,17 +163,44 @@ class XmlReader {
   }
 
   std::string_view text_;
+  XmlTaker& taker_;
+  std::vector<std::string> open_;  ///< names
   std::size_t at_ = 0;
   bool good_ = true;
 };
 
+/// Puts the elements together.
+class TreeTaker final : public XmlTaker {
+ public:
+  XmlElement root;
+
+  void begin(XmlElement element) override { open_.push_back(std::move(element)); }
+  void text(std::string_view text) override { open_.back().text += text; }
+  void end() override {
+    XmlElement done = std::move(open_.back());
+    open_.pop_back();
+    if (open_.empty())
+      root = std::move(done);
+    else
+      open_.back().children.push_back(std::move(done));
+  }
+
+ private:
+  std::vector<XmlElement> open_;
+};
+
 }  // namespace
 
-Result<XmlElement> parse_xml(const Document& document) {
-  std::optional<XmlElement> root = XmlReader(document.bytes).read();
-  if (root) return *std::move(root);
+Result<void> read_xml(const Document& document, XmlTaker& taker) {
+  if (XmlReader(document.bytes, taker).read()) return {};
   return failure(ErrorCode::bad_input,
                  fmt::format("{}: it is no XML that is understood here", document.name));
+}
+
+Result<XmlElement> parse_xml(const Document& document) {
+  TreeTaker tree;
+  LEKALO_CHECK(read_xml(document, tree));
+  return std::move(tree.root);
 }
 
 }  // namespace lekalo::verify
