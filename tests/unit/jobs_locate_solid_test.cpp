@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <sstream>
 
 #include "lekalo/base/angle.hpp"
 #include "lekalo/io/text/sha256.hpp"
@@ -810,6 +811,41 @@ TEST(JobsLocateSolid, PointsAreMeshedAndThePlacementHoldsInTheTrueBlank) {
   EXPECT_EQ(json["inputs"][2]["points"], points.size());
   EXPECT_EQ(json["scan"]["left_out"].size(), 0U);
   EXPECT_EQ(verdict(job, located), verify::Verdict::unproved);
+}
+
+TEST(JobsLocateSolid, EveryMeasuredPointHasItsDistanceFromThePlacedPart) {
+  std::vector<solid::Vector> points;
+  SolidLocateJob job = points_job(points);
+  job.blank.bytes = "900 0 20\n" + job.blank.bytes;  // is left out
+  job.options.scan->drop_outliers = 50;
+  job.outputs.deviations = SolidPointsForm::csv;
+  const LocatedSolid located = made(job);
+  ASSERT_TRUE(located.holds());
+  ASSERT_EQ(located.document.scan->left_out, std::vector<std::uint32_t>{0});
+  std::istringstream table(located.deviations);
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "index,x,y,z,deviation");
+  std::size_t index = 0;
+  double least = 1e9;
+  while (std::getline(table, line)) {
+    std::array<double, 5> row{};
+    char comma = 0;
+    std::istringstream numbers(line);
+    for (double& number : row) numbers >> number >> comma;
+    EXPECT_EQ(row[0], static_cast<double>(index + 1)) << line;
+    EXPECT_EQ((solid::Vector{row[1], row[2], row[3]}), points[index]);
+    least = std::min(least, row[4]);
+    ++index;
+  }
+  EXPECT_EQ(index, points.size());
+  // Each point is of the blank's surface, but for its noise.
+  EXPECT_GE(least, *located.document.clearance - 0.1);
+  job.outputs.deviations = SolidPointsForm::ply;
+  const auto read = io::parse_solid(made(job).deviations, "d.ply");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->mesh.vertices.size(), points.size());
+  EXPECT_TRUE(read->mesh.triangles.empty());
 }
 
 TEST(JobsLocateSolid, PointsInInchesAreTheSamePoints) {

@@ -51,6 +51,25 @@ TEST(SolidAllowance, IsTheDistanceToTheBlankAndNegativeOutside) {
     EXPECT_EQ(measured_part(part, blank, motion, 3000, threads).allowances, measured.allowances);
 }
 
+TEST(SolidAllowance, OfAPointIsItsDistanceFromThePlacedPartAndNegativeInIt) {
+  const solid::Mesh part = cases::block({0, 0, 0}, {40, 30, 20});
+  solid::Motion motion;
+  motion.rotation = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};  // x becomes y
+  motion.shift = {100, 0, 3};
+  const std::vector<Vector> points{{75, 20, 25}, {75, 20, 1}, {75, 20, 21.5}, {60, 20, 10}, {97, 44, 23}};
+  const std::vector<double> expected{2, 2, -1.5, 10, 4};
+  const std::vector<double> found = deviations_from(part, motion, points);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    EXPECT_NEAR(found[k], expected[k], 1e-9) << k;
+    EXPECT_LE(found[k], expected[k]) << k;
+  }
+  std::vector<Vector> many;
+  for (int k = 0; k < 2000; ++k) many.push_back({0.05 * k, 0.01 * k, 10});
+  for (const unsigned threads : {1U, 3U})
+    EXPECT_EQ(deviations_from(part, motion, many, threads), deviations_from(part, motion, many));
+}
+
 TEST(SolidAllowance, LeavesFinePartsAsTheyAre) {
   const solid::Mesh part = cases::block({0, 0, 0}, {1, 1, 1}), blank = cases::block({-1, -1, -1}, {2, 2, 2});
   const MeasuredPart measured = measured_part(part, blank, {}, 2);

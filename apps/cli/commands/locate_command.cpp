@@ -44,6 +44,9 @@ Result<jobs::SolidLocateJob> read_solids(const LocateOptions& o, jobs::File part
   job.outputs.program = o.outputs.program;
   job.outputs.offset = o.offset_out;
   job.outputs.allowances = o.outputs.allowances;
+  if (!o.outputs.deviations.empty())
+    job.outputs.deviations =
+        o.outputs.deviations.ends_with(".ply") ? jobs::SolidPointsForm::ply : jobs::SolidPointsForm::csv;
   job.outputs.report = o.outputs.report;
   if (!o.picture.empty())
     job.outputs.picture = o.picture.ends_with(".html")  ? jobs::SolidPictureForm::html
@@ -109,11 +112,10 @@ Result<int> locate_solid(const LocateOptions& o, jobs::File part, jobs::File bla
   LEKALO_TRY(const jobs::SolidLocateJob job, read_solids(o, std::move(part), std::move(blank)));
   LEKALO_TRY(const jobs::LocatedSolid made, searched(job, o, jobs::locate_solid));
   const ToTheEnd to_the_end;
-  std::vector<Output> documents{{&o.output, &made.result},
-                                {&o.outputs.certificate, &made.certificate},
-                                {&o.picture, &made.picture},
-                                {&o.report, &made.report},
-                                {&o.allowances, &made.allowances}};
+  std::vector<Output> documents{
+      {&o.output, &made.result},         {&o.outputs.certificate, &made.certificate},
+      {&o.picture, &made.picture},       {&o.report, &made.report},
+      {&o.allowances, &made.allowances}, {&o.outputs.deviations, &made.deviations}};
   if (!made.mesh.empty()) documents.push_back({&o.mesh, &made.mesh});
   if (made.document.nc) documents.push_back({&o.outputs.program, &made.program});
   if (made.document.offset) documents.push_back({&o.offset_out, &made.offset});

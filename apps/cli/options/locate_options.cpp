@@ -335,7 +335,7 @@ void check_method(const LocateWords& words, WordReader& read, LocateOptions& o) 
 }
 
 /// The options that solids have, too, and those that they alone have; all others are for outlines.
-constexpr std::array<std::string_view, 30> kOfBoth{
+constexpr std::array<std::string_view, 31> kOfBoth{
     "--part",        "--blank",           "--units",         "--window",
     "--gap",         "--method",          "--work",          "--time",
     "--json",        "--output",          "--picture",       "--report",
@@ -343,7 +343,7 @@ constexpr std::array<std::string_view, 30> kOfBoth{
     "--coverage",    "--min-radius",      "--max-dip",       "--drop-outliers",
     "--nc",          "--nc-out",          "--nc-mode",       "--control",
     "--allow",       "--chord-tolerance", "--wcs",           "--nc-angle-decimals",
-    "--scan-frame",  "--features"};
+    "--scan-frame",  "--features",        "--deviations"};
 constexpr std::array<std::string_view, 13> kOfSolids{
     "--freedom", "--tilt",      "--shift",  "--start",      "--find-start", "--underside",      "--flat",
     "--mesh",    "--mesh-step", "--offset", "--offset-out", "--axes",       "--offset-decimals"};
@@ -593,7 +593,7 @@ void add_output_options(Form& form, LocateWords& w) {
       "CSV: the allowance along the part's outline, or at the corners of a solid");
   add("--certificate", w.certificate, "FILE", "Write the proof to this file instead of into the result");
   add("--deviations", w.deviations, "FILE",
-      "CSV: signed distance of every probed point from the placed part");
+      "Signed distance of every probed point from the placed part: CSV, of a solid's points also .ply");
   add("--json", w.json, "Print the result as JSON on stdout");
 }
 

@@ -63,6 +63,11 @@ struct SolidScene {
 /// are allowances
 [[nodiscard]] std::string solid_surface(const SolidScene& scene);
 
+/// Points as PLY for other viewers: of each the deviation, mm, as `quality`, and its colour on the scale of
+/// those that are not below 0; the others are red. \pre there is one deviation for each point
+[[nodiscard]] std::string solid_points(const std::vector<solid::Vector>& points,
+                                       const std::vector<double>& deviations);
+
 /// The scene as one page of HTML without links, which turns with mouse, finger and keys (WebGL2): part,
 /// blank, contacts, what nobody measured, where material is missing, and a section. It shows places to
 /// 1/65,535 of the size; figures are printed as in the picture. Whatever the texts hold is shown as text.

@@ -73,6 +73,9 @@ struct SolidLocateOptions {
 /// A picture, a page that turns in a browser, or the part's surface in colours for another viewer.
 enum class SolidPictureForm { png, html, ply };
 
+/// A table, or points in colours for another viewer.
+enum class SolidPointsForm { csv, ply };
+
 /// The documents that are made beside the result.
 struct SolidLocateOutputs {
   /// The name of a certificate file. When it is empty, the proof stands in the result, if it is not too long.
@@ -87,6 +90,8 @@ struct SolidLocateOutputs {
   std::string offset;
   /// The allowance at every corner of the part as CSV.
   bool allowances = false;
+  /// The distance of every measured point, or corner of the blank, from the placed part.
+  std::optional<SolidPointsForm> deviations;
   std::optional<SolidPictureForm> picture;
   std::optional<PictureForm> report;
 };
@@ -111,7 +116,7 @@ struct LocatedSolid {
   io::SolidDocument document;
   /// The bytes of `document`, which are what was checked.
   std::string result;
-  std::string certificate, mesh, allowances, picture, report, program, offset;
+  std::string certificate, mesh, allowances, deviations, picture, report, program, offset;
   /// There was a program, or an offset, but the placement does not allow it; a warning in the document says
   /// why.
   bool program_withheld = false, offset_withheld = false;

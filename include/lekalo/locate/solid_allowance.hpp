@@ -29,4 +29,12 @@ struct MeasuredPart {
                                          unsigned threads = kUsualThreads,
                                          const std::vector<double>& widths = {});
 
+/// The distance of each point from the surface of the placed part, mm, rounded down: above 0 outside the
+/// part, where material is to be cut, and below 0 inside, where it is missing. The same for any number of
+/// threads.
+[[nodiscard]] std::vector<double> deviations_from(const solid::Mesh& part,
+                                                  const solid::Motion& blank_from_part,
+                                                  const std::vector<solid::Vector>& points,
+                                                  unsigned threads = kUsualThreads);
+
 }  // namespace lekalo::locate

@@ -1,6 +1,8 @@
 #include "lekalo/draw/solid_picture.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "draw/paper/colour.hpp"
 #include "lekalo/io/solid/solid_file.hpp"
@@ -22,6 +24,18 @@ std::string solid_surface(const SolidScene& scene) {
     shown.colours.push_back({colour.red, colour.green, colour.blue});
   }
   return io::ply_text(placed, shown);
+}
+
+std::string solid_points(const std::vector<solid::Vector>& points, const std::vector<double>& deviations) {
+  double least = std::numeric_limits<double>::infinity(), greatest = 0;
+  for (const double deviation : deviations)
+    if (deviation >= 0) least = std::min(least, deviation), greatest = std::max(greatest, deviation);
+  io::PlyLook shown{deviations, {}};
+  for (const double deviation : deviations) {
+    const Colour colour = deviation < 0 ? kOutside : scale_colour(scale_step(deviation, least, greatest));
+    shown.colours.push_back({colour.red, colour.green, colour.blue});
+  }
+  return io::ply_text({points, {}}, shown);
 }
 
 }  // namespace lekalo::draw

@@ -106,14 +106,13 @@ Result<void> mesh_points(const SolidLocateJob& job, const io::SolidFile& file, S
 Result<void> hold_against_points(const SolidLocateJob& job, SolidInputs& in) {
   const locate::SolidProblem& p = in.problem;
   const solid::TriangleTree tree(p.blank);
-  const std::vector<Vector> points = std::move(in.points);
   if (!in.scan->proved()) return {};
   const double guard = in.scan->guard, widest = in.scan->widest;
   const double narrowest = *std::min_element(p.blank_widths.begin(), p.blank_widths.end());
   std::size_t against = 0;
   double deepest = 0;
   Vector there;
-  for (const Vector q : points) {
+  for (const Vector q : in.points) {
     ask();
     if (tree.nearest(q, guard + narrowest)) continue;
     const double depth = tree.least_sum(q, p.blank_widths, -1, -widest);

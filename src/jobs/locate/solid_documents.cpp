@@ -65,6 +65,24 @@ void count_from_demands(const SolidInputs& in, const std::vector<std::uint32_t>&
   scene.part = std::move(split), scene.allowances = std::move(left);
 }
 
+/// All measured points but for those that are left out, or all corners of the blank, with their numbers in
+/// the file of points or in the order in which the blank's file first names them.
+std::string deviations_of(const SolidInputs& in, const io::SolidDocument& d, SolidPointsForm form) {
+  const std::vector<Vector>& points = in.meshed ? in.points : in.problem.blank.vertices;
+  const std::vector<double> deviations =
+      locate::deviations_from(in.problem.part, motion_of(d.pose), points, d.threads);
+  if (form == SolidPointsForm::ply) return draw::solid_points(points, deviations);
+  std::string text = "index,x,y,z,deviation\n";
+  std::size_t index = 0, left_out = 0;
+  for (std::size_t k = 0; k < points.size(); ++k, ++index) {
+    ask();
+    while (d.scan && left_out < d.scan->left_out.size() && d.scan->left_out[left_out] == index)
+      ++left_out, ++index;
+    text += fmt::format("{},{},{},{},{}\n", index, points[k].x, points[k].y, points[k].z, deviations[k]);
+  }
+  return text;
+}
+
 draw::SolidScene scene_of(const SolidLocateJob& job, const SolidInputs& in, const io::SolidDocument& d) {
   locate::MeasuredPart part = locate::measured_part(in.problem.part, in.problem.blank, motion_of(d.pose),
                                                     40'000, d.threads, in.problem.blank_widths);
@@ -113,6 +131,7 @@ Result<void> add_pictures(const SolidLocateJob& job, const SolidInputs& in, Loca
   const SolidLocateOutputs& wanted = job.outputs;
   const io::SolidDocument& d = made.document;
   if (wanted.allowances) made.allowances = allowances_csv(in, d);
+  if (wanted.deviations) made.deviations = deviations_of(in, d, *wanted.deviations);
   if (!wanted.picture && !wanted.report) return {};
   draw::SolidScene scene = scene_of(job, in, d);
   if (wanted.picture) {

@@ -35,7 +35,7 @@ struct SolidInputs {
   ReadSolid part, blank;
   /// Counts as the blank instead of a file of points.
   std::optional<MeshedPoints> meshed;
-  /// Its points until they have been held against the mesh, and the numbers of those that were left out.
+  /// Its points but for those that were left out, and the numbers of these until the scan is read.
   std::vector<solid::Vector> points;
   std::vector<std::uint32_t> left_out;
   std::optional<io::SolidScanRecord> scan;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lekalo/base/rounding.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/solid/triangle_tree.hpp"
 
@@ -104,6 +105,18 @@ class Cutting {
   std::uint32_t number_ = 0;
 };
 
+/// Calls act(number) for each number below a count, on threads.
+template <class Act>
+void for_each_of(std::size_t count, unsigned threads, const Act& act) {
+  constexpr std::size_t kChunk = 512;
+  share_out((count + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
+    for (std::size_t k = kChunk * chunk; k < std::min(count, kChunk * (chunk + 1)); ++k) {
+      ask(8);
+      act(k);
+    }
+  });
+}
+
 }  // namespace
 
 MeasuredPart measured_part(const solid::Mesh& part, const solid::Mesh& blank,
@@ -123,19 +136,29 @@ MeasuredPart measured_part(const solid::Mesh& part, const solid::Mesh& blank,
   const double widest = widths.empty() ? 0 : *std::max_element(widths.begin(), widths.end());
   const std::vector<Vector>& places = measured.mesh.vertices;
   measured.allowances.resize(places.size());
-  constexpr std::size_t kChunk = 512;
-  share_out((places.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
-    for (std::size_t k = kChunk * chunk; k < std::min(places.size(), kChunk * (chunk + 1)); ++k) {
-      ask(8);
-      const Vector p = blank_from_part(places[k]);
-      if (!tree.holds(p))
-        measured.allowances[k] = -tree.nearest(p)->high;
-      else
-        measured.allowances[k] =
-            widths.empty() ? tree.nearest(p)->low : tree.least_sum(p, widths, -1, -widest);
-    }
+  for_each_of(places.size(), threads, [&](std::size_t k) {
+    const Vector p = blank_from_part(places[k]);
+    if (!tree.holds(p))
+      measured.allowances[k] = -tree.nearest(p)->high;
+    else
+      measured.allowances[k] = widths.empty() ? tree.nearest(p)->low : tree.least_sum(p, widths, -1, -widest);
   });
   return measured;
+}
+
+std::vector<double> deviations_from(const solid::Mesh& part, const solid::Motion& blank_from_part,
+                                    const std::vector<Vector>& points, unsigned threads) {
+  // Moving a point back is some ten roundings, and the rotation's own, each of 2^-53 of the way at most.
+  constexpr double kMovedBack = 0x1p-47;
+  const solid::TriangleTree tree(part);
+  std::vector<double> deviations(points.size());
+  for_each_of(points.size(), threads, [&](std::size_t k) {
+    const Vector p = blank_from_part.back(points[k]);
+    const solid::Nearest nearest = *tree.nearest(p);
+    const double off = kMovedBack * (norm(points[k]) + norm(blank_from_part.shift));
+    deviations[k] = difference_rounded_down(tree.holds(p) ? -nearest.high : nearest.low, off);
+  });
+  return deviations;
 }
 
 }  // namespace lekalo::locate
