@@ -235,7 +235,7 @@ TEST(ThreeMfRefusal, EveryBadFileGivesOneSentenceWithItsPlace) {
            {"a negative corner", archive(without(text, "v1=\"0\"", "v1=\"-1\"")),
             in + "18: v1 is '-1', not a whole number"},
            {"a type", archive(model(object(1, "", "type=\"hole\""), "")),
-            in + "6: 'hole' is no type of an object"},
+            in + "5: 'hole' is no type of an object"},
            {"an id twice", archive(model(object(1, "") + object(1, ""), "")),
             in + "7: object 1 is there twice"},
            {"itself", archive(model(object(1, components(component(1))), item(1))),

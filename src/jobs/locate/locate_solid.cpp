@@ -233,8 +233,11 @@ Result<Found> searched(const SolidLocateOptions& o, const RunControl& run, const
                        SolidInputs& in, double& seconds) {
   const auto now = [&] { return stopwatch ? stopwatch() : 0; };
   const double start = now();
+  const RunControl nobody;
+  std::optional<Listening> to_the_end;
   if (o.find_start) {
     LEKALO_TRY(in.problem.start, found_start(in, o, run));
+    to_the_end.emplace(nobody);
   }
   set_window(o, in);
   Result<Found> found = found_by_method(in, o, run);

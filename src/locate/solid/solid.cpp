@@ -188,6 +188,8 @@ Result<SolidPose> find_start(const SolidProblem& problem, const SolidOptions& op
   const SolidMeter meter(problem, frame);
   std::uint64_t work = 0;
   const MeasuredSolid best = first_climb(meter, frame.reach, options.gap, options.run, work);
+  const RunControl nobody;
+  const Listening to_the_end(nobody);
   return placement(meter, best.pose).pose;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "lekalo/base/stop.hpp"
 #include "solid_climb.hpp"
 
 namespace lekalo::locate {
@@ -123,11 +124,14 @@ MeasuredSolid first_climb(const SolidMeter& meter, double trust, double enough, 
   RunControl quiet = run;
   quiet.progress = nullptr;
   std::optional<MeasuredSolid> best;
+  const RunControl nobody;
+  std::optional<Listening> to_the_end;
   for (std::size_t k = 0; k < begin.size(); ++k) {
     if (best && run.stop_requested()) break;
     if (run.progress) run.progress({work, static_cast<double>(k) / static_cast<double>(begin.size())});
     const MeasuredSolid climbed = climb(meter, begin[k], trust, enough, quiet, work);
     if (!best || climbed.better_than(*best)) best = climbed;
+    if (!to_the_end) to_the_end.emplace(nobody);
   }
   return *best;
 }

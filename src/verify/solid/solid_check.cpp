@@ -313,6 +313,8 @@ Result<void> SolidCheck::check_points(const SolidMesh& blank) {
         inputs_.points->name, *reading.open));
     return {};
   }
+  if (reading.unit != d_.points->unit)
+    find("the points are said to be in another unit than {} says", inputs_.points->name);
   const auto& points = reading.mesh.near;
   if (points.size() != d_.points->count)
     find("{} points are said to be measured, but {} has {}", d_.points->count, inputs_.points->name,
