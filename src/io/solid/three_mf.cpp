@@ -401,7 +401,7 @@ class ModelTaker final : public XmlTaker {
       if (part_ > 0) return "a model beside the root names a third one";
       made.object.first = model_.part(*path);
     }
-    // Of its own file the object stands before; so nothing can hold itself.
+    // An object of its own file stands before it; so nothing can hold itself.
     if (made.object.first == part_ && (!model_.objects.contains(made.object) ||
                                        (&list != &model_.items && object_ == &model_.objects[made.object])))
       return fmt::format("object {} does not stand before this line", id);
