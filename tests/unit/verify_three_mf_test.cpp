@@ -169,7 +169,7 @@ TEST(ThreeMfReader, PutsTheBodiesTogetherExactly) {
                                      item(2, "1 0 0 0 1 0 0 0 3 1e-30 0 7") + item(1), "unit=\"inch\""))});
   ASSERT_TRUE(read && !read->open);
   EXPECT_EQ(read->unit, SolidUnit::inch);
-  EXPECT_EQ(read->groups, std::vector<std::string>{"part"});
+  EXPECT_EQ(read->groups.at(read->group_of.at(0)), "part");
   ASSERT_EQ(read->mesh.near.size(), 16U);
   // Of (1.5, 2, 3): x becomes 0.3 - 0.2, y 0.15, z 3 times 3 and 7.
   const std::vector<solid::Vector> vertices = cube().vertices;
