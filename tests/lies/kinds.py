@@ -207,12 +207,10 @@ def of_solids():
     any_turn = inches[0][:7] + ["--freedom", "c-xyz", "--window", "-180", "180", "--find-start", "--gap", "0.1", "-o",
                                 "r.json"]
     yield placed("placement, solids, all turns", [], [any_turn], written=boxes, inputs=list(boxes))
-    for name, spare in (("features", "0.2"), ("datums", "0.3")):
-        file = f"{name}.json"
-        asked = [near + ["--shift", "1", "--tilt", "1", "--features", file, "--gap", spare]]
-        kind = functools.partial(placed, files=meshes + ["examples/solid/" + file], commands=[start] + asked)
-        yield kind(f"placement, solids, {name}", inputs=stl + [file])
-        yield kind(f"{name} of solids", target=file, oracle=solids.features, report_of="r.json")
+    asked = near + ["--shift", "0.5", "--tilt", "0.1", "--features", "datums.json", "--gap", "0.3"]
+    demanded = functools.partial(placed, files=meshes + ["examples/solid/datums.json"], commands=[start, asked])
+    yield demanded("placement, solids, demands", inputs=stl + ["datums.json"])
+    yield demanded("features of solids", target="datums.json", oracle=solids.features, report_of="r.json")
     for role, file in (("part", "part.stl"), ("blank", "casting.stl")):
         yield Kind(f"placement, solids, another {role}", meshes, [start, turned + ["--gap", "0.1"]], file, of_r,
                    solids.mesh(role), form="stl", report_of="r.json")

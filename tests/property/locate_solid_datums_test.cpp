@@ -158,6 +158,21 @@ TEST(SolidDatums, WithDemandsAndWhatIsAsCast) {
   cubes.expect_optimum(0.15);
 }
 
+/// Margins are large where scales are small, and rows of datums lie above them. Climbs ended a little beside
+/// an axis, where that was not noticed.
+TEST(SolidDatums, ClimbsEndWithinThemHoweverSmallAScaleIs) {
+  Random random(cases::seed(), 97);
+  for (int k = 0; k < 5; ++k) {
+    Cubes cubes(random, SolidFreedom::six);
+    cubes.problem.demands.assign(12, SolidDemand{0, 0.01});
+    cubes.hold(On::axis, {0.2, 0.4, 3}, {0, 0, 1}, 0.1, {{0, 0, -5}, {0, 0, 5}});
+    const auto placed = place_solid(cubes.problem, {});
+    ASSERT_TRUE(placed) << placed.error().message;
+    EXPECT_TRUE(placed->inside);
+    EXPECT_GT(placed->clearance, 0.69);
+  }
+}
+
 TEST(SolidDatums, DatumsThatMakeNoSenseAreRefused) {
   const solid::Mesh mesh = cases::block({0, 0, 0}, {1, 1, 1});
   const auto refused = [&](const SolidDatum& datum) {

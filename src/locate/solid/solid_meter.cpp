@@ -178,8 +178,11 @@ double SolidMeter::beyond_datums(const Motion& motion) const {
 }
 
 void SolidMeter::add_datums(const Motion& motion, std::vector<SolidContact>& contacts) const {
+  // A row that is lifted above all margins is lower than these only so far beyond its tolerance.
+  const double unnoticed = beyond_margins_ / kDatumWeight;
   for (std::uint32_t d = 0; d < datums_.size(); ++d) {
     const SolidDatum& datum = datums_[d];
+    const double aim = kAimed * datum.within - datum_loss_ - unnoticed;
     const auto far = [&](std::size_t k) { return norm(way_off(datum, motion(datum.points[k].place))); };
     std::size_t farthest = 0;
     for (std::size_t k = 1; k < datum.points.size(); ++k)
@@ -188,7 +191,7 @@ void SolidMeter::add_datums(const Motion& motion, std::vector<SolidContact>& con
       const Vector place = datum.points[k].place, off = way_off(datum, motion(place));
       for (const Vector u : directions(datum, off)) {
         SolidContact made{place, datum.at, -kDatumWeight * u, 0, kNoTriangle, kNoTriangle};
-        made.distance = beyond_margins_ + kDatumWeight * (kAimed * datum.within - datum_loss_ - dot(u, off));
+        made.distance = beyond_margins_ + kDatumWeight * (aim - dot(u, off));
         made.datum = d, made.datum_point = static_cast<std::uint32_t>(k);
         contacts.push_back(made);
       }

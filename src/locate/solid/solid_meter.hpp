@@ -11,7 +11,7 @@ namespace lekalo::locate {
 inline constexpr std::uint32_t kNoTriangle = 0xffffffff;
 
 /// A datum that is not kept counts for this much more than a margin.
-inline constexpr double kDatumWeight = 0x1p20;
+inline constexpr double kDatumWeight = 0x1p26;
 
 /// A place where part and blank come close, or cross. The normal, of length 1 and in the blank's frame,
 /// points from what is not material of the blank into the part's material; the distance, less the width of
