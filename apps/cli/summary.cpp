@@ -270,17 +270,17 @@ std::string start_line(const io::SolidDocument& d) {
 /// Says what other poses are as good as this one.
 std::string symmetry_lines(const io::SolidDocument& d) {
   if (!d.symmetry) return "";
-  constexpr std::size_t kMostTold = 3;
+  constexpr std::size_t kMostAxes = 3;
   const solid::Symmetry& found = d.symmetry->found;
   std::string text;
-  for (std::size_t k = 0; k < std::min(kMostTold, found.axes.size()); ++k) {
+  for (std::size_t k = 0; k < std::min(kMostAxes, found.axes.size()); ++k) {
     const auto& [axis, turns] = found.axes[k];
     text += fmt::format(
         "  symmetric          the part is the same after {} about its axis ({:.4f}, {:.4f}, {:.4f})\n",
         turns == 0 ? "any turn" : fmt::format("1/{} of a turn", turns), axis.x, axis.y, axis.z);
   }
   const std::string more =
-      found.axes.size() > kMostTold ? fmt::format(" ({} axes in all)", found.axes.size()) : "";
+      found.axes.size() > kMostAxes ? fmt::format(" ({} axes in all)", found.axes.size()) : "";
   const std::string poses = found.rotations == 0
                                 ? "the turn about that axis is free"
                                 : fmt::format("this pose is one of {} equal ones", found.rotations);
@@ -334,8 +334,11 @@ std::string demand_line(const io::SolidDocument& d) {
   const std::string demands = d.demands ? datum_lines(d) + demands_line(d) : "";
   if (!d.inside())
     return demands +
-           "  to be tried        a wider window (--shift, --tilt), another start (--find-start, --start), "
-           "other --units\n";
+           fmt::format(
+               "  to be tried        a wider window (--shift, --tilt), another start (--find-start, "
+               "--start), "
+               "other --units{}\n",
+               d.demands ? "" : ", faces that the blank has as well said to be as cast (--features)");
   if (d.demands) return demands;
   if (!(*d.shortfall() > 0))
     return d.min_allowance > 0 ? fmt::format("  demanded           {} mm: met\n", d.min_allowance) : "";
