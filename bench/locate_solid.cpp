@@ -12,6 +12,8 @@
 
 #include "lekalo/locate/solid.hpp"
 #include "lekalo/solid/mesh_clearance.hpp"
+#include "lekalo/solid/symmetry.hpp"
+#include "support/castings.hpp"
 #include "support/solid_cases.hpp"
 
 namespace {
@@ -81,12 +83,38 @@ locate::SolidPose anyhow(const solid::Mesh& part, Random& random) {
   return pose;
 }
 
+/// Looks for the start of castings that are turned anyhow, each `step` of the hundred.
+void find_starts(std::uint64_t step) {
+  for (std::uint64_t k = 0; k < cases::kCastings; k += step) {
+    const cases::SolidCase pair = cases::casting(k);
+    const solid::MeshClearance meter(pair.part, pair.blank);
+    const double there = meter.inside(pair.there) ? meter.nearest(pair.there)->low : 0;
+    Random random(77, k);
+    double start = seconds();
+    const auto found = locate::find_start({pair.part, pair.blank, anyhow(pair.part, random)}, {});
+    const double took = seconds() - start;
+    const auto placed = locate::place_solid({pair.part, pair.blank, *found}, {});
+    start = seconds();
+    const std::uint32_t rotations = solid::symmetry(pair.part, 0.01).rotations;
+    fmt::print(
+        "{} {}: {} in {} triangles; drawn at {:.4f}; {:.4f} from the start that was found in {:.0f} ms; "
+        "symmetry {} in {:.0f} ms\n",
+        pair.kind, k, pair.part.triangles.size(), pair.blank.triangles.size(), there, placed->clearance,
+        1e3 * took, rotations, 1e3 * (seconds() - start));
+  }
+}
+
 }  // namespace
 
+/// bench_locate_solid start [STEP]
 /// bench_locate_solid stl PART BLANK [GAP]
 /// bench_locate_solid [KIND|all] [CASES] [SEED] [GAP] [all-rotations]
 int main(int argc, char** argv) {
   const std::string_view wanted = argc > 1 ? argv[1] : "all";
+  if (wanted == "start") {
+    find_starts(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1);
+    return 0;
+  }
   if (wanted == "stl" && argc > 3) {
     const cases::SolidCase pair{"files", read_stl(argv[2]), read_stl(argv[3]), {}, 0};
     const double gap = argc > 4 ? std::strtod(argv[4], nullptr) : 0.01;

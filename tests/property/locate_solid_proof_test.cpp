@@ -81,7 +81,7 @@ struct Check {
   const SolidProblem& problem;
   const SolidProof& proof;
   Real beta;
-  const SolidTree& tree = proof.trees.front();
+  const SolidTree& tree;
   std::array<Real, 4> start{tree.quaternion[0], tree.quaternion[1], tree.quaternion[2], tree.quaternion[3]};
 
   [[nodiscard]] Wide from_pivot(const Wide& p) const { return rotated(start, minus(p, wide(proof.pivot))); }
@@ -332,7 +332,6 @@ Real check_leaves(const Check& check, Random& random) {
 /// Checks all that a certificate says of meshes of which each coordinate may be off.
 void expect_proof(const SolidProblem& problem, const locate::SolidResult& found, Random& random) {
   const SolidProof& proof = found.proof;
-  ASSERT_EQ(proof.trees.size(), 1u);
   ASSERT_TRUE(std::isfinite(found.upper_bound));
   solid::Mesh part = problem.part, blank = problem.blank;
   const auto shake = [&](solid::Mesh& mesh, double by) {
@@ -356,24 +355,33 @@ void expect_proof(const SolidProblem& problem, const locate::SolidResult& found,
   }
   for (const auto& plane : proof.planes)
     for (const Vector v : blank.vertices) EXPECT_GE(dot(wide(plane.normal), wide(v)), Real{plane.least});
-  // Each pose of the window is in the root.
-  const SolidTree& tree = proof.trees.front();
+  // Each pose of the window is in a root.
   const auto& q = problem.start.quaternion;
+  const bool all = problem.turn == SolidProblem::kAllTurns;
+  std::vector<std::array<double, 4>> charts{q};
+  if (all && problem.freedom == SolidFreedom::six)
+    charts.insert(charts.end(), {{-q[1], q[0], -q[3], q[2]}, {-q[2], q[3], q[0], -q[1]}});
+  if (all && problem.freedom != SolidFreedom::xyz) charts.push_back({-q[3], -q[2], q[1], q[0]});
+  ASSERT_EQ(proof.trees.size(), charts.size());
   const Wide at = plus(rotated({q[0], q[1], q[2], q[3]}, wide(proof.pivot)), wide(problem.start.shift));
-  for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_LE(tree.low[k], at[k] - problem.shift);
-    EXPECT_GE(tree.high[k], at[k] + problem.shift);
-    const bool turns =
-        problem.freedom == SolidFreedom::six || (problem.freedom == SolidFreedom::c_xyz && k == 2);
-    const Real most = turns ? std::tan(Real{problem.turn} / 2) : 0;
-    EXPECT_LE(tree.low[3 + k], -most);
-    EXPECT_GE(tree.high[3 + k], most);
-  }
-  EXPECT_EQ(tree.quaternion, q);
   SolidProblem shaken = problem;
   shaken.part = part;
   shaken.blank = blank;
-  EXPECT_NEAR(static_cast<double>(check_leaves({shaken, proof, found.upper_bound}, random)), 1, 1e-12);
+  for (std::size_t n = 0; n < charts.size(); ++n) {
+    const SolidTree& tree = proof.trees[n];
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_LE(tree.low[k], at[k] - problem.shift);
+      EXPECT_GE(tree.high[k], at[k] + problem.shift);
+      const bool turns =
+          problem.freedom == SolidFreedom::six || (problem.freedom == SolidFreedom::c_xyz && k == 2);
+      const Real most = !turns ? 0 : all ? 1 : std::tan(Real{problem.turn} / 2);
+      EXPECT_LE(tree.low[3 + k], -most);
+      EXPECT_GE(tree.high[3 + k], most);
+    }
+    EXPECT_EQ(tree.quaternion, charts[n]);
+    EXPECT_NEAR(static_cast<double>(check_leaves({shaken, proof, found.upper_bound, tree}, random)), 1,
+                1e-12);
+  }
 }
 
 TEST(SolidProof, HoldsByItsOwnWords) {
@@ -445,6 +453,22 @@ TEST(SolidProof, HoldsForWideTurnsFromAnyStart) {
     problem.turn = 0.5 * std::numbers::pi;
     locate::SolidOptions options{.gap = 0.05, .run = {}};
     options.run.work_limit = 100;
+    const auto found = locate::locate_solid(problem, options);
+    ASSERT_TRUE(found) << found.error().message;
+    expect_proof(problem, *found, random);
+  }
+}
+
+TEST(SolidProof, HoldsForAllRotations) {
+  Random random(cases::seed(), 94);
+  const cases::SolidCase pair = cases::cored_block(random, 3);
+  SolidProblem problem{pair.part, pair.blank, {}};
+  problem.start = {{random.uniform(-1, 1), random.uniform(-1, 1), 1, random.uniform(-1, 1)}, {1, 2, 3}};
+  problem.turn = SolidProblem::kAllTurns;
+  for (const SolidFreedom freedom : {SolidFreedom::six, SolidFreedom::c_xyz}) {
+    problem.freedom = freedom;
+    locate::SolidOptions options{.gap = 0.05, .run = {}};
+    options.run.work_limit = 300;
     const auto found = locate::locate_solid(problem, options);
     ASSERT_TRUE(found) << found.error().message;
     expect_proof(problem, *found, random);

@@ -464,6 +464,7 @@ TEST(SolidCertificate, OfAllTurnsThePoseMayHaveAnyThatIsFree) {
   EXPECT_EQ(with("c-xyz", {1e-15, 0, 3e-15, 1}), "unproved");
   EXPECT_TRUE(
       says(with("c-xyz", {0, 0, 5e-15, 1}), "rotation from the start's has the turn_y 5e-15, beyond 0"));
+  EXPECT_TRUE(says(with("c-xyz", {1, 0.5, 0, -1}), "rotation from the start's has the turn_x 0.5, beyond 0"));
   EXPECT_TRUE(says(with("c-xyz", {0, 1, 0, 0}), "rotation from the start's has the turn_x inf, beyond 0"));
   EXPECT_TRUE(says(with("xyz", {0, 0, 0, 1}), "rotation from the start's has the turn_z inf, beyond 0"));
 }
