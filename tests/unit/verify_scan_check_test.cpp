@@ -433,6 +433,13 @@ TEST(VerifyScanCheck, ABlankLevelWithCornersIsSeenToBeInside) {
   scan.loss = just(20);
   EXPECT_EQ(judged(scan, points, region(12, 16)),
             "piece 0 of the blank is not inside the outlines through the points");
+  // An edge that begins to the left and passes to the right of it.
+  MeasuredPoints slanting;
+  slanting.contour_starts.push_back(0);
+  for (const auto& [x, y] : {std::pair{0, -20}, {40, 20}, {0, 40}}) slanting.at.push_back({just(x), just(y)});
+  scan = ordered(slanting);
+  scan.step = just(100), scan.loss = just(60);
+  EXPECT_EQ(judged(scan, slanting, region(2, 8)), "");
 }
 
 // ---- the words of a result

@@ -68,8 +68,7 @@ std::optional<std::string> fault_of_arc(const std::vector<Vec>& chain, const Dra
     if (outside) {
       const double nearest_allowed = at_first || at_last ? end - kCorner : most + 2 * kStep;
       if (!surely_above(chord, just(nearest_allowed))) return "a chord cuts into an arc";
-      if (!surely_above(just(most + reach), length(chain[i] - arc.centre)) ||
-          !surely_above(just(most + reach), length(chain[i + 1] - arc.centre)))
+      if (!surely_above(just(most + reach), length(chain[i + 1] - arc.centre)))
         return "a chord is farther from an arc than the tolerance";
     } else {
       // The ends are no farther from those of the arc than they may be.
