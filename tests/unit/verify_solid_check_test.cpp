@@ -160,8 +160,9 @@ TEST(SolidCheck, ContactsLieOnTheirTriangles) {
 TEST(SolidCheck, FilesHaveTheirUnitAndTheirTriangles) {
   EXPECT_EQ(with("/inputs/0/triangles", 11),
             "refuted; the part is said to have 11 triangles, but part.stl has 12");
-  EXPECT_EQ(with("/inputs/1/units", "cm"),
-            "bad input: result.json: field inputs[1].units is \"cm\", not \"mm\", \"inch\", \"m\"");
+  EXPECT_EQ(with("/inputs/1/units", "yard"),
+            "bad input: result.json: field inputs[1].units is \"yard\", not \"mm\", \"inch\", \"m\", "
+            "\"micron\", \"cm\", \"foot\"");
   EXPECT_EQ(told([](Json& r) { r["inputs"][1]["role"] = "part"; }),
             "bad input: result.json: inputs name 2 part and 0 blank, not one each");
   // A text in inches, to the last digit: half edges of 5 in 5.25 inches.
