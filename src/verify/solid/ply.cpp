@@ -186,7 +186,7 @@ class PlyReader {
     const std::size_t none = element.properties.size();
     const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
     const std::size_t of_body = is_face && by_lekalo_step_ ? element.find("face") : none,
-                      name = element.name == "body_face" && by_lekalo_step_ ? element.find("name") : none;
+                      name = element.name == "body_face" ? element.find("name") : none;
     const std::array<std::size_t, 3> xyz{element.find("x"), element.find("y"), element.find("z")};
     std::size_t corners = element.find("vertex_indices");
     if (corners == none) corners = element.find("vertex_index");
