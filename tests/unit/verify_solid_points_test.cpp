@@ -7,6 +7,8 @@
 #include <string>
 
 #include "support/solid_results.hpp"
+#include "support/solids.hpp"
+#include "support/three_mf_files.hpp"
 
 namespace lekalo::verify::verify_solid_points_test {
 namespace {
@@ -51,6 +53,19 @@ TEST(SolidPoints, TheCornersOfTheMeshAreMeasured) {
   });
   EXPECT_TRUE(says(missing, "refuted; the corner (-6, 6, 6) of the blank's mesh is none of the points"))
       << missing;
+}
+
+TEST(SolidPoints, TheUnitOfA3mfIsTheOneThatItSays) {
+  const auto with_unit = [](const char* said) {
+    return told([&](SolidResultFiles& files) {
+      files.points = three_mf_files::archive(cases::block({-6, -6, -6}, {6, 6, 6}));
+      files.result["inputs"][2]["units"] = said;
+    });
+  };
+  EXPECT_EQ(with_unit("mm"), "unproved");
+  EXPECT_TRUE(
+      says(with_unit("inch"), "refuted; the points are said to be in another unit than points.xyz says"))
+      << with_unit("inch");
 }
 
 TEST(SolidPoints, ACornerMayBeOffByAShareOfTheLargestCoordinate) {
