@@ -24,7 +24,8 @@ import solid_faces
 import truth
 from exact_solids import cross, dot, plus, sub, times
 
-INFORMATION = [r"/(seed|work|version|method|run|warnings)(/.*)?$", r"/inputs/\d+/path$", r"/certificate_file/path$",
+INFORMATION = [r"/(seed|work|version|method|run|warnings|start|symmetry)(/.*)?$", r"/inputs/\d+/path$",
+               r"/certificate_file/path$",
                r"/contacts/\d+/multiplier$", r"/scan/assumptions/\d+$", r"/nc/(motions|scan_frame|notes)(/.*)?$",
                r"/(nc|offset)/output/path$"]
 # Items that each say something for themselves; a term, a ball or a node is missed where it is needed.
@@ -631,7 +632,8 @@ def features(context):
 
     def holds(change):
         after = json.loads(change.text())
-        if change.how == "given twice" or not truth.may_hold(change, before, after, MAY_GO):
+        # A part in mm says that for its file of features, too.
+        if change.how == "given twice" or not truth.may_hold(change, before, after, MAY_GO + "|/units$"):
             return None
         files, document = of_another_file(context, change.text())
         return decide(Solids(files), document)
