@@ -55,6 +55,19 @@ TEST_F(Solids, APlacementIsFoundToldAndConfirmed) {
   EXPECT_EQ(verify("r.json").status, 4);
 }
 
+TEST_F(Solids, AllTurnsAreProvedAndAFoundStartAndWhatIsSymmetricAreTold) {
+  const Ran ran = locate({"--freedom", "c-xyz", "--window", "-180", "180", "--find-start", "--shift", "5",
+                          "--gap", "0.05", "-o", "r.json", "--json"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(ran.json()["window"]["turn_deg"], 180);
+  for (const char* words : {"start              found by climbs from all over: the middle of the part at (",
+                            "no placement within 5 mm of the start, turned anyhow about z, has more than",
+                            "the part is the same after 1/2 of a turn about its axis (",
+                            "this pose is one of 4 equal ones", "estimated, within 0.05 mm"})
+    EXPECT_NE(ran.err.find(words), std::string::npos) << words << " is not in\n" << ran.err;
+  EXPECT_EQ(verify("r.json").status, 0);
+}
+
 TEST_F(Solids, A3mfIsPlacedInItsOwnUnitAndConfirmed) {
   using namespace three_mf_files;
   const std::string inches = "unit=\"inch\"";
@@ -209,8 +222,9 @@ TEST_F(Solids, DatumsAreKeptAndTold) {
   const Ran ran = placed(solids / "datums.json");
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(ran.json()["status"], "optimal");
-  for (const char* words : {"datum              \"seat\" is kept within 0.1 mm: the part is off it by up to 0.0",
-                            "datum              \"bore\" is kept within 0.2 mm", "of the start that keeps the datums has"})
+  for (const char* words :
+       {"datum              \"seat\" is kept within 0.1 mm: the part is off it by up to 0.0",
+        "datum              \"bore\" is kept within 0.2 mm", "of the start that keeps the datums has"})
     EXPECT_NE(ran.err.find(words), std::string::npos) << ran.err;
   EXPECT_EQ(verify("r.json").status, 0);
   // A seat 20 mm higher is out of reach.
@@ -220,8 +234,9 @@ TEST_F(Solids, DatumsAreKeptAndTold) {
   const Ran none = placed("higher.json");
   EXPECT_EQ(none.status, 1) << none.err;
   EXPECT_EQ(none.json()["status"], "infeasible");
-  for (const char* words : {"No placement in the window meets the demands and keeps the datums; this is proved.",
-                            "none: a datum is not kept", "\"seat\" is not kept within 0.1 mm"})
+  for (const char* words :
+       {"No placement in the window meets the demands and keeps the datums; this is proved.",
+        "none: a datum is not kept", "\"seat\" is not kept within 0.1 mm"})
     EXPECT_NE(none.err.find(words), std::string::npos) << none.err;
   EXPECT_EQ(verify("r.json").status, 0);
 }
