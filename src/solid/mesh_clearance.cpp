@@ -18,30 +18,6 @@ constexpr double kPairRounding = 0x1p-45;
 /// The part is cut into this many pieces, if it has as many triangles.
 constexpr std::size_t kPieces = 64;
 
-/// The tree's nodes whose triangles are some `count` patches: the largest one is cut until there are as many.
-std::vector<std::uint32_t> cut_in_pieces(const TriangleTree& tree, std::size_t count) {
-  const auto& nodes = tree.nodes();
-  const auto width = [&](std::uint32_t at) {
-    const Vector size = nodes[at].box.high - nodes[at].box.low;
-    return size.x + size.y + size.z;
-  };
-  std::vector<std::uint32_t> pieces;
-  if (!nodes.empty()) pieces.push_back(0);
-  while (pieces.size() < count) {
-    std::size_t largest = pieces.size();
-    for (std::size_t k = 0; k < pieces.size(); ++k)
-      if (nodes[pieces[k]].right != 0 &&
-          (largest == pieces.size() || width(pieces[k]) > width(pieces[largest])))
-        largest = k;
-    if (largest == pieces.size()) break;
-    const std::uint32_t at = pieces[largest];
-    pieces[largest] = at + 1;
-    pieces.push_back(nodes[at].right);
-  }
-  std::sort(pieces.begin(), pieces.end());
-  return pieces;
-}
-
 }  // namespace
 
 std::vector<Vector> surface_points(const Mesh& mesh) {
@@ -71,7 +47,7 @@ MeshClearance::Blank::Blank(const Mesh& blank, const std::vector<double>& widths
 MeshClearance::MeshClearance(const Mesh& part, std::shared_ptr<const Blank> blank)
     : part_(part, 1),
       part_boxes_(oriented_boxes(part_)),
-      pieces_(cut_in_pieces(part_, kPieces)),
+      pieces_(part_.patches(kPieces)),
       of_part_(surface_points(part)),
       blank_(std::move(blank)) {}
 
@@ -147,6 +123,7 @@ struct MeshClearance::Walk {
       const Open open = stack[--count];
       const std::uint32_t part = open.part, at_blank = open.at_blank;
       if (apart(open.gap, at_blank)) continue;
+      if (steps-- == 0) return;
       ask();
       const TriangleTree::Node &p = of_parts[part], &b = of_blanks[at_blank];
       if (p.right == 0 && b.right == 0) {
@@ -184,9 +161,21 @@ struct MeshClearance::Walk {
   const Blank& blank;
   const Motion& motion;
   double rounding, limit = 0;
+  std::size_t steps = std::numeric_limits<std::size_t>::max();
   NearPair best;
   bool found = false, cross = false;
 };
+
+std::optional<NearPair> MeshClearance::near_below(const Motion& blank_from_part, std::uint32_t part_node,
+                                                  std::uint32_t blank_node, double most,
+                                                  std::size_t steps) const {
+  Walk walk(*this, blank_from_part);
+  walk.steps = steps;
+  walk.start(most);
+  walk.walk(part_node, blank_node);
+  if (!walk.found) return std::nullopt;
+  return walk.pair();
+}
 
 std::optional<NearPair> MeshClearance::nearest(const Motion& blank_from_part, double most,
                                                const NearPair* near) const {

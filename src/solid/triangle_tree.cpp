@@ -124,6 +124,27 @@ std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end, std::u
   return at;
 }
 
+std::vector<std::uint32_t> TriangleTree::patches(std::size_t count) const {
+  const auto width = [&](std::uint32_t at) {
+    const Vector size = nodes_[at].box.high - nodes_[at].box.low;
+    return size.x + size.y + size.z;
+  };
+  std::vector<std::uint32_t> made;
+  if (!nodes_.empty()) made.push_back(0);
+  while (made.size() < count) {
+    std::size_t largest = made.size();
+    for (std::size_t k = 0; k < made.size(); ++k)
+      if (nodes_[made[k]].right != 0 && (largest == made.size() || width(made[k]) > width(made[largest])))
+        largest = k;
+    if (largest == made.size()) break;
+    const std::uint32_t at = made[largest];
+    made[largest] = at + 1;
+    made.push_back(nodes_[at].right);
+  }
+  std::sort(made.begin(), made.end());
+  return made;
+}
+
 std::optional<Nearest> TriangleTree::nearest(Vector p, double most, std::optional<std::uint32_t> near) const {
   const double rounding = kRounding * std::max(largest_, largest_coordinate(p));
   Nearest best;

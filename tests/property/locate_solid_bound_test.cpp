@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "locate/solid/solid_placement.hpp"
 #include "support/cases.hpp"
 #include "support/solid_cases.hpp"
 
@@ -46,6 +47,47 @@ double bound_of(const std::vector<SolidForm>& terms, const CellView& view, Rando
     least = std::max(least, term.least);
   }
   return std::max(least, sum.most(view));
+}
+
+TEST(SolidMeter, AGlanceMeetsNothingNearerThanAMeasurement) {
+  Random random(cases::seed(), 82);
+  std::size_t inside = 0, crossing = 0;
+  for (std::uint64_t i = 0; i < cases::case_count(9); ++i) {
+    const cases::SolidCase pair = i % 3 == 0   ? cases::cored_block(random, 4)
+                                  : i % 3 == 1 ? cases::turned_part(random, 12)
+                                               : cases::wavy_part(random, 8);
+    SCOPED_TRACE(pair.kind);
+    SolidProblem problem{pair.part, pair.blank, {}};
+    for (Vector& p : problem.part.vertices) p = pair.there(p);
+    problem.shift = 1, problem.turn = 0.02;
+    const SolidMeter meter(problem, frame_of(problem));
+    for (int k = 0; k < 4; ++k) {
+      const FramedPose middle = meter.frame().window.middle(), half = meter.frame().window.half();
+      const FramedPose pose = within(about(middle, {k * k / 9.0 * half.x, k * k / 9.0 * half.at}), random);
+      std::vector<SolidContact> contacts;
+      const MeasuredSolid measured = meter.measure(pose, kInfinity, 64, contacts);
+      const double least = meter.glance(pose, kInfinity, 12, contacts);
+      ASSERT_FALSE(contacts.empty());
+      double lowest = kInfinity;
+      for (const SolidContact& contact : contacts) {
+        lowest = std::min(lowest, contact.margin());
+        EXPECT_NEAR(norm(meter.frame().motion(pose)(contact.part) - contact.blank),
+                    std::abs(contact.distance), 1e-9);
+      }
+      EXPECT_EQ(least, lowest);
+      if (measured.inside) {
+        ++inside;
+        EXPECT_GE(least, measured.value);
+        EXPECT_LT(least, measured.value + 1);
+        EXPECT_EQ(meter.glance(pose, measured.value - 1e-6, 12, contacts), measured.value - 1e-6);
+        EXPECT_TRUE(contacts.empty());
+      } else if (least < 0) {
+        ++crossing;
+      }
+    }
+  }
+  EXPECT_GT(inside, 3u);
+  EXPECT_GT(crossing, 3u);
 }
 
 TEST(SolidBounds, NoContactAllowsLessThanAPoseOfTheBoxHas) {

@@ -77,6 +77,20 @@ TEST(MeshClearance, IsTheLeastDistanceOfAllPairsOfTriangles) {
       for (const solid::NearPair& piece : pieces) least = std::min(least, piece.high);
       // Of those that cross any may be named.
       EXPECT_NEAR(std::max(least, 0.0), std::max(found->high, 0.0), 1e-11);
+      // A near pair after some steps is a pair, and the nearest after enough of them.
+      double patches = 1e300;
+      for (const std::uint32_t patch : meter.part().patches(7)) {
+        const auto all = meter.near_below(motion, patch, 0, 1e300, 1'000'000),
+                   some = meter.near_below(motion, patch, 0, 1e300, 60);
+        ASSERT_TRUE(all);
+        patches = std::min(patches, all->high);
+        if (!some) continue;
+        EXPECT_GE(some->high, all->low - 1e-11);
+        EXPECT_NEAR(norm(some->part - some->blank) - (widths.empty() ? 0 : widths[some->blank_triangle]),
+                    some->high, 1e-9);
+      }
+      EXPECT_NEAR(std::max(patches, 0.0), std::max(found->high, 0.0), 1e-11);
+      EXPECT_FALSE(meter.near_below(motion, 0, 0, 1e300, 0));
       before = found;
     }
   }

@@ -43,6 +43,12 @@ class MeshClearance {
                                                 double most = std::numeric_limits<double>::infinity(),
                                                 const NearPair* near = nullptr) const;
 
+  /// A pair of triangles below one node of each tree that is less than `most` apart, or none if none was met
+  /// in so many steps. It is the nearest where these are enough; `low` holds for the pairs that were met.
+  [[nodiscard]] std::optional<NearPair> near_below(const Motion& blank_from_part, std::uint32_t part_node,
+                                                   std::uint32_t blank_node, double most,
+                                                   std::size_t steps) const;
+
   /// One pair, as the numbers of its triangles say.
   [[nodiscard]] NearPair pair(const Motion& blank_from_part, std::uint32_t part_triangle,
                               std::uint32_t blank_triangle) const;

@@ -65,6 +65,9 @@ class TriangleTree {
   [[nodiscard]] std::uint32_t place_in_order(std::uint32_t triangle) const noexcept {
     return place_in_order_[triangle];
   }
+  /// Nodes whose triangles are `count` patches, in the order of the nodes: the largest one is cut until there
+  /// are as many, or each is a leaf.
+  [[nodiscard]] std::vector<std::uint32_t> patches(std::size_t count) const;
   /// No coordinate of the mesh is larger, mm.
   [[nodiscard]] double largest() const noexcept { return largest_; }
 

@@ -147,9 +147,11 @@ double SolidBounds::off(const Side& side, Vector centre) const {
 }
 
 /// The largest ball about a centre that lies on the right side of the surface of the file.
-std::optional<SolidBall> SolidBounds::ball(const Side& side, Vector centre) const {
+std::optional<SolidBall> SolidBounds::ball(const Side& side, Vector centre, std::uint32_t near) const {
   if (side.tree.holds(centre) != side.material) return std::nullopt;
-  const double far = side.widths.empty() ? side.tree.nearest(centre)->low
+  std::optional<std::uint32_t> hint;
+  if (near != kNoTriangle) hint = near;
+  const double far = side.widths.empty() ? side.tree.nearest(centre, kInfinity, hint)->low
                                          : side.tree.least_sum(centre, side.widths, 1, meter_.narrowest());
   const double radius = far - off(side, centre);
   if (!(radius > 0)) return std::nullopt;
@@ -158,7 +160,8 @@ std::optional<SolidBall> SolidBounds::ball(const Side& side, Vector centre) cons
 
 /// Balls about places farther and farther from a contact, each as large as the surface leaves it: along its
 /// direction, and along the middle of the directions of the surface there.
-std::vector<SolidBall> SolidBounds::balls(const Side& side, Vector from, Vector direction) const {
+std::vector<SolidBall> SolidBounds::balls(const Side& side, std::uint32_t triangle, Vector from,
+                                          Vector direction) const {
   const Vector middle = middle_normal(side.tree, from, kAtPlace * scale_);
   std::vector<SolidBall> made;
   std::vector<Vector> ways{direction};
@@ -166,11 +169,11 @@ std::vector<SolidBall> SolidBounds::balls(const Side& side, Vector from, Vector 
     if (dot(way, direction) < kSameNormal && dot(way, way) > 0) ways.push_back(way);
   SolidBall point;
   for (std::size_t k = 0; k < ways.size(); ++k) {
-    const auto beside = ball(side, from + (kPoint * scale_ + kErrors * side.error) * ways[k]);
+    const auto beside = ball(side, from + (kPoint * scale_ + kErrors * side.error) * ways[k], triangle);
     if (!beside) continue;
     if (beside->radius > point.radius) point = *beside;
     for (double way = kSmallestBall * scale_; way <= 2 * scale_; way *= kLadder) {
-      const auto next = ball(side, from + way * ways[k]);
+      const auto next = ball(side, from + way * ways[k], triangle);
       if (!next || !(next->radius > (1 - kMostLoss) * way)) break;
       made.push_back(*next);
     }
@@ -307,9 +310,9 @@ std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const 
   if (meter_.has_demands()) set_point(contact, start, made);
   // Balls in the part count with the least demand, so where more is asked for they say little.
   if (meter_.whole() && made.demand == meter_.least_demand(0))
-    for (const SolidBall& one : balls(part_, contact.part, motion.turned_back(n)))
+    for (const SolidBall& one : balls(part_, contact.part_triangle, contact.part, motion.turned_back(n)))
       made.part.push_back({one, seen(one.centre)});
-  made.blank = balls(blank_, contact.blank, -n);
+  made.blank = balls(blank_, contact.blank_triangle, contact.blank, -n);
   if (contact.blank_triangle != kNoTriangle) {
     // The largest width of neighbours counts here, and beside the surface the smallest.
     const double within = meter_.width(contact.blank_triangle) - 4 * off(blank_, contact.blank);
@@ -409,6 +412,22 @@ std::optional<SolidForm> SolidBounds::form_of_allowance(const KnownSolid& known,
   return SolidForm{height_seen(n, c, least + blank.radius - f.loss, cell), 0};
 }
 
+double SolidBounds::level(const KnownSolid& known, SolidChoice choice, const CellView& cell) const {
+  auto term = form(known, choice, cell);
+  if (!term) return kInfinity;
+  close(*term, cell);
+  return term->form.tangent(cell).level;
+}
+
+/// Takes the least demand off an open form: that at what is left of the least at 0 is good enough for rows.
+void SolidBounds::close(SolidForm& term, const CellView& cell) const {
+  if (!term.open) return;
+  PoseForm at_first = term.form;
+  at_first.take_off(meter_.least_demand(0));
+  const SolidDemand& demand = meter_.least_demand(at_first.tangent(cell).level);
+  term.form.take_off(demand), term.scale = demand.scale;
+}
+
 std::optional<SolidRow> SolidBounds::row(const KnownSolid& known, const CellView& cell) const {
   if (known.held) {
     PoseForm above;
@@ -476,13 +495,7 @@ std::optional<SolidRow> SolidBounds::row(const KnownSolid& known, const CellView
     if (!(best.level < kInfinity)) continue;
     auto term = form(known, best.choice, cell);
     if (!term) continue;
-    if (term->open) {
-      // The least demand at what is left of the least at 0 is good enough here.
-      PoseForm at_first = term->form;
-      at_first.take_off(meter_.least_demand(0));
-      const SolidDemand& demand = meter_.least_demand(at_first.tangent(cell).level);
-      term->form.take_off(demand), term->scale = demand.scale;
-    }
+    close(*term, cell);
     const LinearBound<6> tangent = term->form.tangent(cell);
     if (!chosen || tangent.level < chosen->bound.level) chosen = {tangent, best.choice, term->scale};
   }

@@ -92,6 +92,9 @@ class SolidBounds {
   [[nodiscard]] std::optional<KnownSolid> known(const SolidContact& contact, const FramedPose& pose) const;
   /// The term of a contact that says most about a box, and the row of the program that stands for it.
   [[nodiscard]] std::optional<SolidRow> row(const KnownSolid& known, const CellView& cell) const;
+  /// The bound of a term at the middle of a box, and infinity where it does not hold all over
+  /// it.
+  [[nodiscard]] double level(const KnownSolid& known, SolidChoice choice, const CellView& cell) const;
   /// A term for a box, or none where it does not hold all over it.
   [[nodiscard]] std::optional<SolidForm> form(const KnownSolid& known, SolidChoice choice,
                                               const CellView& cell) const;
@@ -108,8 +111,9 @@ class SolidBounds {
     const std::vector<double>& widths;  ///< of its triangles, or none
   };
   [[nodiscard]] double off(const Side& side, solid::Vector centre) const;
-  [[nodiscard]] std::optional<SolidBall> ball(const Side& side, solid::Vector centre) const;
-  [[nodiscard]] std::vector<SolidBall> balls(const Side& side, solid::Vector from,
+  [[nodiscard]] std::optional<SolidBall> ball(const Side& side, solid::Vector centre,
+                                              std::uint32_t near) const;
+  [[nodiscard]] std::vector<SolidBall> balls(const Side& side, std::uint32_t triangle, solid::Vector from,
                                              solid::Vector direction) const;
   [[nodiscard]] std::optional<SolidFace> face(const Side& side, std::uint32_t triangle) const;
   [[nodiscard]] std::optional<SolidEdges> edges(const SolidContact& contact,
@@ -118,6 +122,7 @@ class SolidBounds {
   [[nodiscard]] PoseForm form_of(const SolidHeld& held, const CellView& cell) const;
   [[nodiscard]] std::optional<SolidForm> form_of_allowance(const KnownSolid& known, SolidChoice choice,
                                                            const CellView& cell) const;
+  void close(SolidForm& term, const CellView& cell) const;
   void set_point(const SolidContact& contact, const solid::Motion& start, KnownSolid& made) const;
   [[nodiscard]] double least_margin(double allowance, const SolidDemand* demand) const;
 

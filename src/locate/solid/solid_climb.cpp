@@ -74,6 +74,19 @@ std::optional<MeasuredSolid> measured_unless_stopped(const SolidMeter& meter, co
   }
 }
 
+std::optional<double> glanced_unless_stopped(const SolidMeter& meter, const FramedPose& pose, double most,
+                                             std::size_t count, const RunControl& run,
+                                             std::vector<SolidContact>& contacts) {
+  RunControl until_stop;
+  until_stop.stop = run.stop;
+  const Listening listening(until_stop);
+  try {
+    return meter.glance(pose, most, count, contacts);
+  } catch (const Stopped&) {
+    return std::nullopt;
+  }
+}
+
 MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trust, double enough,
                     const RunControl& run, std::uint64_t& work) {
   const SolidFrame& frame = meter.frame();

@@ -13,6 +13,12 @@ namespace lekalo::locate {
                                                                    std::size_t count, const RunControl& run,
                                                                    std::vector<SolidContact>& contacts);
 
+/// The same of a glance.
+[[nodiscard]] std::optional<double> glanced_unless_stopped(const SolidMeter& meter, const FramedPose& pose,
+                                                           double most, std::size_t count,
+                                                           const RunControl& run,
+                                                           std::vector<SolidContact>& contacts);
+
 /// Climbs from a pose until no step makes it better by `enough`: the linear program of the contacts, without
 /// remainders, is solved in a box of steps up to `trust` mm, which shrinks where that does not help. What a
 /// step meets is kept, so that the next program knows of it. Adds to `work`, and tells `run` how many of the

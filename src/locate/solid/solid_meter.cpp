@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "lekalo/base/angle.hpp"
@@ -19,6 +20,9 @@ using solid::Vector;
 constexpr std::size_t kSamples = 96;
 /// And at most so many of them for a quick word.
 constexpr std::size_t kFewSamples = 32;
+/// A glance looks at a vertex of so many patches of each mesh, and of so many neighbours goes on with the one
+/// that comes nearest: with so many pairs of nodes.
+constexpr std::size_t kPatches = 128, kNeighbours = 2, kSteps = 300;
 /// The deepest crossings of one pose are used, at most this many.
 constexpr std::size_t kMostCrossings = 16;
 /// Points nearer to each other than this part of the coordinates give no direction.
@@ -143,7 +147,11 @@ SolidMeter::SolidMeter(const SolidProblem& problem, const SolidFrame& frame)
   sort_by_demand();
   of_part_ = samples_of_part();
   for (const std::size_t v : spread(blank_.vertices)) of_blank_.push_back(blank_.vertices[v]);
-  if (!widths_.empty()) narrowest_ = *std::min_element(widths_.begin(), widths_.end());
+  cut_in_patches();
+  if (!widths_.empty()) {
+    const auto [low, high] = std::minmax_element(widths_.begin(), widths_.end());
+    narrowest_ = *low, widest_ = *high;
+  }
   far_ = 2 * (clearance_.part().largest() + clearance_.blank().largest()) + norm(frame.window.middle().at) +
          norm(frame.window.half().at);
   prepare_datums();
@@ -241,6 +249,22 @@ std::vector<SolidMeter::Sample> SolidMeter::samples_of_part() const {
   return chosen;
 }
 
+void SolidMeter::cut_in_patches() {
+  const auto cut = [](const solid::MeshClearance& clearance, const solid::TriangleTree& tree,
+                      std::size_t count, const std::vector<std::uint32_t>* numbers,
+                      std::vector<Patch>& patches) {
+    for (const std::uint32_t node : tree.patches(count)) {
+      const std::uint32_t first = tree.nodes()[node].begin, triangle = tree.triangle(first);
+      patches.push_back({tree.corners(first)[0], numbers == nullptr ? triangle : (*numbers)[triangle], node,
+                         &clearance, numbers});
+    }
+  };
+  cut(clearance_, clearance_.blank(), kPatches, nullptr, patches_of_blank_);
+  if (!has_demands()) cut(clearance_, clearance_.part(), kPatches, nullptr, patches_of_part_);
+  for (const Demanded& one : demanded_)
+    cut(one.clearance, one.clearance.part(), 1 + kPatches / demanded_.size(), &one.numbers, patches_of_part_);
+}
+
 const SolidDemand& SolidMeter::least_demand(double margin) const {
   const auto asks_less = [margin](const SolidDemand& a, const SolidDemand& b) {
     return a.minimum + a.scale * margin < b.minimum + b.scale * margin;
@@ -284,7 +308,12 @@ MeasuredSolid SolidMeter::measure(const FramedPose& pose, double most, std::size
   }
   measured.inside = apart > 0 && inside(motion);
   if (!measured.inside) {
-    add_crossings(motion, pairs, contacts);
+    std::vector<SolidContact> crossing;
+    for (const Sample& sample : of_part_)
+      if (const auto made = sticks_out(motion, sample.place, sample.triangle)) crossing.push_back(*made);
+    for (const Vector b : of_blank_)
+      if (const auto made = sticks_in(motion, b)) crossing.push_back(*made);
+    add_crossings(motion, pairs, std::move(crossing), contacts);
     measured.value = -kNoDirection * far_;
     for (const SolidContact& made : contacts) measured.value = std::min(measured.value, made.margin());
     measured.value -= beyond_datums(motion);
@@ -391,36 +420,122 @@ SolidContact SolidMeter::foremost(const Motion& motion, Vector normal) const {
   return made;
 }
 
-void SolidMeter::add_crossings(const Motion& motion, const std::vector<NearPair>& pairs,
-                               std::vector<SolidContact>& contacts) const {
+std::optional<SolidContact> SolidMeter::sticks_out(const Motion& motion, Vector part,
+                                                   std::uint32_t triangle) const {
+  const Vector q = motion(part);
+  if (clearance_.blank().holds(q)) return std::nullopt;
+  const Vector place = clearance_.blank().nearest(q)->place;
+  return crossing(part, place, norm(q - place), place - q, triangle);
+}
+
+std::optional<SolidContact> SolidMeter::sticks_in(const Motion& motion, Vector blank) const {
+  const Vector p = motion.back(blank);
+  if (!clearance_.part().holds(p)) return std::nullopt;
+  const auto near = clearance_.part().nearest(p);
+  // A triangle that is as cast may touch and cross.
+  if (has_demands() && !demand_of_[near->triangle]) return std::nullopt;
+  return crossing(near->place, blank, norm(p - near->place), blank - motion(near->place), near->triangle);
+}
+
+/// A contact where part and blank cross.
+std::optional<SolidContact> SolidMeter::crossing(Vector part, Vector blank, double depth, Vector way,
+                                                 std::uint32_t triangle) const {
+  if (!(depth > kNoDirection * far_)) return std::nullopt;
+  SolidContact made{part, blank, 1 / depth * way, -depth, kNoTriangle, kNoTriangle};
+  if (has_demands()) made.demanded_triangle = triangle, made.demand = *demand_of_[triangle];
+  return made;
+}
+
+double SolidMeter::glance(const FramedPose& pose, double most, std::size_t count,
+                          std::vector<SolidContact>& contacts) const {
+  const Motion motion = frame_.motion(pose);
+  /// The patch of some neighbours that comes nearest, and what it is near to.
+  struct Low {
+    double margin = 0, apart = 0;
+    const Patch* patch = nullptr;
+    bool of_part = false;
+    std::uint32_t part_triangle = 0, blank_triangle = 0;
+  };
+  std::vector<Low> lowest;
   std::vector<SolidContact> crossing;
-  const auto add = [&](Vector part, Vector blank, double depth, std::uint32_t triangle) {
-    if (!(depth > kNoDirection * far_)) return;
-    SolidContact made{part, blank, 1 / depth * (blank - motion(part)), -depth, kNoTriangle, kNoTriangle};
-    if (has_demands()) made.demanded_triangle = triangle, made.demand = *demand_of_[triangle];
-    crossing.push_back(made);
+  const auto reach = [&](const SolidDemand& demand, double margin) {
+    return std::max(0.0, demand.minimum + demand.scale * margin) + widest_;
   };
-  const auto sticks_out = [&](Vector a, std::uint32_t triangle) {
-    const Vector q = motion(a);
-    if (clearance_.blank().holds(q)) return;
-    const auto near = clearance_.blank().nearest(q);
-    add(a, near->place, norm(q - near->place), triangle);
+  const auto look = [&](const std::vector<Patch>& patches, const auto& sticks, const auto& near) {
+    for (std::size_t k = 0; k < patches.size(); k += kNeighbours) {
+      Low low;
+      low.margin = most;
+      for (std::size_t i = k; i < std::min(k + kNeighbours, patches.size()); ++i) {
+        const Patch& patch = patches[i];
+        if (const auto made = sticks(patch)) {
+          crossing.push_back(*made);
+          continue;
+        }
+        const auto pair = near(patch, low.margin);
+        if (!pair || (has_demands() && !demand_of_[pair->part_triangle])) continue;
+        const auto& [minimum, scale] = demand_in(demand_of_, pair->part_triangle);
+        const double apart = pair->high - width(pair->blank_triangle), margin = (apart - minimum) / scale;
+        if (margin < low.margin)
+          low = {margin,
+                 apart,
+                 &patch,
+                 &patches == &patches_of_part_,
+                 pair->part_triangle,
+                 pair->blank_triangle};
+      }
+      if (low.patch != nullptr) lowest.push_back(low);
+    }
   };
-  const auto sticks_in = [&](Vector b) {
-    const Vector p = motion.back(b);
-    if (!clearance_.part().holds(p)) return;
-    const auto near = clearance_.part().nearest(p);
-    // A triangle that is as cast may touch and cross.
-    if (has_demands() && !demand_of_[near->triangle]) return;
-    add(near->place, b, norm(p - near->place), near->triangle);
+  const auto of_part = [&](const Patch& s, double margin) -> std::optional<NearPair> {
+    const auto near =
+        clearance_.blank().nearest(motion(s.place), reach(demand_in(demand_of_, s.triangle), margin));
+    if (!near) return std::nullopt;
+    return NearPair{s.triangle, near->triangle, {}, {}, near->low, near->high};
   };
-  for (const Sample& sample : of_part_) sticks_out(sample.place, sample.triangle);
-  for (const Vector b : of_blank_) sticks_in(b);
+  const auto of_blank = [&](const Patch& s, double margin) -> std::optional<NearPair> {
+    const auto near = clearance_.part().nearest(motion.back(s.place), reach(least_demand(margin), margin));
+    if (!near) return std::nullopt;
+    return NearPair{near->triangle, s.triangle, {}, {}, near->low, near->high};
+  };
+  look(
+      patches_of_part_, [&](const Patch& s) { return sticks_out(motion, s.place, s.triangle); }, of_part);
+  look(
+      patches_of_blank_, [&](const Patch& s) { return sticks_in(motion, s.place); }, of_blank);
+  std::stable_sort(lowest.begin(), lowest.end(),
+                   [](const Low& a, const Low& b) { return a.margin < b.margin; });
+  if (lowest.size() > count) lowest.resize(count);
+  contacts.clear();
+  std::vector<NearPair> pairs;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> met;
+  for (const Low& low : lowest) {
+    const Patch& s = *low.patch;
+    auto pair = s.clearance->near_below(motion, low.of_part ? s.node : 0, low.of_part ? 0 : s.node, low.apart,
+                                        kSteps);
+    if (!pair)
+      pair = clearance_.pair(motion, low.part_triangle, low.blank_triangle);
+    else if (s.numbers != nullptr)
+      pair->part_triangle = (*s.numbers)[pair->part_triangle];
+    if (has_demands() && !demand_of_[pair->part_triangle]) continue;
+    if (!met.insert({pair->part_triangle, pair->blank_triangle}).second) continue;
+    pairs.push_back(*pair);
+    if (const SolidContact made = contact(motion, *pair); made.directed()) contacts.push_back(made);
+  }
+  add_crossings(motion, pairs, std::move(crossing), contacts);
+  double least = most;
+  for (const SolidContact& made : contacts) least = std::min(least, made.margin());
+  return least;
+}
+
+void SolidMeter::add_crossings(const Motion& motion, const std::vector<NearPair>& pairs,
+                               std::vector<SolidContact> crossing,
+                               std::vector<SolidContact>& contacts) const {
   for (const NearPair& pair : pairs) {
     if (pair.low > 0) continue;
     for (const std::uint32_t k : part_.triangles[pair.part_triangle])
-      sticks_out(part_.vertices[k], pair.part_triangle);
-    for (const std::uint32_t k : blank_.triangles[pair.blank_triangle]) sticks_in(blank_.vertices[k]);
+      if (const auto made = sticks_out(motion, part_.vertices[k], pair.part_triangle))
+        crossing.push_back(*made);
+    for (const std::uint32_t k : blank_.triangles[pair.blank_triangle])
+      if (const auto made = sticks_in(motion, blank_.vertices[k])) crossing.push_back(*made);
   }
   const auto deeper = [](const SolidContact& a, const SolidContact& b) {
     if (a.distance != b.distance) return a.distance < b.distance;

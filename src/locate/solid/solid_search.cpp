@@ -22,8 +22,8 @@ constexpr std::size_t kAtOnce = 4;
 /// turn from its middle may be more than that, for there the next ones say as little.
 constexpr int kRounds = 4;
 constexpr double kWide = 0.15;
-/// So many contacts of one pose are looked at, and so many are made known.
-constexpr std::size_t kLooked = 24, kMostNew = 12;
+/// So many contacts of one pose are looked at, or at a glance, and so many are made known.
+constexpr std::size_t kLooked = 24, kGlanced = 12, kMostNew = 12;
 /// A box hands at most this many on to its halves.
 constexpr std::size_t kMostKnown = 64;
 /// A contact has to lower a bound by this part of the gap to be worth knowing.
@@ -104,8 +104,8 @@ double SolidSearch::size(const SolidCell& cell) const {
   return std::max({half.at.x, half.at.y, half.at.z, x.x, x.y, x.z});
 }
 
-/// Bounds a box by the program of what is known, measures where that is highest, and makes known what it
-/// meets there.
+/// Bounds a box by the program of what is known. Where that is highest and nothing known is in the way of a
+/// better pose, it makes known what a glance meets, or a measurement where that is nothing new.
 void SolidSearch::bound(Node& node, Found& found) const {
   const CellView view(meter_, node.cell);
   const auto known = [&](std::uint32_t k) -> const KnownSolid& {
@@ -138,6 +138,34 @@ void SolidSearch::bound(Node& node, Found& found) const {
   FramedPose pose = view.middle;
   LinearSolution<6> solution;
   solution.bound = kInfinity;
+  // Says if a row leaves a pose no more than is had, by its term there: smaller boxes say as much then.
+  const auto is_in_the_way = [&](const FramedPose& at) {
+    const CellView there(meter_, {at, at});
+    const double had = best_.inside ? best_.value : meter_.floor();
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (bounds_.level(known(of_row[k]), rows[k].choice, there) <= had) return true;
+    return false;
+  };
+  // Makes known what lowers the program where it is highest. Returns how many do.
+  const auto learn_contacts = [&] {
+    std::stable_sort(contacts.begin(), contacts.end(),
+                     [](const SolidContact& a, const SolidContact& b) { return a.margin() < b.margin(); });
+    std::size_t added = 0;
+    for (const SolidContact& contact : contacts) {
+      if (added == kMostNew) break;
+      if (contact.datum != kNoTriangle && contact.margin() > solution.bound) continue;
+      auto made = bounds_.known(contact, pose);
+      if (!made) continue;
+      const auto row = bounds_.row(*made, view);
+      if (!row || !(value_at(row->bound, solution.z) < solution.bound - kWorthKnowing * options_.gap))
+        continue;
+      const auto number = static_cast<std::uint32_t>(known_.size() + found.known.size());
+      add(*row, number);
+      found.known.push_back(std::move(*made));
+      ++added;
+    }
+    return added;
+  };
   for (int round = 0;; ++round) {
     if (!rows.empty()) {
       solution = solve_cell(program, view.half);
@@ -162,27 +190,24 @@ void SolidSearch::bound(Node& node, Found& found) const {
                              view.middle.at + Vector{z[0], z[1], z[2]}, view.middle.chart});
     }
     if (round == (view.turn > kWide ? 1 : kRounds)) break;
-    const auto here =
-        measured_unless_stopped(meter_, pose, std::max(solution.bound, meter_.floor() + options_.gap),
-                                kLooked, options_.run, contacts);
-    if (!here) break;
-    ++found.work;
-    if (here->better_than(found.best)) found.best = *here;
-    std::stable_sort(contacts.begin(), contacts.end(),
-                     [](const SolidContact& a, const SolidContact& b) { return a.margin() < b.margin(); });
+    const double most = std::max(solution.bound, meter_.floor() + options_.gap);
     std::size_t added = 0;
-    for (const SolidContact& contact : contacts) {
-      if (added == kMostNew) break;
-      if (contact.datum != kNoTriangle && contact.margin() > solution.bound) continue;
-      auto made = bounds_.known(contact, pose);
-      if (!made) continue;
-      const auto row = bounds_.row(*made, view);
-      if (!row || !(value_at(row->bound, solution.z) < solution.bound - kWorthKnowing * options_.gap))
-        continue;
-      const auto number = static_cast<std::uint32_t>(known_.size() + found.known.size());
-      add(*row, number);
-      found.known.push_back(std::move(*made));
-      ++added;
+    double met = kInfinity;
+    // With datums it is tolerances that are in the way, as a rule, of which contacts know nothing.
+    if (meter_.datums().empty()) {
+      if (is_in_the_way(pose)) break;
+      const auto glanced = glanced_unless_stopped(meter_, pose, most, kGlanced, options_.run, contacts);
+      if (!glanced) break;
+      ++found.work;
+      met = *glanced;
+      added = learn_contacts();
+    }
+    if (added == 0 && met > best_.value) {
+      const auto here = measured_unless_stopped(meter_, pose, most, kLooked, options_.run, contacts);
+      if (!here) break;
+      ++found.work;
+      if (here->better_than(found.best)) found.best = *here;
+      added = learn_contacts();
     }
     if (added == 0) break;
   }
