@@ -78,7 +78,7 @@ def begins_chain(code, at, word):
 def fixed_number(line, start, end):
     """Whether the compiler wants the number: sizes of arrays, arguments of templates, labels, enumerators."""
     before, after = line[:start], line[end:]
-    return (re.match(r"\s*(case|enum|static_assert|template|using)\b", line) or after.startswith(">")
+    return (re.match(r"\s*(case|enum|static_assert|template|using|virtual)\b", line) or after.startswith(">")
             or ("constexpr" in line and named_constants(line) == line)
             or re.search(r"(?:get|array)<[^<>()]*$", before) or re.search(r"\w \w+\[$", before)
             or re.match(r"\s*k?\w+ = \d+,", line))

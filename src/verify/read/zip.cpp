@@ -110,8 +110,7 @@ class Inflater {
     std::array<std::uint8_t, 288> lengths{};
     for (std::size_t k = 0; k < lengths.size(); ++k)
       lengths[k] = k < 144 ? 8 : (k < 256 ? 9 : (k < 280 ? 7 : 8));
-    std::array<std::uint8_t, kDistances> distances{};
-    distances.fill(5);
+    const std::vector<std::uint8_t> distances(kDistances, 5);
     return read_symbols(PrefixCode(lengths), PrefixCode(distances));
   }
 
