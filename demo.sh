@@ -57,6 +57,11 @@ show "$lekalo" locate --part $solid/part.stl --blank $solid/casting.stl --freedo
   --offset-out demo-out/housing-offset.txt -o demo-out/housing-nc.json
 show "$lekalo" verify demo-out/housing-nc.json
 
+# The same casting, touched by a probe instead of scanned: its mesh is moved to the touches.
+show "$lekalo" locate --part $solid/part.stl --blank $solid/touches.xyz --nominal-blank $solid/casting.stl --form 0.1 \
+  --ball 3 --uncertainty 0.005 --mesh demo-out/housing-touched.ply --min-allowance 1 --gap 0.05 -o demo-out/housing-touched.json
+show "$lekalo" verify demo-out/housing-touched.json
+
 # Shoes on a hide: pieces put down by commands, checked, drawn.
 layouts=examples/layouts
 show "$lekalo" edit $layouts/shoes.json --commands $layouts/shoes.commands -o demo-out/shoes.json

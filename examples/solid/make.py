@@ -1,4 +1,5 @@
-"""Writes part.stl and casting.stl beside itself: a housing with a blind bore, and the casting that it is cut from.
+"""Writes part.stl, casting.stl and touches.xyz beside itself: a housing with a blind bore, the casting that it is cut
+from, and where a probe's ball touched that casting when it lay a little elsewhere.
 
 The casting has 1.6 to 3.5 mm of stock, its core is moved and tilted, and it lies turned by 3.5 degrees, as castings do
 on a table. Where the part is in it is what `lekalo locate` finds.
@@ -47,6 +48,18 @@ def turned(triangles, axis, degrees, shift):
     return [tuple(move(p) for p in triangle) for triangle in triangles]
 
 
+def touched(triangles, radius):
+    """The ball's centre at the middle of every third triangle; the surface is up to 0.08 mm off."""
+    lines = []
+    for a, b, c in triangles[::3]:
+        u, v = ([q[k] - a[k] for k in range(3)] for q in (b, c))
+        n = [u[k - 2] * v[k - 1] - u[k - 1] * v[k - 2] for k in range(3)]
+        middle, length = [sum(p) / 3 for p in zip(a, b, c)], math.hypot(*n)
+        high = radius + 0.08 * math.sin(middle[0] / 20) * math.cos(middle[1] / 15)
+        lines.append(" ".join(f"{middle[k] + high * n[k] / length:.3f}" for k in range(3)))
+    (pathlib.Path(__file__).parent / "touches.xyz").write_text("\n".join(lines) + "\n")
+
+
 def write(name, triangles):
     data = name.encode().ljust(80) + struct.pack("<I", len(triangles))
     for triangle in triangles:
@@ -58,3 +71,4 @@ if __name__ == "__main__":
     write("part", housing((-55, -35, -20), (55, 35, 20), (8, 2, 24), (8, 2, 24), -8))
     rough = housing((-57.4, -38.1, -22.6), (58.2, 37.3, 23.5), (8.3, 1.8, 22.2), (8.9, 2.3, 21.0), -5.4)
     write("casting", turned(rough, (0.3, -0.2, 1), 3.5, (2.5, -1.5, 1.25)))
+    touched(turned(rough, (0.2, -0.3, 1), 3.9, (2.1, -0.9, 1.5)), 1.5)

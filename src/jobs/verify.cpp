@@ -42,6 +42,7 @@ class Evidence {
     if (certificate_) inputs.certificate = document(*certificate_);
     for (const auto& [role, to] : {std::pair{"features", &inputs.features},
                                    {"points", &inputs.points},
+                                   {"nominal", &inputs.nominal},
                                    {"nc", &inputs.program},
                                    {"allow", &inputs.allow},
                                    {"last-result", &inputs.earlier}})

@@ -2,6 +2,7 @@
 
 import functools
 import hashlib
+import itertools
 import json
 import re
 from dataclasses import dataclass, field
@@ -38,7 +39,10 @@ OF_SOLIDS = ((r"/contacts/\d+/(part|blank)_point", 0.05), (r"/certificate/trees/
              (r"/certificate/(part|blank)_balls|/certificate/planes|/certificate/.*/nodes/\d+/1$", 0.02),
              (r"/certificate/.*/quaternion|/(window/)?(quaternion|x$|y$|z$)|/(upper_bound|gap)$", 1e-6),
              (r"/window/(shift|turn_deg)$", 1e-9),
-             (r"/scan/(widest|guard|min_radius|max_dip)$|/unknown_area_mm2$", 1e-4))
+             (r"/scan/(widest|guard|min_radius|max_dip)$|/unknown_area_mm2$", 1e-4),
+             (r"/scan/touches/(balls/|cuts/\d+/at|ways/\d+/at|around/|x/|y/|z/|moved/[xyz])", 0.02),
+             (r"/scan/touches/(turn_.|quaternion|moved/quaternion|pivot)/", 1e-3),
+             (r"/scan/touches/(ball|form)$", 1e-3))
 
 
 def least_step(value, way, path):
@@ -50,7 +54,8 @@ def least_step(value, way, path):
 
 
 def step_of_solids(value, way, path):
-    if re.match(r"/certificate/.*/nodes/\d+/\d+/3$", path):  # a multiplier of a term, of any scale
+    # A multiplier of a term, of any scale.
+    if re.match(r"/certificate/.*/nodes/\d+/\d+/3$|/scan/touches/.*/(terms/\d+/2|multiplier)$", path):
         return value * (1 + 0.1 * way)
     return next((value + way * step for rule, step in OF_SOLIDS if re.match(rule, path)),
                 least_step(value, way, path))
@@ -164,6 +169,19 @@ def measured_box(x, y, z):
                    if c == z or a in (0, x) or b in (0, y))
 
 
+def touched_box(x, y, z):
+    """The centres of a ball of a radius of 1 that touches a box at four places of each side."""
+    made = []
+    for axis, length in enumerate((x, y, z)):
+        for at in (-1, length + 1):
+            others = [(0.2 * side, 0.8 * side) for k, side in enumerate((x, y, z)) if k != axis]
+            for a, b in itertools.product(*others):
+                place = [a, b]
+                place.insert(axis, at)
+                made.append("{:g} {:g} {:g}\n".format(*place))
+    return "".join(made)
+
+
 def of_solids():
     meshes = ["examples/solid/part.stl", "examples/solid/casting.stl"]
     climb = ["locate", "--part", "part.stl", "--blank", "casting.stl", "--method", "climb"]
@@ -199,6 +217,13 @@ def of_solids():
          "--uncertainty", "0.01", "--min-radius", "6", "--underside", "z=0", "--flat", "0.2", "--drop-outliers", "4", "-o",
          "r.json"]], written={"part.obj": box((2, 2, 2), (18, 14, 9)), "scan.xyz": measured_box(20, 16, 12) + "10 8 5\n"},
         inputs=["part.obj", "scan.xyz", "mesh.ply"], base=1, unproved=True)
+    touched = {"part.obj": box((2, 2, 2), (18, 14, 9)), "rough.obj": box((0, 0, 0), (20, 16, 12)),
+               "touches.xyz": touched_box(20, 16, 12) + "10 8 15\n"}
+    yield placed("placement, solids, touches", [], [
+        ["locate", "--part", "part.obj", "--blank", "touches.xyz", "--nominal-blank", "rough.obj", "--mesh", "mesh.ply",
+         "--form", "0.1", "--ball", "2", "--uncertainty", "0.01", "--drop-outliers", "0.5", "--nominal-window", "0.3",
+         "0.3", "--method", "climb", "-o", "r.json"]], written=touched, inputs=list(touched) + ["mesh.ply"], base=1,
+        unproved=True)
     boxes = {"part.obj": box((0, 0, 0), (1, 0.75, 0.5)),
              "blank.obj": box((-0.0625, -0.0625, -0.03125), (1.125, 0.875, 0.625))}
     inches = [["locate", "--part", "part.obj", "--blank", "blank.obj", "--units", "inch", "--shift", "1", "--tilt", "1",

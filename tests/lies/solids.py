@@ -21,6 +21,7 @@ import nc_reader
 import exact
 import exact_solids as space
 import solid_faces
+import touches
 import truth
 from exact_solids import cross, dot, plus, sub, times
 
@@ -30,7 +31,7 @@ INFORMATION = [r"/(seed|work|version|method|run|warnings|start|symmetry)(/.*)?$"
                r"/(nc|offset)/output/path$"]
 # Items that each say something for themselves; a term, a ball or a node is missed where it is needed.
 MAY_GO = r"/(contacts|inputs)/\d+$|/certificate/(part_balls|part_points|datum_points|directions|blank_balls|planes)/\d+$|" \
-         r"/certificate/trees/\d+/nodes/\d+(/\d+)?$"
+         r"/certificate/trees/\d+/nodes/\d+(/\d+)?$|/scan/touches/(balls|cuts|ways)/\d+(/terms/\d+)?$"
 UNITS = {"mm": F(1), "inch": F(254, 10), "m": F(1000)}
 SLACK = F(4, 10 ** 15)  # of numbers of poses that were computed in doubles
 
@@ -226,8 +227,12 @@ def squared_circle(t):
 class Scan:
     """The widths of a blank, and what a result says of them."""
 
-    def __init__(self, scan, blank):
+    def __init__(self, scan, blank, touched=None):
         self.scan, self.side = scan, scan["underside"]
+        if touched:
+            nominal, points = touched
+            self.unknown, self.of = [], touches.Touches(scan, nominal, points).widths(nominal, blank)
+            return
         guard, reach, dip = scan["guard"], scan["min_radius"], scan["max_dip"]
         if guard < 0 or (reach is None and dip is None) or (dip is not None and dip < 0) or \
                 (self.side and self.side["flat"] <= 0) or any(
@@ -375,14 +380,15 @@ class Solids:
                 return False
         roles = {entry["role"]: entry for entry in document["inputs"]}
         if len(roles) != len(document["inputs"]) or not {"part", "blank"} <= roles.keys() <= {
-                "part", "blank", "start", "points", "features", "nc", "allow"}:
+                "part", "blank", "start", "points", "nominal", "features", "nc", "allow"}:
             return False
         if ("features" in roles) != (document["demands"] is not None):
             return False
         part, blank = (self.mesh(roles[role]["path"], roles[role]["units"]) for role in ("part", "blank"))
         if any(roles[role]["triangles"] != len(mesh.all) for role, mesh in (("part", part), ("blank", blank))):
             return False
-        scan = Scan(document["scan"], blank) if document["scan"] else None
+        touched = self.touched(document, roles)
+        scan = Scan(document["scan"], blank, touched) if document["scan"] else None
         if not (scan.is_told(document) and self.is_measured(roles.get("points"), blank, scan) if scan
                 else document["unknown_area_mm2"] == 0 and "points" not in roles):
             return False
@@ -400,7 +406,21 @@ class Solids:
                 all(contact_holds(document, contact, part, blank, scan) for contact in document["contacts"]) and
                 self.is_proved(document, certificate, part, blank, faces))
 
+    def touched(self, document, roles):
+        """The nominal mesh and the touches, where there are some."""
+        if ("nominal" in roles) != bool(document["scan"] and "touches" in document["scan"]):
+            raise ValueError("a nominal mesh, or touches, alone")
+        if "nominal" not in roles:
+            return None
+        entry, points = roles["nominal"], points_of(self.files[roles["points"]["path"]], roles["points"]["units"])
+        nominal = self.mesh(entry["path"], entry["units"])
+        if entry["triangles"] != len(nominal.all) or roles["points"]["points"] != len(points):
+            raise ValueError("other numbers of triangles, or of touches")
+        return nominal, points
+
     def is_measured(self, entry, blank, scan):
+        if "touches" in scan.scan:
+            return True
         if entry is None:
             return not scan.scan["left_out"]
         key = self.files[entry["path"]], entry["units"], blank, json.dumps(scan.scan, default=str, sort_keys=True)

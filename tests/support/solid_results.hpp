@@ -29,12 +29,15 @@ struct SolidResultFiles {
   /// The points that the blank was made from.
   std::optional<std::string> points = {};
   std::optional<std::string> features = {};
+  /// The mesh that was moved to touches.
+  std::optional<std::string> nominal = {};
 
   [[nodiscard]] Result<verify::LocateReport> report() const {
     const std::string text = result.dump();
     verify::LocateInputs inputs{{"result.json", text}, {"part.stl", part}, {"blank.stl", blank}, {}};
     if (certificate) inputs.certificate = verify::Document{"certificate.json", *certificate};
     if (points) inputs.points = verify::Document{"points.xyz", *points};
+    if (nominal) inputs.nominal = verify::Document{"nominal.stl", *nominal};
     if (features) inputs.features = verify::Document{"features.json", *features};
     return verify::verify_locate(inputs);
   }

@@ -197,7 +197,7 @@ TEST(SolidCheck, AFileHasARoleAndAStartSaysNothingElse) {
   other["role"] = "stop";
   EXPECT_EQ(with_input(other),
             "bad input: result.json: field inputs[2].role is \"stop\", not \"part\", \"blank\", \"start\", "
-            "\"points\", \"features\", \"nc\", \"allow\"");
+            "\"points\", \"nominal\", \"features\", \"nc\", \"allow\"");
   for (const char* key : {"units", "triangles", "points"}) {
     other = start;
     other[key] = 12;

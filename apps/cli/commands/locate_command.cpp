@@ -37,6 +37,7 @@ Result<jobs::LocateJob> read_files(const LocateOptions& o, jobs::File part, jobs
 Result<jobs::SolidLocateJob> read_solids(const LocateOptions& o, jobs::File part, jobs::File blank) {
   jobs::SolidLocateJob job{std::move(part), std::move(blank), {}, {}, {}, {}, o.solid, {}, o.warnings};
   LEKALO_CHECK(read_if_named(o.start, job.start));
+  LEKALO_CHECK(read_if_named(o.nominal, job.nominal));
   LEKALO_CHECK(read_if_named(o.features, job.features));
   LEKALO_CHECK(read_if_named(o.nc, job.program));
   LEKALO_CHECK(read_if_named(o.allow, job.allow));
@@ -143,7 +144,8 @@ Result<int> run_locate(const LocateOptions& o) {
                               {"--allow", o.allow},
                               {"--compare", o.compare},
                               {"--features", o.features},
-                              {"--start", o.start}}));
+                              {"--start", o.start},
+                              {"--nominal-blank", o.nominal}}));
   LEKALO_TRY(jobs::File part, read_named(o.part));
   LEKALO_TRY(jobs::File blank, read_named(o.blank));
   LEKALO_TRY(const bool solids, jobs::are_solids(part, blank));

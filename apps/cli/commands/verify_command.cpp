@@ -32,13 +32,14 @@ struct Place {
   const char *option, *role;
   std::string VerifyOptions::*path;
 };
-constexpr std::array<Place, 11> kPlaces{{{"--part", "part", &VerifyOptions::part},
+constexpr std::array<Place, 12> kPlaces{{{"--part", "part", &VerifyOptions::part},
                                          {"--blank", "blank", &VerifyOptions::blank},
                                          {"--features", "features", &VerifyOptions::features},
                                          {"--nc", "nc", &VerifyOptions::program},
                                          {"--compare", "last-result", &VerifyOptions::earlier},
                                          {"--start", "start", &VerifyOptions::start},
                                          {"--points", "points", &VerifyOptions::points},
+                                         {"--nominal-blank", "nominal", &VerifyOptions::nominal},
                                          {"--certificate", "certificate", &VerifyOptions::certificate},
                                          {"--pocket", "pocket", &VerifyOptions::pocket},
                                          {"--program", "program", &VerifyOptions::cut_program},

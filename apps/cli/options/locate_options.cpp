@@ -57,9 +57,9 @@ struct LocateWords {
       output, certificate, picture, report, allowances, drawing, deviations, compare, mirror, lock_x, lock_y,
       features, criterion, give_up, trade_off, join, curve, repair, underside, flat, uncertainty, coverage,
       min_radius, max_dip, step, drop_outliers, simplify, slice_height, slice_thickness, freedom, tilt, shift,
-      start, mesh, mesh_step, offset, offset_out, axes;
+      start, mesh, mesh_step, offset, offset_out, axes, nominal, ball, form;
   std::vector<std::string> part_layers, blank_layers;
-  std::vector<std::string> window, offset_decimals;
+  std::vector<std::string> window, offset_decimals, nominal_window;
   bool json = false, strict = false, find_start = false;
 };
 
@@ -185,6 +185,34 @@ void read_solid_scan(const LocateWords& words, const locate::ScanOptions& m, boo
   scan.drop_outliers = m.drop_outliers, scan.step = step;
 }
 
+/// The statements about a blank that was touched, of which those about its points are read already.
+void read_touches(const LocateWords& words, WordReader& read, LocateOptions& o) {
+  o.nominal = words.nominal;
+  const bool other = !words.ball.empty() || !words.form.empty() || !words.nominal_window.empty();
+  read.require(
+      !words.nominal.empty() || !other,
+      "--form, --ball and --nominal-window need --nominal-blank FILE, the mesh of the touched blank");
+  if (words.nominal.empty()) return;
+  jobs::SolidTouchOptions& touch = o.solid.touch.emplace();
+  read.require(!words.form.empty(),
+               "--nominal-blank needs --form MM, how far the blank's surface may be from it");
+  read.require(!words.mesh.empty(), "--nominal-blank needs --mesh FILE.ply, the mesh where it was moved to");
+  read.require(!words.uncertainty.empty(),
+               "--nominal-blank needs --uncertainty MM, the standard uncertainty of one touch");
+  for (const auto& [option, word] : {std::pair{"--min-radius", &words.min_radius},
+                                     {"--max-dip", &words.max_dip},
+                                     {"--underside", &words.underside},
+                                     {"--mesh-step", &words.mesh_step}})
+    read.require(word->empty(), fmt::format("{} is for a scan, and --nominal-blank for touches", option));
+  read.number("--form", words.form, kSmallestLength, kLargestLength, "a length in mm above 0", touch.form);
+  read.number("--ball", words.ball, 0.0, kLargestLength, "a diameter in mm of 0 or more", touch.ball);
+  if (words.nominal_window.size() != 2) return;
+  read.number("--nominal-window", words.nominal_window[0], kSmallestLength, kLargestLength,
+              "a length in mm above 0 and an angle", touch.shift);
+  read.number("--nominal-window", words.nominal_window[1], 0.0, 45.0,
+              "a length in mm and an angle from 0 to 45 degrees", touch.turn_deg);
+}
+
 void read_shapes(const LocateWords& words, WordReader& read, LocateOptions& o) {
   const auto length = [&](const char* option, const std::string& word, double least,
                           std::optional<double>& to) {
@@ -225,6 +253,7 @@ void read_shapes(const LocateWords& words, WordReader& read, LocateOptions& o) {
                "a scan needs --uncertainty MM, the standard uncertainty of one measured point");
   if (uncertainty) o.job.blank.scan = scan;
   read_solid_scan(words, m, uncertainty.has_value(), read, o);
+  read_touches(words, read, o);
 }
 
 void read_program(const LocateWords& words, WordReader& read, LocateOptions& o) {
@@ -344,9 +373,12 @@ constexpr std::array<std::string_view, 31> kOfBoth{
     "--nc",          "--nc-out",          "--nc-mode",       "--control",
     "--allow",       "--chord-tolerance", "--wcs",           "--nc-angle-decimals",
     "--scan-frame",  "--features",        "--deviations"};
-constexpr std::array<std::string_view, 13> kOfSolids{
-    "--freedom", "--tilt",      "--shift",  "--start",      "--find-start", "--underside",      "--flat",
-    "--mesh",    "--mesh-step", "--offset", "--offset-out", "--axes",       "--offset-decimals"};
+constexpr std::array<std::string_view, 17> kOfSolids{
+    "--freedom",         "--tilt",      "--shift",      "--start",
+    "--find-start",      "--underside", "--flat",       "--mesh",
+    "--mesh-step",       "--offset",    "--offset-out", "--axes",
+    "--offset-decimals", "--ball",      "--form",       "--nominal-blank",
+    "--nominal-window"};
 
 bool is_typed(const FormOption& option) {
   if (const auto* const flag = std::get_if<bool*>(&option.to)) return **flag;
@@ -411,7 +443,7 @@ void check_turns(const LocateWords& words, LocateOptions& o) {
 
 /// A scanner's mesh has its place in space; what is between its points has to be said.
 void check_solid_scan(LocateOptions& o) {
-  if (o.solid.scan && !o.solid.scan->min_radius && !o.solid.scan->max_dip)
+  if (o.solid.scan && !o.solid.touch && !o.solid.scan->min_radius && !o.solid.scan->max_dip)
     o.not_for_solids += (o.not_for_solids.empty() ? "" : "; ") +
                         std::string(
                             "--uncertainty for a solid needs --min-radius MM or --max-dip MM, which say "
@@ -500,6 +532,13 @@ void add_scan_options(Form& form, LocateWords& w) {
   add("--underside", w.underside, "z=MM",
       "Solids: the side that no scanner sees lies at this level, is solid and flat to --flat");
   add("--flat", w.flat, "MM", "Each point of the underside lies within this of material");
+  add("--nominal-blank", w.nominal, "FILE",
+      "Solids: the blank was touched; this mesh is moved to the touches, and written as --mesh");
+  add("--form", w.form, "MM", "The blank's surface and that of this mesh are less than this apart");
+  add("--ball", w.ball, "MM", "Touches are centres of a ball of this diameter [0: points of the surface]");
+  add("--nominal-window", w.nominal_window, "MM DEG",
+      "The blank lies this near to where its mesh fits the touches best [5 2]")
+      .count = 2;
   add("--slice-height", w.slice_height, "MM", "Take the points of a 3D scan about this height");
   add("--slice-thickness", w.slice_thickness, "MM", "and this far up and down together");
 }

@@ -23,7 +23,7 @@ namespace lekalo::cli {
 
 /// Holds what `lekalo locate` was asked for, checked. An empty path means: not asked for.
 struct LocateOptions {
-  std::string part, blank, nc, allow, compare, features, start;
+  std::string part, blank, nc, allow, compare, features, start, nominal;
   std::string offset_out;  ///< the name of the lines of a work offset
   std::string output, picture, report, allowances, drawing,
       mesh;  ///< the other outputs are named in `outputs`
@@ -48,7 +48,7 @@ struct EarlierFile {
 struct VerifyOptions {
   std::string result;
   /// Instead of the paths in the result; may be empty.
-  std::string part, blank, features, program, earlier, start, points, certificate;
+  std::string part, blank, features, program, earlier, start, points, nominal, certificate;
   /// Files that one which is no placement was made from; may be empty.
   std::string layout, pocket;
   /// The place where the program of a report is now; may be empty.

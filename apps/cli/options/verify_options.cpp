@@ -67,6 +67,7 @@ Typed add_verify_form(Form& form) {
   add("--compare", o.earlier, "FILE", "Where the earlier result is now");
   add("--start", o.start, "FILE", "Where the result is now that a solid started from");
   add("--points", o.points, "FILE", "Where the points are now that the blank was meshed from");
+  add("--nominal-blank", o.nominal, "FILE", "Where the mesh is now that was moved to touches");
   add("--certificate", o.certificate, "FILE", "Where the certificate file is now");
   add("--layout", o.layout, "FILE", "The layout that a layout, an export or a profile program was made from");
   add("--pocket", o.pocket, "FILE", "The pocket that a program clears, or where that of a report is now");

@@ -35,6 +35,14 @@ struct SolidScanOptions {
   std::optional<double> step;
 };
 
+/// The statements about a blank that was touched, beside the uncertainty of the touches
+/// (locate/touched_solid.hpp).
+struct SolidTouchOptions {
+  double ball = 0;                 ///< diameter of the probe's ball, mm, >= 0
+  double form = 0;                 ///< mm, > 0
+  double shift = 5, turn_deg = 2;  ///< of the window about the fit: mm, > 0, and degrees, from 0 to 45
+};
+
 /// The lines that set work offset and rotation for the placement, whose pose is then one that they can say.
 struct SolidOffsetOptions {
   nc::OffsetForm form;
@@ -63,6 +71,8 @@ struct SolidLocateOptions {
   bool find_start = false;
   /// Without it the blank is taken as drawn.
   std::optional<SolidScanOptions> scan;
+  /// The job has a nominal mesh, and needs both.
+  std::optional<SolidTouchOptions> touch = {};
   /// The way a program is rewritten; its `z` is that of the placement.
   nc::RewriteOptions rewrite = {};
   std::optional<SolidOffsetOptions> offset = {};
@@ -109,6 +119,8 @@ struct SolidLocateJob {
   SolidLocateOutputs outputs = {};
   /// The warnings that the caller has to give; the result repeats them first.
   std::vector<std::string> warnings = {};
+  /// The mesh of the blank as it should be. The file of the blank then has touches.
+  std::optional<File> nominal = {};
 };
 
 /// A placement that the independent checker has confirmed. Documents that were not asked for are empty.
@@ -135,9 +147,9 @@ struct LocatedSolid {
 [[nodiscard]] Result<bool> are_solids(const File& part, const File& blank);
 
 /// Places a solid in a blank, both closed meshes; the part is taken as drawn, and so is a blank that is no
-/// scan. Points of a scan, or one whose mesh does not close, are meshed first, if the mesh has a name: it is
-/// then the blank of the result. Before anything is handed out the very bytes of the result are put before
-/// the checker of verify/verify.hpp, as in locate().
+/// scan. Points of a scan, or one whose mesh does not close, are meshed first, if the mesh has a name, and a
+/// nominal mesh is moved to touches: it is then the blank of the result. Before anything is handed out the
+/// very bytes of the result are put before the checker of verify/verify.hpp, as in locate().
 ///
 /// Deterministic: only SolidDocument::seconds and ::threads are not functions of the job. `run` is for the
 /// search: its unit of work is a box bounded, a program solved or a pose measured.

@@ -35,6 +35,8 @@ struct LocateInputs {
   std::optional<Document> deviations = std::nullopt;
   /// The points that the blank's mesh was made from.
   std::optional<Document> points = std::nullopt;
+  /// The mesh that was moved to them instead, where they are touches.
+  std::optional<Document> nominal = std::nullopt;
 };
 
 enum class Verdict {

@@ -6,6 +6,7 @@
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/locate/solid_certificate.hpp"
 #include "result_lines.hpp"
+#include "touch_proof.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -69,6 +70,8 @@ void write(JsonWriter& json, const SolidScanRecord& scan) {
     json.object({{"z", scan.underside->z}, {"flat", scan.underside->flat}});
   else
     json.value(nullptr);
+  // Other blanks have none, and not the word either.
+  if (scan.touches) write_touches(json.key("touches"), *scan.touches);
   json.fields(
       {{"widest", scan.widest}, {"unknown_triangles", scan.unknown_triangles}, {"proved", scan.proved()}});
   json.key("left_out").list(scan.left_out);

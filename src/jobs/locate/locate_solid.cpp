@@ -46,6 +46,11 @@ std::vector<io::SolidInputRecord> input_records(const SolidLocateJob& job, const
     record.unit = in.meshed->unit, record.points = in.meshed->points;
     records.push_back(std::move(record));
   }
+  if (in.nominal) {
+    io::SolidInputRecord record = record_of("nominal", *job.nominal);
+    record.unit = in.nominal->unit, record.triangles = in.nominal->triangles;
+    records.push_back(std::move(record));
+  }
   for (const auto& [role, file] : {std::pair{"start", &job.start},
                                    {"features", &job.features},
                                    {"nc", &job.program},
@@ -57,8 +62,9 @@ std::vector<io::SolidInputRecord> input_records(const SolidLocateJob& job, const
 void warn_of_names(const SolidLocateJob& job, std::vector<std::string>& warnings) {
   const auto name_of_file = [](const std::optional<File>& file) { return file ? file->name : std::string(); };
   for (const std::string& name :
-       {job.part.name, job.blank.name, name_of_file(job.start), name_of_file(job.features),
-        name_of_file(job.program), job.outputs.certificate, job.outputs.program, job.outputs.offset})
+       {job.part.name, job.blank.name, name_of_file(job.nominal), name_of_file(job.start),
+        name_of_file(job.features), name_of_file(job.program), job.outputs.certificate, job.outputs.program,
+        job.outputs.offset})
     if (const auto warning = warning_of_name(name)) warnings.push_back(*warning);
 }
 
@@ -186,6 +192,7 @@ Result<verify::LocateReport> rechecked(const SolidLocateJob& job, const SolidInp
   verify::LocateInputs inputs{
       {"result", made.result}, {job.part.name, job.part.bytes}, {blank.name, blank.bytes}, {}};
   if (in.meshed) inputs.points = {job.blank.name, job.blank.bytes};
+  if (job.nominal) inputs.nominal = {job.nominal->name, job.nominal->bytes};
   for (const auto& [file, to] : {std::pair{&job.program, &inputs.program}, {&job.allow, &inputs.allow}})
     if (*file) *to = verify::Document{(*file)->name, (*file)->bytes};
   if (made.document.nc) inputs.written_program = verify::Document{job.outputs.program, made.program};

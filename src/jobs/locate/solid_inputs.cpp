@@ -12,6 +12,7 @@
 #include "lekalo/base/limits.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "point_blank.hpp"
+#include "touched_blank.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -59,9 +60,10 @@ Result<void> close_solid(const File& file, io::SolidFile parsed, solid::Mesh& me
   return {};
 }
 
-/// A blank of points is meshed first; so is one whose mesh does not close, from its corners, if that has a
-/// name.
+/// A blank of points is meshed first, or a nominal mesh moved to them; so is one whose mesh does not close,
+/// from its corners, if that has a name.
 Result<void> read_blank(const SolidLocateJob& job, SolidInputs& in) {
+  if (job.nominal) return move_nominal(job, in);
   LEKALO_TRY(io::SolidFile parsed, io::parse_solid(job.blank.bytes, job.blank.name, {job.options.units}));
   in.notices.insert(in.notices.end(), parsed.notices.begin(), parsed.notices.end());
   const bool points = parsed.mesh.triangles.empty() && !parsed.mesh.vertices.empty();
@@ -247,8 +249,8 @@ Result<SolidInputs> read_inputs(const SolidLocateJob& job) {
   SolidInputs in;
   LEKALO_CHECK(read_part(job, in));
   LEKALO_CHECK(read_blank(job, in));
-  if (job.options.scan) LEKALO_CHECK(read_scan(*job.options.scan, in));
-  if (in.meshed) LEKALO_CHECK(hold_against_points(job, in));
+  if (job.options.scan && !job.nominal) LEKALO_CHECK(read_scan(*job.options.scan, in));
+  if (in.meshed && !job.nominal) LEKALO_CHECK(hold_against_points(job, in));
   LEKALO_CHECK(read_start(job.start, in.problem.start));
   const solid::Box box = box_of(in.problem.part.vertices);
   in.pivot = 0.5 * (box.low + box.high);

@@ -20,7 +20,7 @@ struct ReadSolid {
   std::vector<bool> turned;
 };
 
-/// The mesh that was made of a blank's points.
+/// The mesh that was made of a blank's points, or moved to them.
 struct MeshedPoints {
   File mesh;
   io::SolidUnit unit = io::SolidUnit::millimetre;  ///< of the points
@@ -33,6 +33,8 @@ struct SolidInputs {
   solid::Vector pivot;  ///< of its window
   double turn_deg = 0;  ///< the half width of its turns; 180 for all of them
   ReadSolid part, blank;
+  /// The mesh that was moved to touches; `meshed` is what became of it.
+  std::optional<ReadSolid> nominal;
   /// Counts as the blank instead of a file of points.
   std::optional<MeshedPoints> meshed;
   /// Its points but for those that were left out, and the numbers of these until the scan is read.

@@ -81,11 +81,11 @@ std::array<Vector, 3> product(Vector a, Vector b) { return {a.x * b, a.y * b, a.
 
 }  // namespace
 
-CellView::CellView(const SolidMeter& meter, const SolidCell& cell)
+CellView::CellView(const SolidCell& cell, double longest, double lever)
     : middle(cell.middle()),
       turned(motion_of({{1, middle.x.x, middle.x.y, middle.x.z}, {}})),
-      far(meter.far()),
-      reach(meter.frame().reach) {
+      far(longest),
+      reach(lever) {
   const FramedPose wide = cell.half();
   slide = wide.at;
   const Vector h = wide.x, m = middle.x;

@@ -10,7 +10,10 @@ namespace lekalo::locate {
 
 /// A box of poses as its bounds need it.
 struct CellView {
-  CellView(const SolidMeter& meter, const SolidCell& cell);
+  CellView(const SolidMeter& meter, const SolidCell& cell)
+      : CellView(cell, meter.far(), meter.frame().reach) {}
+  /// \param longest, lever  `far` and `reach` of whatever moves
+  CellView(const SolidCell& cell, double longest, double lever);
 
   FramedPose middle;
   solid::Motion turned;  ///< the rotation of the middle, after that of the start

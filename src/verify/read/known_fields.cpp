@@ -127,10 +127,34 @@ constexpr Known kSolidDemands[] = {
     {"minimum"},   {"features", kSolidFeatures}, {"datums", kSolidDatums}, {"margin"}, {"margin_bound"},
     {"margin_gap"}};
 constexpr Known kSolidUnderside[] = {{"z"}, {"flat"}};
-constexpr Known kSolidScan[] = {
-    {"guard"},      {"min_radius"},        {"max_dip"}, {"underside", kSolidUnderside},
-    {"widest"},     {"unknown_triangles"}, {"proved"},  {"left_out"},
-    {"assumptions"}};
+constexpr Known kTouchCuts[] = {{"axis"}, {"above"}, {"at"}, {"terms"}};
+constexpr Known kTouchWays[] = {{"corner"}, {"axis"}, {"above"}, {"at"}, {"multiplier"}, {"terms"}};
+constexpr Known kTouchPose[] = {{"quaternion"}, {"x"}, {"y"}, {"z"}};
+constexpr Known kTouches[] = {{"ball"},
+                              {"form"},
+                              {"pivot"},
+                              {"quaternion"},
+                              {"x"},
+                              {"y"},
+                              {"z"},
+                              {"turn_x"},
+                              {"turn_y"},
+                              {"turn_z"},
+                              {"balls"},
+                              {"cuts", kTouchCuts},
+                              {"moved", kTouchPose},
+                              {"around"},
+                              {"ways", kTouchWays}};
+constexpr Known kSolidScan[] = {{"guard"},
+                                {"min_radius"},
+                                {"max_dip"},
+                                {"underside", kSolidUnderside},
+                                {"touches", kTouches},
+                                {"widest"},
+                                {"unknown_triangles"},
+                                {"proved"},
+                                {"left_out"},
+                                {"assumptions"}};
 constexpr Known kOffset[] = {{"control"}, {"axes"}, {"work_offset"}, {"output", kFile}};
 constexpr Known kSolidFile[] = {{"path"}, {"sha256"}, {"boxes"}};
 constexpr Known kSolidPlacement[] = {{"format", kFormat},

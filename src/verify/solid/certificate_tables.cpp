@@ -33,25 +33,6 @@ bool any_within(const PlacedSolid& body, const Ball& ball, double most, const Ra
   return found;
 }
 
-/// Says what of the surface comes nearer to the ball's centre than its radius, less the triangle's width.
-/// \pre the ball does not lie in the width of a triangle
-std::optional<std::string> nearer(const PlacedSolid& body, const Ball& ball) {
-  const auto width = [&](std::uint32_t triangle) { return body.mesh().width(triangle).low; };
-  std::optional<std::string> fault;
-  any_within(
-      body, ball, step_up(ball.radius.near.high - body.narrowest()),
-      [&](std::uint32_t triangle) { return step_up(ball.radius.near.high - width(triangle)); },
-      [&](std::uint32_t triangle, const Fraction& distance) {
-        const Fraction rest = ball.radius.exact - Fraction(width(triangle));
-        if (distance >= rest * rest) return false;
-        fault =
-            fmt::format("triangle {} comes nearer to its centre than its radius{}",
-                        body.mesh().numbers[triangle], body.mesh().widths.empty() ? "" : " less its width");
-        return true;
-      });
-  return fault;
-}
-
 bool lies_on_surface(const PlacedSolid& body, const Ball& ball) {
   return any_within(
       body, ball, 0, [](std::uint32_t) { return 0.0; },
@@ -169,6 +150,23 @@ std::optional<std::size_t> index_below(const Decimal& number, std::size_t count)
       compare(number, Decimal{Integer(static_cast<unsigned long>(count)), 0}) >= 0)
     return std::nullopt;
   return static_cast<std::size_t>(to_long(in_units(number, 0)));
+}
+
+std::optional<std::string> nearer(const PlacedSolid& body, const Ball& ball) {
+  const auto width = [&](std::uint32_t triangle) { return body.mesh().width(triangle).low; };
+  std::optional<std::string> fault;
+  any_within(
+      body, ball, step_up(ball.radius.near.high - body.narrowest()),
+      [&](std::uint32_t triangle) { return step_up(ball.radius.near.high - width(triangle)); },
+      [&](std::uint32_t triangle, const Fraction& distance) {
+        const Fraction rest = ball.radius.exact - Fraction(width(triangle));
+        if (distance >= rest * rest) return false;
+        fault =
+            fmt::format("triangle {} comes nearer to its centre than its radius{}",
+                        body.mesh().numbers[triangle], body.mesh().widths.empty() ? "" : " less its width");
+        return true;
+      });
+  return fault;
 }
 
 CertificateTables::CertificateTables(Json certificate, const SolidMesh& part, const SolidMesh& blank,

@@ -17,6 +17,10 @@ struct Ball {
   Both3 centre;
   Both radius;
 };
+/// Says what of a surface comes nearer to the ball's centre than its radius, less the triangle's width.
+/// \pre the ball does not lie in the width of a triangle
+[[nodiscard]] std::optional<std::string> nearer(const PlacedSolid& body, const Ball& ball);
+
 /// A point of a triangle of the part, as a ball of radius 0.
 struct PartPoint {
   Ball ball;

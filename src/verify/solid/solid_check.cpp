@@ -16,6 +16,7 @@
 #include "solid_features.hpp"
 #include "solid_number.hpp"
 #include "solid_window.hpp"
+#include "touch_widths.hpp"
 #include "triangle_distance.hpp"
 #include "verify/pocket/program_check.hpp"
 
@@ -61,8 +62,9 @@ class SolidCheck {
     LEKALO_TRY(const Json certificate, certificate_of());
     const bool has_certificate = certificate.is_object();
     if (blank) {
-      check_scan(*blank);
+      LEKALO_TRY(const bool has_widths, check_scan(*blank));
       LEKALO_CHECK(check_points(*blank));
+      if (!has_widths) blank.reset();
     }
     if (part && blank) {
       LEKALO_TRY(const SolidPair pair, SolidPair::make(*part, *blank, d_.pose));
@@ -102,7 +104,8 @@ class SolidCheck {
   Result<std::optional<SolidMesh>> read_input(const char* role, const Document& document,
                                               const WrittenSolid& written);
   [[nodiscard]] Result<Json> certificate_of() const;
-  void check_scan(SolidMesh& blank);
+  Result<std::optional<ScanWidths>> widths_by_touches(const SolidMesh& blank);
+  Result<bool> check_scan(SolidMesh& blank);
   Result<void> check_points(const SolidMesh& blank);
   Result<void> read_demands(const SolidReading& part);
   void tell_clearance(Span of_triangles);
@@ -256,8 +259,37 @@ Result<Json> SolidCheck::certificate_of() const {
   return read_solid_certificate_document(*inputs_.certificate);
 }
 
-/// Gives the blank its widths, and holds what the result says of them against them.
-void SolidCheck::check_scan(SolidMesh& blank) {
+/// Holds a blank that was touched against its files; returns nothing where that cannot be done, or fails.
+Result<std::optional<ScanWidths>> SolidCheck::widths_by_touches(const SolidMesh& blank) {
+  if (!inputs_.points || !d_.points || !inputs_.nominal || !d_.nominal) {
+    find("the blank was touched, but the result names no touches or no nominal mesh, or was checked without");
+    return std::nullopt;
+  }
+  LEKALO_TRY(const SolidReading touches, read_measured_points(*inputs_.points, d_.points->unit));
+  LEKALO_TRY(SolidReading nominal, read_solid(*inputs_.nominal, d_.nominal->unit));
+  for (const auto& [reading, file] :
+       {std::pair<const SolidReading*, const Document*>{&touches, &*inputs_.points},
+        {&nominal, &*inputs_.nominal}}) {
+    if (!reading->open) continue;
+    open_ = true;
+    note(
+        fmt::format("the blank, and what is said of the part in it, were not rechecked: {} is not read here, "
+                    "because {}",
+                    file->name, *reading->open));
+    return std::nullopt;
+  }
+  if (nominal.mesh.triangles.size() != d_.nominal->triangles)
+    find("the nominal mesh is said to have {} triangles, but {} has {}", d_.nominal->triangles,
+         inputs_.nominal->name, nominal.mesh.triangles.size());
+  LEKALO_TRY(const SolidMesh mesh, closed(std::move(nominal.mesh), inputs_.nominal->name));
+  return touch_widths(mesh, blank, touches.mesh, *d_.scan, report_.findings);
+}
+
+/// Gives the blank its widths, and holds what the result says of them against them. False where the blank is
+/// not known.
+Result<bool> SolidCheck::check_scan(SolidMesh& blank) {
+  if (d_.nominal && !(d_.scan && d_.scan->touches))
+    find("inputs name a nominal mesh, but scan has no touches");
   const auto is_off = [](const Decimal& written, Span is) {
     const double slack = kReadingTolerance * std::max(1.0, is.high), value = approximate(written);
     return !(value >= is.low - slack && value <= is.high + slack);
@@ -265,9 +297,16 @@ void SolidCheck::check_scan(SolidMesh& blank) {
   if (!d_.scan) {
     if (sgn(d_.unknown_area.digits) != 0)
       find("unknown_area_mm2 is {}, but all of a closed mesh is known", approximate(d_.unknown_area));
-    return;
+    return true;
   }
-  ScanWidths widths = scan_widths(blank, *d_.scan);
+  ScanWidths widths;
+  if (d_.scan->touches) {
+    LEKALO_TRY(std::optional<ScanWidths> by_touches, widths_by_touches(blank));
+    if (!by_touches) return false;
+    widths = *std::move(by_touches);
+  } else {
+    widths = scan_widths(blank, *d_.scan);
+  }
   if (is_off(d_.unknown_area, widths.unknown_area))
     find("unknown_area_mm2 is {}, but {} mm2 are unknown", approximate(d_.unknown_area),
          widths.unknown_area.high);
@@ -285,6 +324,7 @@ void SolidCheck::check_scan(SolidMesh& blank) {
         widths.unknown, widths.unknown_area.high));
   }
   blank.widths = std::move(widths.of);
+  return true;
 }
 
 /// Holds the blank against the points that it was made from.
@@ -319,6 +359,7 @@ Result<void> SolidCheck::check_points(const SolidMesh& blank) {
   if (points.size() != d_.points->count)
     find("{} points are said to be measured, but {} has {}", d_.points->count, inputs_.points->name,
          points.size());
+  if (d_.scan->touches) return {};
   for (const std::string& fault : faults_of_points(points, blank, *d_.scan)) find("{}", fault);
   return {};
 }

@@ -14,11 +14,12 @@ namespace lekalo::verify {
 namespace {
 
 constexpr std::array<std::string_view, 4> kStatuses{"optimal", "stopped", "infeasible", "unproved"};
-constexpr std::array<std::string_view, 7> kRoles{"part",     "blank", "start", "points",
-                                                 "features", "nc",    "allow"};
+constexpr std::array<std::string_view, 8> kRoles{"part",    "blank",    "start", "points",
+                                                 "nominal", "features", "nc",    "allow"};
 /// In the order of SolidUnit and of SolidFreedom.
 constexpr std::array<std::string_view, 6> kUnits{"mm", "inch", "m", "micron", "cm", "foot"};
 constexpr std::array<std::string_view, 3> kFreedoms{"xyz", "c-xyz", "six"};
+constexpr std::array<std::string_view, 6> kAxes{"x", "y", "z", "turn_x", "turn_y", "turn_z"};
 
 tl::unexpected<Error> bad(const std::string& name, const std::string& sentence) {
   return failure(ErrorCode::bad_input, fmt::format("{}: {}", name, sentence));
@@ -107,14 +108,19 @@ class Reader {
       const std::string_view role = kRoles[word_of(input, "role", kRoles)];
       const bool is_mesh = role == "part" || role == "blank";
       for (const auto& [key, is_said] :
-           {std::pair("units", is_mesh || role == "points"), std::pair("triangles", is_mesh),
-            std::pair("deviation", is_mesh), std::pair("points", role == "points")})
+           {std::pair("units", is_mesh || role == "points" || role == "nominal"),
+            std::pair("triangles", is_mesh || role == "nominal"), std::pair("deviation", is_mesh),
+            std::pair("points", role == "points")})
         if (!is_said && !input.get(key).text.empty())
           input.complain(fmt::format("field {} is said of the file of the role {}", input.name(key), role));
       features += role == "features" ? 1 : 0;
       if (role == "points") {
         if (d_.points) fields_.complain("inputs name two files of points");
         d_.points = {static_cast<SolidUnit>(word_of(input, "units", kUnits)), input.index("points")};
+      }
+      if (role == "nominal") {
+        if (d_.nominal) fields_.complain("inputs name two nominal meshes");
+        d_.nominal = {static_cast<SolidUnit>(word_of(input, "units", kUnits)), input.index("triangles")};
       }
       if (!is_mesh) return;
       ++(role == "part" ? parts : blanks);
@@ -194,7 +200,10 @@ class Reader {
     fields.require({"min_radius", "max_dip", "underside"});
     if (!fields.get("min_radius").is_null()) scan.min_radius = size(fields, "min_radius", true);
     if (!fields.get("max_dip").is_null()) scan.max_dip = size(fields, "max_dip", false);
-    if (!scan.min_radius && !scan.max_dip) fields.complain("scan has neither a min_radius nor a max_dip");
+    if (const Json touches = fields.get("touches"); !touches.text.empty()) read_touches(touches);
+    if (scan.touches.has_value() == (scan.min_radius || scan.max_dip))
+      fields.complain(scan.touches ? "scan has a min_radius or a max_dip, and touches"
+                                   : "scan has neither a min_radius nor a max_dip");
     if (const Json side = fields.get("underside"); !side.is_null()) {
       Fields of(side, "scan.underside", complaint_);
       scan.underside = {length(of, "z"), size(of, "flat", true)};
@@ -218,6 +227,75 @@ class Reader {
     const Json value = fields_.get(key);
     if (!value.is_null() && !value.is_object())
       fields_.complain(fmt::format("field {} is neither an object nor null", key));
+  }
+
+  /// Reads what touches cut off a box, or the way of a corner.
+  WrittenTouches::Cut cut(Fields& fields, std::size_t axes) {
+    WrittenTouches::Cut made;
+    made.axis = word_of(fields, "axis", kAxes);
+    if (made.axis >= axes) fields.complain(fmt::format("field {} is no way", fields.name("axis")));
+    made.above = truth(fields, "above");
+    made.at = length(fields, "at");
+    fields.each("terms", [&](Json item, const std::string& path) {
+      const auto three = numbers_of<3>(item, complaint_, [&] { return "field " + path; });
+      if (!three) return;
+      const auto& [touch, ball, multiplier] = *three;
+      made.terms.push_back({index(touch, path), index(ball, path), multiplier});
+      if (sgn(multiplier.digits) < 0) fields.complain(fmt::format("field {} has a multiplier below 0", path));
+    });
+    return made;
+  }
+  std::size_t index(const Decimal& number, const std::string& path) {
+    const double value = approximate(number);
+    if (number.exponent >= 0 && value >= 0 && value < static_cast<double>(limits::kMostSolidItems))
+      return static_cast<std::size_t>(value);
+    if (complaint_.empty()) complaint_ = fmt::format("field {} has a number of nothing", path);
+    return 0;
+  }
+
+  void read_touches(Json written) {
+    Fields fields(written, "scan.touches", complaint_);
+    WrittenTouches& touches = d_.scan->touches.emplace();
+    touches.ball = length(fields, "ball");
+    touches.form = length(fields, "form");
+    if (sgn(touches.ball.digits) < 0 || sgn(touches.form.digits) <= 0)
+      fields.complain("scan.touches has a ball below 0, or a form that is not above 0");
+    touches.pivot = numbers<3>(fields, "pivot");
+    touches.quaternion = numbers<4>(fields, "quaternion");
+    for (std::size_t k = 0; k < 6; ++k) touches.box[k] = numbers<2>(fields, kAxes[k]);
+    fields.each("balls", [&](Json item, const std::string& path) {
+      auto ball = numbers_of<4>(item, complaint_, [&] { return "field " + path; });
+      if (!ball) return;
+      if (sgn(ball->back().digits) <= 0)
+        fields.complain(fmt::format("field {} has a radius not above 0", path));
+      touches.balls.push_back(*std::move(ball));
+    });
+    fields.each("cuts", [&](Json item, const std::string& path) {
+      Fields of(item, path, complaint_);
+      touches.cuts.push_back(cut(of, 6));
+    });
+    Fields moved(fields.get("moved"), "scan.touches.moved", complaint_);
+    touches.moved = pose(moved);
+    std::size_t ends = 0;
+    fields.each("around", [&](Json item, const std::string& path) {
+      auto end = numbers_of<3>(item, complaint_, [&] { return "field " + path; });
+      if (end && ends < 2) touches.around[ends] = *std::move(end);
+      ++ends;
+    });
+    if (ends != 2) fields.complain("field scan.touches.around is not a list of two points");
+    fields.each("ways", [&](Json item, const std::string& path) {
+      Fields of(item, path, complaint_);
+      WrittenTouches::Way way;
+      way.corner = of.index("corner");
+      way.multiplier = length(of, "multiplier");
+      if (way.corner >= 8 || sgn(way.multiplier.digits) < 0)
+        of.complain(fmt::format("field {} has no corner from 0 to 7, or a multiplier below 0", path));
+      way.cut = cut(of, 3);
+      touches.ways.push_back(std::move(way));
+    });
+    if (complaint_.empty() &&
+        std::ranges::all_of(touches.quaternion, [](const Decimal& q) { return sgn(q.digits) == 0; }))
+      fields.complain("field scan.touches.quaternion is 0, which is no rotation");
   }
 
   void read_proof() {

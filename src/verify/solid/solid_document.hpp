@@ -43,14 +43,43 @@ struct WrittenSolidContact {
   std::size_t part_triangle{}, blank_triangle{};
 };
 
+/// The statements of the result about a blank that was touched, and why they hold it (docs/formats.md).
+struct WrittenTouches {
+  struct Term {
+    std::size_t touch = 0, ball = 0;
+    Decimal multiplier;
+  };
+  struct Cut {
+    std::size_t axis = 0;  ///< x, y, z, turn_x, turn_y, turn_z
+    bool above = false;
+    Decimal at;
+    std::vector<Term> terms;
+  };
+  struct Way {
+    std::size_t corner = 0;
+    Decimal multiplier;
+    Cut cut;
+  };
+  Decimal ball, form;
+  std::array<Decimal, 3> pivot;
+  std::array<Decimal, 4> quaternion;
+  std::array<std::array<Decimal, 2>, 6> box;
+  std::vector<std::array<Decimal, 4>> balls;
+  std::vector<Cut> cuts;
+  SolidPose moved;
+  std::array<std::array<Decimal, 3>, 2> around;
+  std::vector<Way> ways;
+};
+
 /// The statements of the result about a blank from a scanner.
 struct WrittenSolidScan {
   struct Underside {
     Decimal z, flat;
   };
   Decimal guard;
-  std::optional<Decimal> min_radius, max_dip;  ///< at least one is there
+  std::optional<Decimal> min_radius, max_dip;  ///< at least one is there, or touches
   std::optional<Underside> underside;
+  std::optional<WrittenTouches> touches;
   Decimal widest;
   std::size_t unknown_triangles = 0;
   bool proved = false;
@@ -80,6 +109,7 @@ struct SolidDocument {
   std::string status;
   WrittenSolid part, blank;
   std::optional<WrittenPoints> points;
+  std::optional<WrittenSolid> nominal;
   SolidWindow window;
   SolidPose pose;
   bool inside = false;

@@ -10,6 +10,7 @@
 #include "lekalo/io/solid/solid_file.hpp"
 #include "lekalo/locate/guaranteed_solid.hpp"
 #include "lekalo/locate/solid.hpp"
+#include "lekalo/locate/touched_solid.hpp"
 #include "lekalo/solid/symmetry.hpp"
 
 namespace lekalo::io {
@@ -19,7 +20,7 @@ namespace lekalo::io {
 
 /// One file that the result was made from.
 struct SolidInputRecord {
-  std::string role;  ///< "part", "blank", "points", "start", "features", "nc" or "allow"
+  std::string role;  ///< "part", "blank", "points", "nominal", "start", "features", "nc" or "allow"
   FileRecord file;
   std::optional<SolidUnit> unit;                   ///< of a solid, or of points
   std::size_t triangles = 0;                       ///< of a solid
@@ -35,6 +36,12 @@ struct SolidWindow {
   double turn_deg = 0;
 };
 
+/// The statements about a blank that is its nominal mesh, moved to touches, and why they hold it there.
+struct SolidTouchRecord {
+  double ball = 0, form = 0;  ///< mm
+  locate::TouchProof proof;
+};
+
 /// The statements about a blank from a scanner, and what they leave open (locate/guaranteed_solid.hpp).
 struct SolidScanRecord {
   double guard = 0;                           ///< mm
@@ -46,6 +53,8 @@ struct SolidScanRecord {
   /// Points that count as none of the surface, by their numbers in the file of points.
   std::vector<std::uint32_t> left_out;
   std::vector<std::string> assumptions;
+  /// A blank that was touched has them, and no radius, dip or underside.
+  std::optional<SolidTouchRecord> touches = std::nullopt;
   [[nodiscard]] bool proved() const noexcept { return unknown_triangles == 0; }
 };
 
