@@ -119,6 +119,11 @@ TEST(SolidTouches, WhatIsCutLiesInWhatIsLeft) {
                      t["turn_y"] = {0.1, 0};
                    }),
                    "scan.touches.turn_y is not in ascending order"));
+  EXPECT_TRUE(says(told([](Json& t) {
+                     cut_both(t);
+                     t["cuts"][1]["at"] = -0.5000001;
+                   }),
+                   "cuts[1] cuts x outside of the box that is left"));
   // The second cut is of what the first has left.
   EXPECT_TRUE(says(told([](Json& t) {
                      cut_above(t, 0.45);
@@ -265,6 +270,17 @@ TEST(SolidTouches, WaysOfCornersAreMixed) {
                        if (one["axis"] != "z") one["at"] = one["axis"] == "x" ? 0.3 : 0.4;
                    }),
                    "the widest triangle has 0.8"));
+  // Of two ways of a corner the farther one counts, whichever stands first.
+  for (const bool first : {true, false})
+    EXPECT_TRUE(says(told([&](Json& t) {
+                       Json way = still(0, "x", true), ways = Json::array();
+                       way["at"] = 0.5;
+                       if (first) ways.push_back(way);
+                       for (const Json& one : t["ways"]) ways.push_back(one);
+                       if (!first) ways.push_back(way);
+                       t["ways"] = ways;
+                     }),
+                     "the widest triangle has 0.8"));
   // What a corner is off its place counts.
   EXPECT_TRUE(says(told([](Json& t) { t["moved"]["z"] = 0.25; }), "ways[4]"));
   EXPECT_TRUE(says(told([](Json& t) {

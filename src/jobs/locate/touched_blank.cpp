@@ -42,6 +42,11 @@ Result<void> move_nominal(const SolidLocateJob& job, SolidInputs& in) {
   LEKALO_TRY(io::SolidFile nominal, read(*job.nominal, job, false, in));
   ReadSolid& read = in.nominal.emplace();
   read.unit = nominal.unit, read.triangles = nominal.mesh.triangles.size();
+  if (nominal.deviation)
+    in.notices.push_back(
+        fmt::format("{}: its triangles are within {} mm of the STEP model, and --form is said of "
+                    "the triangles: it has to have room for that",
+                    job.nominal->name, *nominal.deviation));
   const auto named = [](const File& file, const Error& error) {
     return failure(error.code, fmt::format("{}: {}", file.name, error.message));
   };
