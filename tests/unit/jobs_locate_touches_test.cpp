@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <string>
@@ -152,6 +153,13 @@ TEST(JobsLocateTouches, ATouchThatNoMotionAllowsRefutesTheForm) {
   EXPECT_EQ(json["scan"]["left_out"], Json{9});
   EXPECT_EQ(json["scan"]["assumptions"].back(), "the 1 touches that are left out are none of the surface");
   EXPECT_EQ(verdict(t.job, located.result, located.mesh), verify::Verdict::unproved);
+  // The table of deviations has the others, by their numbers in the file.
+  t.job.outputs.deviations = SolidPointsForm::csv;
+  const std::string table = made(t.job).deviations;
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 60);
+  EXPECT_TRUE(says(table, "\n8,") && says(table, "\n10,")) << table;
+  EXPECT_FALSE(says(table, "\n9,")) << table;
+  t.job.outputs.deviations.reset();
   t.job.options.scan->drop_outliers = 1e-9;
   EXPECT_TRUE(says(refusal(t.job), "touches.xyz: all touches are left out"));
 }

@@ -81,6 +81,12 @@ Result<void> move_nominal(const SolidLocateJob& job, SolidInputs& in) {
                     job.nominal->name));
   in.blank.triangles = moved.triangles.size();
   in.blank.numbers = std::move(blank->numbers), in.blank.turned = std::move(blank->turned);
+  const std::vector<std::uint32_t>& out = made->left_out;
+  for (std::size_t k = 0, next = 0; k < touches.mesh.vertices.size(); ++k)
+    if (next < out.size() && out[next] == k)
+      ++next;
+    else
+      in.points.push_back(touches.mesh.vertices[k]);
   locate::SolidProblem& p = in.problem;
   p.blank = std::move(blank->mesh);
   p.blank_widths = std::move(made->widths), p.blank_width_error = made->width_error;
