@@ -374,10 +374,10 @@ class ModelTaker final : public XmlTaker {
 
   std::string read_triangle(const Attributes& attributes) {
     if (object_->triangles.size() == kMostSolidTriangles) return too_many_triangles();
-    constexpr std::string_view kCorners[] = {"v1", "v2", "v3"};
+    constexpr std::string_view kCornerNames[] = {"v1", "v2", "v3"};
     solid::Triangle corners{};
     for (std::size_t k = 0; k < 3; ++k) {
-      if (std::string wrong = read_id(attributes, kCorners[k], corners[k]); !wrong.empty()) return wrong;
+      if (std::string wrong = read_id(attributes, kCornerNames[k], corners[k]); !wrong.empty()) return wrong;
       if (corners[k] >= object_->vertices.size())
         return fmt::format("vertex {} is not there: {} before this line, numbered from 0", corners[k],
                            counted(object_->vertices.size(), "vertex stands", "vertices stand"));

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kDeepestElement = 600;
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+bool is_white(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 class XmlReader {
  public:
@@ -82,7 +82,7 @@ class XmlReader {
     at_ = good_ ? end + 1 : text_.size();
   }
   void skip_blanks() {
-    while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
+    while (at_ < text_.size() && is_white(text_[at_])) ++at_;
   }
   bool take(char c) {
     const bool there = at_ < text_.size() && text_[at_] == c;
@@ -91,7 +91,7 @@ class XmlReader {
   }
   std::string name() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && !is_blank(text_[at_]) &&
+    while (at_ < text_.size() && !is_white(text_[at_]) &&
            std::string_view("=/>").find(text_[at_]) == std::string_view::npos)
       ++at_;
     std::string name(text_.substr(begin, at_ - begin));

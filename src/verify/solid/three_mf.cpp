@@ -33,8 +33,8 @@ Decimal without_zeros(Decimal number) {
   while (mpz_divisible_ui_p(number.digits.get_mpz_t(), 10) != 0) number.digits /= 10, ++number.exponent;
   return number;
 }
-Decimal operator+(const Decimal& a, const Decimal& b) { return a - Decimal{-b.digits, b.exponent}; }
-Decimal operator*(const Decimal& a, const Decimal& b) {
+Decimal sum(const Decimal& a, const Decimal& b) { return a - Decimal{-b.digits, b.exponent}; }
+Decimal product(const Decimal& a, const Decimal& b) {
   ask(static_cast<std::uint64_t>(bits_of(a.digits) + bits_of(b.digits)) / 512);
   return {a.digits * b.digits, a.exponent + b.exponent};
 }
@@ -45,13 +45,14 @@ using Transform = std::optional<std::array<Place, 4>>;
 
 Place turned(const Place& p, const std::array<Place, 4>& by) {
   Place made;
-  for (std::size_t k = 0; k < 3; ++k) made[k] = p[0] * by[0][k] + p[1] * by[1][k] + p[2] * by[2][k];
+  for (std::size_t k = 0; k < 3; ++k)
+    made[k] = sum(sum(product(p[0], by[0][k]), product(p[1], by[1][k])), product(p[2], by[2][k]));
   return made;
 }
 Place moved(const Place& p, const Transform& by) {
   if (!by) return p;
   Place made = turned(p, *by);
-  for (std::size_t k = 0; k < 3; ++k) made[k] = without_zeros(made[k] + (*by)[3][k]);
+  for (std::size_t k = 0; k < 3; ++k) made[k] = without_zeros(sum(made[k], (*by)[3][k]));
   return made;
 }
 Transform joined(const Transform& first, const Transform& second) {
@@ -171,16 +172,16 @@ class ModelTaker final : public XmlTaker {
   }
 
   void begin_model(const XmlElement& model) {
-    constexpr std::array<std::pair<std::string_view, SolidUnit>, 6> kUnits{
+    constexpr std::array<std::pair<std::string_view, SolidUnit>, 6> kUnitWords{
         {{"millimeter", SolidUnit::millimetre},
          {"micron", SolidUnit::micron},
          {"centimeter", SolidUnit::centimetre},
          {"inch", SolidUnit::inch},
          {"foot", SolidUnit::foot},
          {"meter", SolidUnit::metre}}};
-    const std::string_view said = model.get("unit"), word = said.empty() ? kUnits[0].first : said;
-    const auto* const unit = std::ranges::find(kUnits, word, [](const auto& one) { return one.first; });
-    if (unit == kUnits.end()) {
+    const std::string_view said = model.get("unit"), word = said.empty() ? kUnitWords[0].first : said;
+    const auto* const unit = std::ranges::find(kUnitWords, word, [](const auto& one) { return one.first; });
+    if (unit == kUnitWords.end()) {
       fault_ = fmt::format("{} is no unit", excerpt(word));
     } else if (!is_root_ && unit->second != made_.unit()) {
       fault_ = "its models have different units";
