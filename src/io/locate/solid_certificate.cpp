@@ -1,7 +1,8 @@
 #include "lekalo/io/locate/solid_certificate.hpp"
 
 #include <algorithm>
-#include <array>
+
+#include "solid_axes.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -9,8 +10,6 @@ namespace {
 using locate::SolidTerm;
 using locate::SolidTree;
 using solid::Vector;
-
-constexpr std::array<const char*, 6> kAxes{"x", "y", "z", "turn_x", "turn_y", "turn_z"};
 
 const char* name_of(SolidTerm::Kind kind) {
   switch (kind) {
@@ -60,7 +59,7 @@ void write(JsonWriter& json, const SolidTerm& term, const SolidNumbers& numbers)
 void write(JsonWriter& json, const SolidTree& tree, const SolidTree::Node& node,
            const SolidNumbers& numbers) {
   if (node.axis != SolidTree::Axis::leaf) {
-    json.list({kAxes[static_cast<std::size_t>(node.axis)], node.at});
+    json.list({kSolidAxes[static_cast<std::size_t>(node.axis)], node.at});
     return;
   }
   json.begin_list();
@@ -70,7 +69,8 @@ void write(JsonWriter& json, const SolidTree& tree, const SolidTree::Node& node,
 
 void write(JsonWriter& json, const SolidTree& tree, const SolidNumbers& numbers) {
   json.begin_object().key("quaternion").list(tree.quaternion);
-  for (std::size_t k = 0; k < kAxes.size(); ++k) json.key(kAxes[k]).list({tree.low[k], tree.high[k]});
+  for (std::size_t k = 0; k < kSolidAxes.size(); ++k)
+    json.key(kSolidAxes[k]).list({tree.low[k], tree.high[k]});
   json.key("nodes").list_of_lines(tree.nodes, 4, 2,
                                   [&](const SolidTree::Node& node) { write(json, tree, node, numbers); });
   json.end();

@@ -1,17 +1,13 @@
 #include "touch_proof.hpp"
 
-#include <array>
+#include "solid_axes.hpp"
 
 namespace lekalo::io {
 namespace {
 
 using locate::TouchProof;
 
-constexpr std::array<const char*, 6> kAxes{"x", "y", "z", "turn_x", "turn_y", "turn_z"};
-
-const char* name_of(locate::SolidTree::Axis axis) { return kAxes[static_cast<std::size_t>(axis)]; }
-
-void write(JsonWriter& json, solid::Vector p) { json.list({p.x, p.y, p.z}); }
+const char* name_of(locate::SolidTree::Axis axis) { return kSolidAxes[static_cast<std::size_t>(axis)]; }
 
 void write_terms(JsonWriter& json, const TouchProof& proof, std::uint32_t first, std::uint32_t count) {
   json.key("terms").begin_list();
@@ -27,9 +23,10 @@ void write_terms(JsonWriter& json, const TouchProof& proof, std::uint32_t first,
 void write_touches(JsonWriter& json, const SolidTouchRecord& touches) {
   const TouchProof& proof = touches.proof;
   json.begin_object().fields({{"ball", touches.ball}, {"form", touches.form}});
-  write(json.key("pivot"), proof.pivot);
+  json.key("pivot").list({proof.pivot.x, proof.pivot.y, proof.pivot.z});
   json.key("quaternion").list(proof.quaternion);
-  for (std::size_t k = 0; k < kAxes.size(); ++k) json.key(kAxes[k]).list({proof.low[k], proof.high[k]});
+  for (std::size_t k = 0; k < kSolidAxes.size(); ++k)
+    json.key(kSolidAxes[k]).list({proof.low[k], proof.high[k]});
   json.key("balls").list_of_lines(proof.balls, 4, 2, [&](const locate::SolidBall& ball) {
     json.list({ball.centre.x, ball.centre.y, ball.centre.z, ball.radius});
   });
@@ -42,8 +39,8 @@ void write_touches(JsonWriter& json, const SolidTouchRecord& touches) {
   json.key("moved").begin_object().key("quaternion").list(moved.quaternion);
   json.fields({{"x", moved.shift.x}, {"y", moved.shift.y}, {"z", moved.shift.z}}).end();
   json.key("around").begin_list();
-  write(json, proof.around.low);
-  write(json, proof.around.high);
+  for (const solid::Vector corner : {proof.around.low, proof.around.high})
+    json.list({corner.x, corner.y, corner.z});
   json.end();
   json.key("ways").list_of_lines(proof.ways, 4, 2, [&](const locate::TouchWay& way) {
     json.begin_object().fields({{"corner", way.corner},

@@ -15,7 +15,7 @@ using solid::Vector;
 
 /// The fit ends after so many steps, or when one is shorter than this part of the mesh. None turns by more
 /// than this, about, rad.
-constexpr int kMostSteps = 100;
+constexpr int kMostFitSteps = 100;
 constexpr double kShortStep = 1e-9, kMostTurn = 0.3;
 /// A direction in which touches say nothing is not gone along: this part of the others is added to what they
 /// say.
@@ -96,7 +96,7 @@ TouchedPlace touched_place(const solid::TriangleTree& nominal, Vector touch) {
 FramedPose fitted(const solid::TriangleTree& nominal, const SolidFrame& frame,
                   const std::vector<Vector>& touches, double radius) {
   FramedPose pose = frame.window.middle();
-  for (int k = 0; k < kMostSteps; ++k) {
+  for (int k = 0; k < kMostFitSteps; ++k) {
     const solid::Motion motion = frame.motion(pose);
     std::vector<Residual> residuals;
     for (const Vector touch : touches) {

@@ -24,9 +24,9 @@ using solid::TriangleTree;
 using solid::Vector;
 using Axis = SolidTree::Axis;
 
-constexpr std::array<double Vector::*, 3> kAxes{&Vector::x, &Vector::y, &Vector::z};
+constexpr std::array<double Vector::*, 3> kCoordinates{&Vector::x, &Vector::y, &Vector::z};
 /// The square root of 3, rounded up: how far a point is off at most for each of its coordinates.
-constexpr double kDiagonal = 1.7321;
+constexpr double kRootOfThree = 1.7321;
 /// Each touch is looked at in every cut.
 constexpr std::size_t kMostTouches = 5000;
 /// A cut takes half of the box at most, and a side is given up for the time being where not even the last
@@ -35,15 +35,15 @@ constexpr double kLargestCut = 0.5, kSmallestCut = 1.0 / 64;
 constexpr int kMostRounds = 60;
 /// Balls beside a touch go down from so many times the mesh by halves, so many of them, each nearer to the
 /// touched place than this part of what a touch may be off.
-constexpr double kLargestBall = 4, kMostLoss = 0.5;
-constexpr int kLadder = 16, kKept = 3;
+constexpr double kLargestBall = 4, kMostOfTouch = 0.5;
+constexpr int kBalls = 16, kKept = 3;
 /// Multipliers are whole numbers up to this, so that they take little room in files.
-constexpr double kWhole = 1e9;
+constexpr double kWholeNumbers = 1e9;
 /// Sums of terms stay below 0 by this part of the sizes, which is more than the rounding of what they are
 /// made of: coordinates, radii and lengths, as shortest decimals of their doubles.
 constexpr double kRoom = 0x1p-38;
 /// Rounding takes less than this part off a width, or off the coordinates it comes from.
-constexpr double kRounding = 0x1p-44;
+constexpr double kWidthRounding = 0x1p-44;
 /// A way that may be so many times as far as a touch may be off the surface is told.
 constexpr double kLoose = 8;
 /// A ball counts as large beside what touches may be off only where rounding does not decide it.
@@ -52,7 +52,7 @@ constexpr double kSurely = 1 + 1e-9;
 constexpr int kHalvings = 9;
 
 double& side_of(FramedPose& pose, std::size_t axis) {
-  return axis < 3 ? pose.at.*kAxes[axis] : pose.x.*kAxes[axis - 3];
+  return axis < 3 ? pose.at.*kCoordinates[axis] : pose.x.*kCoordinates[axis - 3];
 }
 
 /// A ball without surface of the nominal mesh inside, and the touch that stays away from it.
@@ -125,7 +125,7 @@ class Enclosure {
   void place() {
     const FramedPose middle = cell_.middle();
     proof_.moved = {frame_.quaternion(middle), frame_.motion(middle).shift};
-    const double room = 2 * stated_.coordinate_error + kRounding * nominal_.largest();
+    const double room = 2 * stated_.coordinate_error + kWidthRounding * nominal_.largest();
     const Vector wider{room, room, room};
     proof_.around = {nominal_.box().low - wider, nominal_.box().high + wider};
     choose();
@@ -151,7 +151,7 @@ class Enclosure {
 
   /// How far the centre of a ball stays from a touch.
   [[nodiscard]] double least(double radius, bool inside) const {
-    const double ball = 0.5 * stated_.ball, error = kDiagonal * stated_.coordinate_error;
+    const double ball = 0.5 * stated_.ball, error = kRootOfThree * stated_.coordinate_error;
     if (!inside) return radius - ball - off_ - error;
     return radius - off_ - error + (ball > 2 * kSurely * off_ ? ball : 0);
   }
@@ -159,12 +159,13 @@ class Enclosure {
   /// The balls on one side of a touched place, large ones first.
   void add_balls(std::uint32_t touch, const TouchedPlace& at, double side, std::vector<Apart>& found) const {
     int kept = 0;
-    for (int k = 0; k < kLadder && kept < kKept; ++k) {
+    for (int k = 0; k < kBalls && kept < kKept; ++k) {
       const double wanted = std::ldexp(kLargestBall * frame_.reach, -k);
       const Vector centre = at.place + side * wanted * at.normal;
-      const double rounding = kRounding * (norm(centre) + nominal_.largest());
-      const double radius = nominal_.nearest(centre)->low - kDiagonal * stated_.coordinate_error - rounding;
-      if (!(radius > 0) || wanted - radius > kMostLoss * off_) continue;
+      const double rounding = kWidthRounding * (norm(centre) + nominal_.largest());
+      const double radius =
+          nominal_.nearest(centre)->low - kRootOfThree * stated_.coordinate_error - rounding;
+      if (!(radius > 0) || wanted - radius > kMostOfTouch * off_) continue;
       found.push_back({touch,
                        {centre, radius},
                        start_.turned(centre - frame_.pivot),
@@ -209,11 +210,11 @@ class Enclosure {
     std::vector<Term> terms;
     PoseForm sum;
     for (std::size_t k = 0; k < solution.rows; ++k) {
-      const double share = std::round(kWhole * solution.multiplier[k]);
+      const double share = std::round(kWholeNumbers * solution.multiplier[k]);
       if (!(share > 0)) continue;
       const std::uint32_t row = solution.row[k];
       terms.push_back({row, static_cast<std::uint32_t>(share)});
-      sum.add(share / kWhole, row < rows_.size() ? form_of(rows_[row], seen) : *last);
+      sum.add(share / kWholeNumbers, row < rows_.size() ? form_of(rows_[row], seen) : *last);
     }
     if (!(sum.most(seen) < -kRoom * far_)) terms.clear();
     return terms;
@@ -263,7 +264,7 @@ class Enclosure {
     const Vector at{(corner & 1) != 0 ? box.high.x : box.low.x, (corner & 2) != 0 ? box.high.y : box.low.y,
                     (corner & 4) != 0 ? box.high.z : box.low.z};
     Vector way;
-    way.*kAxes[axis] = above ? 1 : -1;
+    way.*kCoordinates[axis] = above ? 1 : -1;
     const PoseForm from =
         height(way, start_.turned(at - frame_.pivot), dot(way, motion_of(proof_.moved)(at)), seen);
     const double farthest = std::max(from.most(seen), 0.0) * kSurely + 2 * kRoom * far_;
@@ -324,8 +325,8 @@ double farthest(const TouchProof& proof, const std::array<std::array<double, 3>,
   for (std::size_t corner = 0; corner < 8; ++corner) {
     double share = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double low = box.low.*kAxes[axis], size = box.high.*kAxes[axis] - low;
-      const double part = (v.*kAxes[axis] - low) / size;
+      const double low = box.low.*kCoordinates[axis], size = box.high.*kCoordinates[axis] - low;
+      const double part = (v.*kCoordinates[axis] - low) / size;
       share *= (corner >> axis & 1) != 0 ? part : 1 - part;
     }
     way = way + share * Vector{ways[corner][0], ways[corner][1], ways[corner][2]};
@@ -349,7 +350,7 @@ void widen(const solid::Mesh& nominal, const TouchStatement& stated, TouchedSoli
     of_vertex.push_back(farthest(made.proof, ways, v));
     far = std::max({far, norm(v), norm(made.mesh.vertices.back())});
   }
-  const double error = kRounding * (far + stated.form) + 4 * kDiagonal * stated.coordinate_error;
+  const double error = kWidthRounding * (far + stated.form) + 4 * kRootOfThree * stated.coordinate_error;
   for (const auto& [a, b, c] : nominal.triangles)
     made.widths.push_back(stated.form + std::max({of_vertex[a], of_vertex[b], of_vertex[c]}) + error);
   made.widest = *std::max_element(made.widths.begin(), made.widths.end());
