@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bitset>
 #include <string>
 #include <vector>
 
@@ -102,6 +104,92 @@ TEST(Inflate, TakesEachKindOfBlockByHand) {
   EXPECT_EQ(inflated(bits("1 10 10010001 11000101 00000 0000000"), 259), std::string(259, 'a'));
 }
 
+/// The lowest bits of a number, the highest first.
+std::string high_first(std::size_t number, std::size_t count) {
+  return std::bitset<16>(number).to_string().substr(16 - count);
+}
+std::string low_first(std::size_t number, std::size_t count) {
+  const std::string word = high_first(number, count);
+  return {word.rbegin(), word.rend()};
+}
+
+using WordLengths = std::vector<std::size_t>;
+/// The words of a prefix code (RFC 1951, 3.2.2); a length of 0 is of none.
+std::vector<std::string> words_of(const WordLengths& lengths) {
+  std::vector<std::string> words(lengths.size());
+  std::size_t next = 0;
+  for (std::size_t length = 1; length <= 15; ++length, next *= 2)
+    for (std::size_t symbol = 0; symbol < lengths.size(); ++symbol)
+      if (lengths[symbol] == length) words[symbol] = high_first(next++, length);
+  return words;
+}
+/// What a block begins with that has its own codes, each length of theirs a word of 4 bits.
+std::string head_of(const WordLengths& symbols, const WordLengths& distances, const char* kind = "01") {
+  std::string made = "1" + std::string(kind) + low_first(symbols.size() - 257, 5) +
+                     low_first(distances.size() - 1, 5) + low_first(15, 4) + "000000000";
+  for (int k = 0; k < 16; ++k) made += low_first(4, 3);
+  for (const auto& lengths : {symbols, distances})
+    for (const std::size_t length : lengths) made += high_first(length, 4);
+  return made;
+}
+
+TEST(Inflate, TakesWordsOfUpTo15Bits) {
+  WordLengths lengths(257, 0);
+  for (std::size_t k = 0; k < 14; ++k) lengths['a' + k] = k + 1;
+  lengths['o'] = lengths[256] = 15;
+  const std::vector<std::string> words = words_of(lengths);
+  const std::string all = "abcdefghijklmno";
+  std::string text;
+  for (const char c : all) text += words[static_cast<std::size_t>(c)];
+  text += words[256];
+  EXPECT_EQ(inflated(bits(head_of(lengths, {0}) + text), all.size()), all);
+  EXPECT_EQ(inflated(bits(head_of(lengths, {0}, "11") + text), all.size()), std::nullopt) << "no such kind";
+}
+
+TEST(Inflate, TakesEveryLengthAndDistance) {
+  std::string noise;
+  std::uint32_t state = 7;
+  for (int k = 0; k < 33'000; ++k)
+    state = state * 1664525 + 1013904223, noise += static_cast<char>(state >> 24);
+  for (std::size_t length = 3; length <= 258; ++length) {
+    const std::string text = noise.substr(0, 300) + noise.substr(0, length);
+    EXPECT_EQ(inflated(deflated(text, 9), text.size()), text) << length;
+  }
+  for (std::size_t bound = 4; bound <= 32'768; bound *= 2)
+    for (const std::size_t distance : {bound - 1, bound, bound + 1, bound / 2 * 3, bound / 2 * 3 + 1}) {
+      const std::string text =
+          noise.substr(0, distance) + noise.substr(0, std::min<std::size_t>(distance, 40));
+      EXPECT_EQ(inflated(deflated(text, 9), text.size()), text) << distance;
+    }
+}
+
+TEST(Inflate, DistancesFrom30OnAreNone) {
+  WordLengths lengths(286, 0), distances(32, 0);
+  lengths['a'] = 1, lengths[256] = lengths[285] = 2;
+  distances[0] = 1, distances[29] = 2, distances[30] = distances[31] = 3;
+  const std::vector<std::string> words = words_of(lengths), far = words_of(distances);
+  std::string before = head_of(lengths, distances) + words['a'];
+  for (int k = 0; k < 255; ++k) before += words[285] + far[0];
+  const std::size_t size = 1 + 255 * 258;
+  const auto made = [&](std::size_t distance, std::size_t extra) {
+    return inflated(bits(before + words[285] + far[distance] + std::string(extra, '0') + words[256]),
+                    size + 258);
+  };
+  EXPECT_EQ(inflated(bits(before + words[256]), size), std::string(size, 'a'));
+  EXPECT_EQ(made(29, 13), std::string(size + 258, 'a'));
+  EXPECT_EQ(made(30, 14), std::nullopt);
+  EXPECT_EQ(made(31, 14), std::nullopt);
+}
+
+TEST(Inflate, StoredBytesBeginAtTheNextWholeOne) {
+  // A literal of 9 bits moves the head of the block behind it by one bit.
+  std::string literals;
+  for (std::size_t count = 0; count < 8; ++count, literals += high_first(400 + 56, 9))
+    EXPECT_EQ(inflated(bits("0 10" + literals + "0000000 1 00") + std::string("\3\0\xfc\xff", 4) + "abc",
+                       count + 3),
+              std::string(count, '\xc8') + "abc");
+}
+
 TEST(Inflate, RefusesCodesThatMeanNothing) {
   // 257 symbols, 1 distance, 4 lengths, of which only 16, "again", has a word: nothing stands before it.
   EXPECT_EQ(inflated(bits("1 01 00000 00000 0000 100 000 000 000 0 00"), 0), std::nullopt);
@@ -158,6 +246,85 @@ TEST(Unzip, GivesNothingOfADamagedFile) {
   EXPECT_EQ(unzip(zip({{"a", large, false}}), "a"), large);
 }
 
+/// Changes a number of 2 or 4 bytes.
+std::string with_number(std::string bytes, std::size_t at, std::size_t size, std::uint32_t number) {
+  for (std::size_t k = 0; k < size; ++k) bytes.at(at + k) = static_cast<char>(number >> 8 * k);
+  return bytes;
+}
+constexpr const char* kFrontMark = "PK\3\4";
+constexpr const char* kHeadMark = "PK\1\2";
+
+TEST(Unzip, NamesAreTheSameInEveryCaseOfTheirLetters) {
+  const std::string archive = zip({{"AZ@[/m", "first"}});
+  EXPECT_EQ(unzip(archive, "az@[/M"), "first");
+  EXPECT_EQ(unzip(archive, "AZ`[/m"), std::nullopt);
+  EXPECT_EQ(unzip(archive, "AZ@{/m"), std::nullopt);
+}
+
+TEST(Unzip, EveryNumberHasToFit) {
+  const std::string stored = zip({{"a", "first", false}}), small = zip({{"a", "first"}});
+  const auto made = [](const std::string& of, std::size_t at, std::size_t size, std::uint32_t number) {
+    return unzip(with_number(of, of.find(kHeadMark) + at, size, number), "a");
+  };
+  EXPECT_EQ(made(stored, 10, 2, 0), "first");
+  for (const std::uint32_t method : {1U, 8U, 0x100U}) EXPECT_EQ(made(stored, 10, 2, method), std::nullopt);
+  EXPECT_EQ(made(stored, 8, 2, 1), std::nullopt) << "encrypted";
+  EXPECT_EQ(made(stored, 8, 2, 0x808), "first");
+  for (const std::uint32_t size : {4U, 6U, 0x1000005U}) {
+    EXPECT_EQ(made(stored, 24, 4, size), std::nullopt) << size;
+    EXPECT_EQ(made(small, 24, 4, size), std::nullopt) << size;
+    EXPECT_EQ(made(stored, 20, 4, size), std::nullopt) << size;
+  }
+  // More bytes than there are, of which fewer would do.
+  const std::size_t front = 31;
+  EXPECT_EQ(made(small, 20, 4, static_cast<std::uint32_t>(small.size() - front)), "first");
+  EXPECT_EQ(made(small, 20, 4, static_cast<std::uint32_t>(small.size() - front + 1)), std::nullopt);
+  for (const char* mark : {kFrontMark, kHeadMark, "PK\5\6"})
+    for (std::size_t k = 0; k < 4; ++k) {
+      std::string damaged = stored;
+      ++damaged[damaged.find(mark) + k];
+      EXPECT_EQ(unzip(damaged, "a"), std::nullopt) << mark;
+    }
+}
+
+TEST(Unzip, FarPlacesHaveTheirMarks) {
+  const std::string far = zip({{"a", "first"}}, ZipForm::far);
+  for (const char* mark : {"PK\6\6", "PK\6\7"})
+    for (std::size_t k = 0; k < 4; ++k) {
+      std::string damaged = far;
+      ++damaged[damaged.find(mark) + k];
+      EXPECT_EQ(unzip(damaged, "a"), std::nullopt) << mark;
+    }
+  // The place and the end may be the first of the archive, and all that they name stands in the comment.
+  std::string rest = far.substr(0, far.size() - 42), place = far.substr(rest.size(), 20),
+              end = far.substr(rest.size() + 20);
+  const auto later = [](char& byte) { byte = static_cast<char>(byte + 42); };
+  const std::size_t far_end = rest.find("PK\6\6");
+  later(rest[far_end - 8]), later(rest[far_end + 48]), later(place[8]);
+  end = with_number(end, 20, 2, static_cast<std::uint32_t>(rest.size()));
+  EXPECT_EQ(unzip(place + end + rest, "a"), "first");
+  EXPECT_EQ(unzip(place.substr(1) + end + rest, "a"), std::nullopt);
+}
+
+TEST(Unzip, AFieldThatEndsEarlySaysZeros) {
+  // The sizes and the place of an empty file become its comment.
+  std::string empty = zip({{"a", "", false}}, ZipForm::far);
+  const std::size_t head = empty.find(kHeadMark);
+  EXPECT_EQ(unzip(with_number(with_number(empty, head + 30, 2, 12), head + 32, 2, 24), "a"), "");
+  EXPECT_EQ(unzip(with_number(with_number(empty, head + 30, 2, 8), head + 32, 2, 28), "a"), std::nullopt);
+}
+
+TEST(Unzip, AFileIsAtMost100TimesAsLongAsItIsPacked) {
+  const std::string spaces(limits::kMostUnpackedTimes * 700 + 99, ' '), rest(1000, 'r');
+  const std::string archive = zip({{"a", spaces}, {"b", rest, false}});
+  // What stands behind a text counts as packed.
+  const auto packed = [&](std::uint32_t size) {
+    return unzip(with_number(archive, archive.find(kHeadMark) + 20, 4, size), "a");
+  };
+  EXPECT_EQ(packed(700), spaces);
+  EXPECT_EQ(packed(699), std::nullopt);
+}
+
 // ---- models -----------------------------------------------------------------------------------------------
 
 TEST(ThreeMfReader, PutsTheBodiesTogetherExactly) {
@@ -199,12 +366,84 @@ TEST(ThreeMfReader, LeavesOutWhatIsNoBody) {
             kWhole);
 }
 
+/// The text of one cube with a place of it changed.
+std::string changed(const std::string& what, const std::string& instead) {
+  std::string made = text();
+  const std::size_t at = made.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return made.replace(at, what.size(), instead);
+}
+
+TEST(ThreeMfReader, ReadsEveryUnit) {
+  for (const auto& [unit, millimetres] :
+       std::vector<std::pair<std::string, Fraction>>{{"micron", Fraction(1, 1000)},
+                                                     {"millimeter", Fraction(1)},
+                                                     {"centimeter", Fraction(10)},
+                                                     {"inch", Fraction(127, 5)},
+                                                     {"foot", Fraction(1524, 5)},
+                                                     {"meter", Fraction(1000)}}) {
+    const auto read = read_solid({"s", archive(changed("millimeter", unit))});
+    ASSERT_TRUE(read && !read->open) << unit;
+    EXPECT_TRUE(read->mesh.exact(7, 2) == 3 * millimetres) << unit;
+  }
+}
+
+TEST(ThreeMfReader, OneOfTwoTransformsMayBeMissing) {
+  const auto vertices = [](const std::string& inner, const std::string& outer) {
+    const auto read =
+        read_solid({"s", archive(model(object(1, mesh(cube())) + object(2, components(component(1, inner))),
+                                       item(2, outer)))});
+    std::vector<Fraction> made;
+    for (std::uint32_t v = 0; read && v < read->mesh.near.size(); ++v)
+      for (std::size_t axis = 0; axis < 3; ++axis) made.push_back(read->mesh.exact(v, axis));
+    return made;
+  };
+  const std::string turned = "0 1 0 -1 0 0 0 0 1 0.1 5 7", still = "1 0 0 0 1 0 0 0 1 0 0 0";
+  const std::vector<Fraction> wanted = vertices(turned, still);
+  ASSERT_EQ(wanted.size(), 24U);
+  EXPECT_TRUE(vertices(turned, "") == wanted);
+  EXPECT_TRUE(vertices("", turned) == wanted);
+}
+
+TEST(ThreeMfReader, NamesAreOfTheirSpaces) {
+  // The core behind a prefix, and another space without one.
+  std::string prefixed = text();
+  for (const char* name : {"model", "resources", "object", "build", "item", "mesh", "vertices", "triangles",
+                           "vertex ", "triangle "})
+    for (const std::string& begin : {std::string("<"), std::string("</")})
+      for (std::size_t at = 0; (at = prefixed.find(begin + name, at)) != std::string::npos; ++at)
+        prefixed.insert(at + begin.size(), "core:");
+  const std::string space = "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\"";
+  prefixed.replace(prefixed.find(space), space.size(), "xmlns=\"q\" xmlns:core" + space.substr(5));
+  EXPECT_EQ(reading(archive(prefixed)), kWhole);
+  // Elements of other spaces are not those of the core with their names.
+  EXPECT_EQ(reading(archive(changed("<resources>", "<resources><b:object id=\"1\"/>"))), kWhole);
+  EXPECT_EQ(reading(archive(changed("<build>", "<build><m:item objectid=\"7\"/>"))), kWhole);
+  EXPECT_EQ(reading(archive(changed("</object>", "<m:more/></object>"))), kWhole);
+  EXPECT_EQ(reading(archive(changed("unit=", "requiredextensions=\"t\" unit="))), kWhole);
+  // Paths are of the extension for production.
+  for (const char* path : {"m:path=\"a.model\"", "path=\"a.model\"", "p:pat=\"a.model\""}) {
+    EXPECT_EQ(reading(archive(changed("<item", "<item " + std::string(path)))), kWhole) << path;
+    const std::string with_space = changed("<item", "<item " + std::string(path));
+    std::string named = with_space;
+    named.replace(named.find("xmlns:p="), 8, "xmlns:path=");
+    EXPECT_EQ(reading(archive(named)), kWhole) << path;
+  }
+  EXPECT_EQ(reading(archive(changed("<item", "<item p:path=\"a.model\""))),
+            "a.model cannot be unpacked from it");
+}
+
+TEST(ThreeMfReader, TheFirstRelationToAModelCounts) {
+  std::string two = relations();
+  const std::string other = relations("/3D/other.model");
+  const std::size_t begin = other.rfind("<Relationship "), end = other.find("</Relationships>");
+  two.insert(two.find("</Relationships>"), other.substr(begin, end - begin));
+  EXPECT_EQ(reading(zip({{"_rels/.rels", two}, {"3D/3dmodel.model", text()}})), kWhole);
+}
+
 TEST(ThreeMfReader, WhatItDoesNotUnderstandIsSaidAndLeftOpen) {
   const auto with = [](const std::string& what, const std::string& instead) {
-    std::string changed = text();
-    const std::size_t at = changed.find(what);
-    EXPECT_NE(at, std::string::npos) << what;
-    return archive(changed.replace(at, what.size(), instead));
+    return archive(changed(what, instead));
   };
   const std::string unpacked = " cannot be unpacked from it";
   EXPECT_EQ(reading("PK\3\4"), "_rels/.rels" + unpacked);
@@ -223,6 +462,11 @@ TEST(ThreeMfReader, WhatItDoesNotUnderstandIsSaidAndLeftOpen) {
                                                         {"</triangles>", "<m/><more/></triangles>"},
                                                         {"</build>", "<more/></build>"},
                                                         {"</mesh>", "<metadatagroup/></mesh>"},
+                                                        {"</mesh>", "<vertex/></mesh>"},
+                                                        {"</vertices>", "<triangle/></vertices>"},
+                                                        {"</object>", "<item/></object>"},
+                                                        {"</object>", "<more/></object>"},
+                                                        {"</object>", "<b:metadatagroup/></object>"},
                                                         {"</object>", "<t:sets/></object>"}})
     EXPECT_NE(reading(with(outer, inner)).find(" is an element that is not known"), std::string::npos)
         << inner;
@@ -238,7 +482,9 @@ TEST(ThreeMfReader, WhatItDoesNotUnderstandIsSaidAndLeftOpen) {
   EXPECT_EQ(reading(with("v1=\"0\"", "")), of_root("v1 of triangle is no whole number"));
   EXPECT_EQ(reading(with("</resources>", object(1, "") + "</resources>")),
             of_root("an object is there twice"));
-  EXPECT_EQ(reading(with("<item", "<item transform=\"1 2 3\"")), of_root("a transform has 12 numbers"));
+  for (const char* numbers : {"1 2 3", "1 0 0 0 1 0 0 0 1 0 0", "1 0 0 0 1 0 0 0 1 0 0 0 0"})
+    EXPECT_EQ(reading(with("<item", fmt::format("<item transform=\"{}\"", numbers))),
+              of_root("a transform has 12 numbers"));
   const std::string before = of_root("an object holds one that does not stand before it");
   EXPECT_EQ(reading(archive(model(object(1, components(component(1))), item(1)))), before);
   EXPECT_EQ(reading(archive(model(object(1, components(component(2))) + object(2, ""), item(1)))), before);
@@ -275,6 +521,24 @@ TEST(ThreeMfReader, CopiesAndDepthHaveTheLimitsOfTheReader) {
   EXPECT_EQ(doubled(64, 1, mesh(cube())), too_many);
   EXPECT_EQ(doubled(1, 99'999, ""), "s: there are no triangles in it");
   EXPECT_EQ(doubled(1, 100'000, ""), too_many);
+}
+
+TEST(ThreeMfReader, PlacingMakesAMillionVerticesOrTriangles) {
+  // One object of so many, placed so often that all of them but its own are copies.
+  const auto placed = [](std::size_t vertices, std::size_t triangles, int times) {
+    std::string all = "<mesh><vertices>", items;
+    for (std::size_t k = 0; k < vertices; ++k) all += "<vertex x=\"0\" y=\"0\" z=\"0\"/>";
+    all += "</vertices><triangles>";
+    for (std::size_t k = 0; k < triangles; ++k) all += "<triangle v1=\"0\" v2=\"1\" v3=\"2\"/>";
+    for (int k = 0; k < times; ++k) items += item(1);
+    const std::string root = model(object(1, all + "</triangles></mesh>"), items);
+    return reading(zip({{"_rels/.rels", relations()}, {"3D/3dmodel.model", root, false}}));
+  };
+  const std::string refused = "s: placing makes more than 1000000 copies";
+  EXPECT_EQ(placed(10'000, 0, 101), "s: there are no triangles in it");
+  EXPECT_EQ(placed(10'000, 0, 102), refused);
+  EXPECT_EQ(placed(3, 10'000, 101), "303 vertices, 1010000 triangles");
+  EXPECT_EQ(placed(3, 10'000, 102), refused);
 }
 
 }  // namespace
