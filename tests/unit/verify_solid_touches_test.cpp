@@ -1,6 +1,7 @@
 // What the checker says of a blank that is its nominal mesh, moved to touches: each cut and each way is
 // proved, and the widths follow from them.
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -124,6 +125,17 @@ TEST(SolidTouches, WhatIsCutLiesInWhatIsLeft) {
                      t["cuts"][1]["at"] = -0.5000001;
                    }),
                    "cuts[1] cuts x outside of the box that is left"));
+  // At the other end it takes off the end alone.
+  EXPECT_EQ(told(
+                [](Json& t) {
+                  cut_both(t);
+                  const Json above = t["cuts"][0], below = t["cuts"][1];
+                  t["cuts"][1]["at"] = -0.5;
+                  t["cuts"][0] = t["cuts"][1], t["cuts"][1] = above;
+                  t["cuts"].push_back(below);
+                },
+                [](SolidResultFiles& files) { fit(files); }),
+            "unproved");
   // The second cut is of what the first has left.
   EXPECT_TRUE(says(told([](Json& t) {
                      cut_above(t, 0.45);
@@ -212,13 +224,28 @@ TEST(SolidTouches, TheBoxIsAroundTheNominalMesh) {
                    "scan.touches.around does not hold the nominal mesh along y"));
   EXPECT_TRUE(says(around({-6, -6, -6}, {5.999, 6, 6}),
                    "scan.touches.around does not hold the nominal mesh along x"));
+  // It has a size along each axis, whatever the mesh has.
+  solid::Mesh flat = cases::block({-6, -6, 0}, {6, 6, 0});
+  for (std::size_t k = 4; k < 8; ++k) flat.vertices[k].x /= 2, flat.vertices[k].y /= 2;
+  const auto around_flat = [&](double low, double high) {
+    return told(
+        [&](Json& t) {
+          t["around"] = {{-6, -6, low}, {6, 6, high}};
+        },
+        [&](SolidResultFiles& files) { files.nominal = solid_files::stl_binary(flat); });
+  };
+  const std::string no_size = "scan.touches.around does not hold the nominal mesh along z";
+  EXPECT_TRUE(says(around_flat(0, 0), no_size));
+  EXPECT_FALSE(says(around_flat(0, 1e-3), no_size));
   EXPECT_TRUE(says(told([](Json& t) { t["around"] = {{-6, -6, -6}}; }), "bad input"));
   EXPECT_TRUE(says(told([](Json& t) { t["around"].push_back({0, 0, 0}); }), "bad input"));
 }
 
 TEST(SolidTouches, EveryCornerHasItsWays) {
-  const std::string missing = told([](Json& t) { t["ways"].erase(17); });
-  EXPECT_EQ(missing, "refuted; scan.touches.ways does not say how far corner 2 goes along z");
+  for (std::size_t way = 0; way < 48; ++way)
+    EXPECT_EQ(told([&](Json& t) { t["ways"].erase(way); }),
+              fmt::format("refuted; scan.touches.ways does not say how far corner {} goes along {}", way / 6,
+                          "xyz"[way / 2 % 3]));
   EXPECT_TRUE(says(told([](Json& t) { t["ways"][3]["at"] = -1e-9; }), "ways[3]: its terms do not prove"));
   EXPECT_TRUE(says(told([](Json& t) { t["ways"][3]["multiplier"] = 0; }), "ways[3]: its terms do not prove"));
   EXPECT_TRUE(says(told([](Json& t) { t["ways"][3]["multiplier"] = -1; }), "bad input"));
@@ -250,6 +277,27 @@ TEST(SolidTouches, EveryCornerHasItsWays) {
                        }
                    }),
                    "scan.widest is 0.3, but the widest triangle has 0.72"));
+}
+
+TEST(SolidTouches, AWayIsOfItsCorner) {
+  // A turn about z, of a tangent of 0.005 for half of it, takes each corner 0.06 along x and y.
+  const auto turned = [](double x, double y) {
+    return told([&](Json& t) {
+      t["turn_z"] = {-0.005, 0.005};
+      for (Json& one : t["ways"])
+        if (one["axis"] != "z") one["at"] = one["axis"] == "x" ? x : y;
+    });
+  };
+  EXPECT_TRUE(says(turned(0.0595, 0.0605), "ways[0]: its terms do not prove"));
+  EXPECT_TRUE(says(turned(0.0605, 0.0595), "ways[2]: its terms do not prove"));
+  EXPECT_TRUE(says(turned(0.0605, 0.0605), "scan.widest is 0.3, but the widest triangle has 0.3855"));
+  // A way is no shorter than none, even to where the corner was put.
+  EXPECT_TRUE(says(told([](Json& t) {
+                     t["moved"]["z"] = 0.25;
+                     for (Json& one : t["ways"])
+                       if (one["axis"] == "z") one["at"] = one["above"] == true ? -0.25 : 0.25;
+                   }),
+                   "ways[5]: its terms do not prove"));
 }
 
 TEST(SolidTouches, WaysOfCornersAreMixed) {
@@ -330,6 +378,28 @@ TEST(SolidTouches, TheBlankIsTheNominalMesh) {
                    "scan has neither a min_radius nor a max_dip"));
   EXPECT_TRUE(
       says(files([](SolidResultFiles& f) { f.result["inputs"][2]["points"] = 3; }), "3 points are said"));
+}
+
+TEST(SolidTouches, WhatHangsTogetherInOnePointAloneIsNotTheBlank) {
+  const auto two = [](double low, double high) {
+    solid::Mesh made = cases::block({-6, -6, -6}, {6, 6, 6});
+    cases::append(made, cases::block({low, low, low}, {high, high, high}));
+    return solid_files::stl_binary(made);
+  };
+  // A corner of the nominal mesh's second cube may be the first of its first cube.
+  const auto touching_at = [&](double corner) {
+    return told(
+        [](Json& t) {
+          t["around"][0] = {-8, -8, -8};
+        },
+        [&](SolidResultFiles& files) {
+          files.nominal = two(-8, corner), files.blank = two(7, 9);
+          files.result["inputs"][1]["triangles"] = files.result["inputs"][3]["triangles"] = 24;
+        });
+  };
+  const std::string apart = "of the blank does not hang together as that of the nominal mesh does";
+  EXPECT_TRUE(says(touching_at(-6), apart));
+  EXPECT_FALSE(says(touching_at(-7), apart));
 }
 
 TEST(SolidTouches, AFormThatIsNotReadIsLeftOpen) {
