@@ -154,6 +154,9 @@ TEST(SolidTouches, TermsAreOfTouchesAndBallsThatAreThere) {
   };
   EXPECT_TRUE(says(term({2, 0, 1}), "cuts[0] has a term of touch 2 and ball 0, which are not there"));
   EXPECT_TRUE(says(term({0, 1, 1}), "cuts[0] has a term of touch 0 and ball 1, which are not there"));
+  EXPECT_TRUE(
+      says(term({19'999'999, 0, 1}), "cuts[0] has a term of touch 19999999 and ball 0, which are not"));
+  EXPECT_TRUE(says(term({20'000'000, 0, 1}), "has a number of nothing"));
   EXPECT_TRUE(says(term({0, 0, 0}), "cuts[0]: its terms do not prove"));
   EXPECT_TRUE(says(term({0, 0, -1}), "bad input"));
   EXPECT_TRUE(says(term({0.5, 0, 1}), "bad input"));
@@ -239,6 +242,7 @@ TEST(SolidTouches, TheBoxIsAroundTheNominalMesh) {
   EXPECT_FALSE(says(around_flat(0, 1e-3), no_size));
   EXPECT_TRUE(says(told([](Json& t) { t["around"] = {{-6, -6, -6}}; }), "bad input"));
   EXPECT_TRUE(says(told([](Json& t) { t["around"].push_back({0, 0, 0}); }), "bad input"));
+  EXPECT_TRUE(says(around({-6, -6}, {6, 6, 6}), "bad input"));
 }
 
 TEST(SolidTouches, EveryCornerHasItsWays) {
@@ -363,8 +367,9 @@ TEST(SolidTouches, TheBlankIsTheNominalMesh) {
                    "the nominal mesh is said to have 11 triangles, but nominal.stl has 12"));
   for (const auto& without : {&SolidResultFiles::nominal, &SolidResultFiles::points})
     EXPECT_TRUE(says(files([&](SolidResultFiles& f) { (f.*without).reset(); }), "or was checked without"));
-  EXPECT_TRUE(says(files([](SolidResultFiles& f) { f.result["inputs"].erase(3); }),
-                   "names no touches or no nominal"));
+  for (const std::size_t input : {2, 3})
+    EXPECT_TRUE(says(files([&](SolidResultFiles& f) { f.result["inputs"].erase(input); }),
+                     "names no touches or no nominal"));
   EXPECT_TRUE(says(files([](SolidResultFiles& f) { f.result["inputs"].push_back(f.result["inputs"][3]); }),
                    "inputs name two nominal meshes"));
   EXPECT_TRUE(says(files([](SolidResultFiles& f) {
@@ -372,8 +377,11 @@ TEST(SolidTouches, TheBlankIsTheNominalMesh) {
                      f.result["scan"]["max_dip"] = 0.2;
                    }),
                    "inputs name a nominal mesh, but scan has no touches"));
-  EXPECT_TRUE(says(files([](SolidResultFiles& f) { f.result["scan"]["max_dip"] = 0.2; }),
-                   "scan has a min_radius or a max_dip, and touches"));
+  EXPECT_TRUE(says(files([](SolidResultFiles& f) { f.result["scan"] = nullptr; }),
+                   "inputs name a nominal mesh, but scan has no touches"));
+  for (const char* form : {"min_radius", "max_dip"})
+    EXPECT_TRUE(says(files([&](SolidResultFiles& f) { f.result["scan"][form] = 0.2; }),
+                     "scan has a min_radius or a max_dip, and touches"));
   EXPECT_TRUE(says(files([](SolidResultFiles& f) { f.result["scan"].erase("touches"); }),
                    "scan has neither a min_radius nor a max_dip"));
   EXPECT_TRUE(
