@@ -394,9 +394,9 @@ std::vector<std::string> assumptions_of(const TouchStatement& stated, const Touc
                   stated.turn * kDegreesPerRadian),
       stated.ball > 0
           ? fmt::format("each touch is the centre of a ball of {} mm that met the blank from outside, to "
-                        "within {} mm",
+                        "within {:.6g} mm",
                         stated.ball, stated.guard)
-          : fmt::format("each touch lies within {} mm of the blank's surface", stated.guard)};
+          : fmt::format("each touch lies within {:.6g} mm of the blank's surface", stated.guard)};
   if (left_out > 0)
     said.push_back(fmt::format("the {} touches that are left out are none of the surface", left_out));
   return said;
