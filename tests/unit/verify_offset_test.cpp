@@ -98,7 +98,8 @@ TEST(VerifyOffset, WorkOffsetsEndWhereTheControlHasNoMore) {
            : control == "fanuc"  ? "G21 G90 G" + code + "\nG68 X1 Y-2 Z3 I0 J0 K1 R0\n"
                                  : "G71 G" + code + "\nTRANS X1 Y-2 Z3\nAROT X0 Y0 Z0\n";
   };
-  for (const auto& [control, most] : {std::pair{"linuxcnc", 9}, {"fanuc", 6}, {"siemens", 4}}) {
+  for (const auto& [name, most] : {std::pair{"linuxcnc", 9}, {"fanuc", 6}, {"siemens", 4}}) {
+    const std::string control = name;
     const auto told = [&](int number, int of_lines) {
       return Claimed{.control = control, .work_offset = number}.told(lines(control, of_lines));
     };

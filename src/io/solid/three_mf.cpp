@@ -360,7 +360,7 @@ class ModelTaker final : public XmlTaker {
     if (object_->vertices.size() == kMostSolidVertices) return too_many_vertices();
     double xyz[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::string_view key("xyz" + axis, 1);
+      const std::string_view key = std::string_view("xyz").substr(axis, 1);
       const auto word = attributes.get(key);
       if (!word) return fmt::format("the vertex has no {}", key);
       const auto read = read_millimetres(*word, made_.unit());

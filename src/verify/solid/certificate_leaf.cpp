@@ -338,16 +338,18 @@ class LeafProof {
   Answer add_edges(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
     const Number bound = as<Number>(bound_of(term));
     const auto [a, b] = edge_of<Number>(frame_.part, term.part);
-    auto [q, r] = edge_of<Number>(frame_.blank, term.blank);
+    auto ends = edge_of<Number>(frame_.blank, term.blank);
     Near3 n{};
     {
       const auto [near_a, near_b] = edge_of<Span>(frame_.part, term.part);
       const auto [near_q, near_r] = edge_of<Span>(frame_.blank, term.blank);
       n = cross(middle_.turned(near_b - near_a), near(near_r - near_q));
-      if (std::signbit(dot(n, middle_.place(near_a) - near(near_q)))) std::swap(q, r), n = n * -1.0;
+      if (std::signbit(dot(n, middle_.place(near_a) - near(near_q))))
+        std::swap(ends[0], ends[1]), n = n * -1.0;
     }
     const double angle = std::sqrt(squared_length(n));
     if (!(angle > kLeastAngle)) return add_nothing(forms);
+    const Point &q = ends[0], &r = ends[1];
     const Point p = turned(a - pivot_), d = turned(b - a), g = r - q, u = point(n * ((1 - kShorter) / angle)),
                 beside = cross(g, u);
     /// (R d x along) . (T a - from).
