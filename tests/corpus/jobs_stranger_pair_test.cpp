@@ -1,6 +1,6 @@
 // The machined part and its rough casting of a stranger (MIT, BlankLocalizationCore.jl), which are among the
-// shared data: each of its three groups of features alone, with the rotation fixed, keeps at least the
-// allowance that its authors found, 1.489 mm around holes and 0.5 mm at faces.
+// shared data: each of its three groups of features alone, with the rotation fixed, keeps at least what its
+// authors found: 0.5 mm on the walls that are demanded, and 1.489 mm around holes by where their axes may be.
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>

@@ -22,14 +22,6 @@ using cases::Bitten;
 using solid::Motion;
 using solid::Vector;
 
-Vector of_triangle(const solid::Mesh& mesh, std::size_t k, Random& random) {
-  const auto& t = mesh.triangles[k];
-  const Vector a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
-  double u = random.uniform(0, 1), v = random.uniform(0, 1);
-  if (u + v > 1) u = 1 - u, v = 1 - v;
-  return a + u * (b - a) + v * (c - a);
-}
-
 /// The blank taken in everywhere, and moved a little.
 solid::Mesh part_in(const Bitten& blank, Random& random) {
   solid::Mesh part = cases::scanned(blank, 8 + static_cast<std::uint32_t>(random.below(5)), 0, random);
@@ -90,7 +82,7 @@ TEST(LocateScannedSolid, ThePlacedPartNeverLeavesTheTrueBlank) {
     const Motion motion = motion_of(best.pose);
     for (std::size_t t = 0; t < problem.part.triangles.size(); ++t)
       for (int i = 0; i < 4; ++i)
-        ASSERT_GE(drawn.blank.depth(motion(of_triangle(problem.part, t, random))), best.clearance);
+        ASSERT_GE(drawn.blank.depth(motion(cases::of_triangle(problem.part, t, random))), best.clearance);
   }
   EXPECT_GT(inside, 0U) << "no part was placed, so nothing was tested";
   EXPECT_GT(closed, 0U) << "no bound was closed";

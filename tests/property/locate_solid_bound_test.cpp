@@ -49,16 +49,26 @@ double bound_of(const std::vector<SolidForm>& terms, const CellView& view, Rando
   return std::max(least, sum.most(view));
 }
 
+cases::SolidCase one_of_three(std::uint64_t i, Random& random) {
+  return i % 3 == 0   ? cases::cored_block(random, 4)
+         : i % 3 == 1 ? cases::turned_part(random, 12)
+                      : cases::wavy_part(random, 8);
+}
+
+/// The part begins where it fits.
+SolidProblem lying_there(const cases::SolidCase& pair) {
+  SolidProblem problem{pair.part, pair.blank, {}};
+  for (Vector& p : problem.part.vertices) p = pair.there(p);
+  return problem;
+}
+
 TEST(SolidMeter, AGlanceMeetsNothingNearerThanAMeasurement) {
   Random random(cases::seed(), 82);
   std::size_t inside = 0, crossing = 0;
   for (std::uint64_t i = 0; i < cases::case_count(9); ++i) {
-    const cases::SolidCase pair = i % 3 == 0   ? cases::cored_block(random, 4)
-                                  : i % 3 == 1 ? cases::turned_part(random, 12)
-                                               : cases::wavy_part(random, 8);
+    const cases::SolidCase pair = one_of_three(i, random);
     SCOPED_TRACE(pair.kind);
-    SolidProblem problem{pair.part, pair.blank, {}};
-    for (Vector& p : problem.part.vertices) p = pair.there(p);
+    SolidProblem problem = lying_there(pair);
     problem.shift = 1, problem.turn = 0.02;
     const SolidMeter meter(problem, frame_of(problem));
     for (int k = 0; k < 4; ++k) {
@@ -94,12 +104,9 @@ TEST(SolidBounds, NoContactAllowsLessThanAPoseOfTheBoxHas) {
   Random random(cases::seed(), 81);
   std::size_t inside = 0, tight = 0;
   for (std::uint64_t i = 0; i < cases::case_count(12); ++i) {
-    const cases::SolidCase pair = i % 3 == 0   ? cases::cored_block(random, 4)
-                                  : i % 3 == 1 ? cases::turned_part(random, 12)
-                                               : cases::wavy_part(random, 8);
+    const cases::SolidCase pair = one_of_three(i, random);
     SCOPED_TRACE(pair.kind);
-    SolidProblem problem{pair.part, pair.blank, {}};
-    for (Vector& p : problem.part.vertices) p = pair.there(p);
+    SolidProblem problem = lying_there(pair);
     SolidFrame frame;
     frame.start = {1, 0, 0, 0};
     const solid::Box box = box_of(problem.part.vertices);

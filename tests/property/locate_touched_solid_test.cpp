@@ -20,14 +20,6 @@ using cases::TouchedCasting;
 using solid::TriangleTree;
 using solid::Vector;
 
-Vector of_triangle(const solid::Mesh& mesh, std::size_t k, Random& random) {
-  const auto& t = mesh.triangles[k];
-  const Vector a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
-  double u = random.uniform(), v = random.uniform();
-  if (u + v > 1) u = 1 - u, v = 1 - v;
-  return a + u * (b - a) + v * (c - a);
-}
-
 struct Touched {
   cases::SolidCase solids;
   TouchedCasting casting;
@@ -80,7 +72,7 @@ TEST(LocateTouchedSolid, NothingPromisedIsAir) {
       const std::size_t t = random.below(found.mesh.triangles.size());
       const auto& corners = tree.corners(tree.place_in_order(static_cast<std::uint32_t>(t)));
       const Vector across = cross(corners[1] - corners[0], corners[2] - corners[0]);
-      const Vector q = of_triangle(found.mesh, t, random) -
+      const Vector q = cases::of_triangle(found.mesh, t, random) -
                        random.uniform(0, 1.2) * found.widths[t] / norm(across) * across;
       if (!tree.holds(q)) continue;
       if (!drawn.casting.is_material(q)) ++air_without;
@@ -112,7 +104,7 @@ TEST(LocateTouchedSolid, APlacedPartNeverLeavesTheTrueCasting) {
     const solid::Motion motion = motion_of(found->pose);
     for (std::size_t t = 0; t < problem.part.triangles.size(); ++t)
       for (int i = 0; i < 4; ++i)
-        ASSERT_TRUE(drawn.casting.is_material(motion(of_triangle(problem.part, t, random))));
+        ASSERT_TRUE(drawn.casting.is_material(motion(cases::of_triangle(problem.part, t, random))));
   }
   EXPECT_GT(inside, 0U) << "no part was placed, so nothing was tested";
 }

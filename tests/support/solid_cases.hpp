@@ -309,4 +309,13 @@ inline SolidCase wavy_part(Random& random, std::uint32_t rows = 24) {
   return made;
 }
 
+/// A place of a triangle.
+inline solid::Vector of_triangle(const solid::Mesh& mesh, std::size_t k, Random& random) {
+  const auto& t = mesh.triangles[k];
+  const solid::Vector a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
+  double u = random.uniform(0, 1), v = random.uniform(0, 1);
+  if (u + v > 1) u = 1 - u, v = 1 - v;
+  return a + u * (b - a) + v * (c - a);
+}
+
 }  // namespace lekalo::cases

@@ -41,8 +41,8 @@ tl::unexpected<Error> refuse_points(const std::string& name, const char* way_out
 
 tl::unexpected<Error> refuse_pair(const std::string& solid, const std::string& outline) {
   return failure(ErrorCode::bad_input,
-                 fmt::format("{} is a solid and {} is none; give both as solids (STL, PLY, OBJ), or both as "
-                             "outlines in the plane",
+                 fmt::format("{} is a solid and {} is none; give both as solids (STL, PLY, OBJ, 3MF), the "
+                             "blank as points \"x y z\" too, or both as outlines in the plane",
                              solid, outline));
 }
 

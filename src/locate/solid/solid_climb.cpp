@@ -59,32 +59,30 @@ std::vector<LinearBound<6>> rows_at(const SolidMeter& meter, const MeasuredSolid
   return rows;
 }
 
-}  // namespace
-
-std::optional<MeasuredSolid> measured_unless_stopped(const SolidMeter& meter, const FramedPose& pose,
-                                                     double most, std::size_t count, const RunControl& run,
-                                                     std::vector<SolidContact>& contacts) {
+template <class Found, class Look>
+std::optional<Found> unless_stopped(const RunControl& run, const Look& look) {
   RunControl until_stop;
   until_stop.stop = run.stop;
   const Listening listening(until_stop);
   try {
-    return meter.measure(pose, most, count, contacts);
+    return look();
   } catch (const Stopped&) {
     return std::nullopt;
   }
 }
 
+}  // namespace
+
+std::optional<MeasuredSolid> measured_unless_stopped(const SolidMeter& meter, const FramedPose& pose,
+                                                     double most, std::size_t count, const RunControl& run,
+                                                     std::vector<SolidContact>& contacts) {
+  return unless_stopped<MeasuredSolid>(run, [&] { return meter.measure(pose, most, count, contacts); });
+}
+
 std::optional<double> glanced_unless_stopped(const SolidMeter& meter, const FramedPose& pose, double most,
                                              std::size_t count, const RunControl& run,
                                              std::vector<SolidContact>& contacts) {
-  RunControl until_stop;
-  until_stop.stop = run.stop;
-  const Listening listening(until_stop);
-  try {
-    return meter.glance(pose, most, count, contacts);
-  } catch (const Stopped&) {
-    return std::nullopt;
-  }
+  return unless_stopped<double>(run, [&] { return meter.glance(pose, most, count, contacts); });
 }
 
 MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trust, double enough,

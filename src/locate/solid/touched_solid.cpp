@@ -81,7 +81,7 @@ Result<void> check(const TouchStatement& stated) {
                    "the window of the nominal mesh must have turns from 0 to an eighth of a turn");
   if (stated.ball > 0 && !(0.5 * stated.ball > stated.guard))
     return failure(ErrorCode::usage,
-                   fmt::format("a ball of {} mm must have a radius above {} mm, what the touches are "
+                   fmt::format("a ball of {} mm must have a radius above {:.6g} mm, what the touches are "
                                "uncertain by",
                                stated.ball, stated.guard));
   return {};
