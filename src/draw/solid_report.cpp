@@ -175,35 +175,50 @@ class SolidReportPage {
     return y;
   }
 
+  /// What is proved of all placements, and what this one has: of the allowance, or over the demands.
+  [[nodiscard]] const std::optional<double>& bound() const {
+    return scene_.margin ? scene_.margin->bound : scene_.upper_bound;
+  }
+  [[nodiscard]] std::optional<double> reached() const {
+    if (scene_.margin) return scene_.margin->is;
+    return scene_.placement.inside ? std::optional(scene_.placement.clearance) : std::nullopt;
+  }
   [[nodiscard]] std::string none_has() const {
-    return fmt::format("no placement moved {} leaves more than {} mm everywhere", window_text(report_),
-                       decimal(*scene_.upper_bound, look_.decimals, Rounding::up));
+    return fmt::format("no placement moved {}{} leaves more than {} mm {}", window_text(report_),
+                       scene_.margin && scene_.margin->datums ? ", of those that keep the datums," : "",
+                       decimal(*bound(), look_.decimals, Rounding::up),
+                       scene_.margin ? "over the demands" : "everywhere");
   }
   [[nodiscard]] std::string this_has() const {
-    if (!scene_.placement.inside) return "the best found is not inside the blank";
-    return fmt::format("this one leaves at least {} mm",
-                       decimal(scene_.placement.clearance, look_.decimals, Rounding::down));
+    const std::optional<double> is = reached();
+    if (!is)
+      return scene_.margin && scene_.margin->datums
+                 ? "the best found is not inside the blank, or does not keep a datum"
+                 : "the best found is not inside the blank";
+    return fmt::format("this one leaves at least {} mm{}", decimal(*is, look_.decimals, Rounding::down),
+                       scene_.margin ? " over them" : "");
   }
   [[nodiscard]] std::string verdict() const {
-    if (!scene_.upper_bound)
+    if (!bound())
       return fmt::format("Nothing is proved about other placements: the method {} cannot; {}.", scene_.method,
                          this_has());
     if (scene_.status == "infeasible")
       return fmt::format("Proved: {}; {}; {}.",
-                         scene_.min_allowance > 0
+                         scene_.margin ? std::string("what is demanded cannot be had")
+                         : scene_.min_allowance > 0
                              ? fmt::format("the demanded {} mm cannot be had", scene_.min_allowance)
                              : std::string("the part does not fit"),
                          none_has(), this_has());
-    if (scene_.status == "optimal")
-      return fmt::format(
-          "Proved: {}; {}. So no other is better by more than {} mm.", none_has(), this_has(),
-          short_number_up(difference_rounded_up(*scene_.upper_bound, scene_.placement.clearance)));
+    if (scene_.status == "optimal" && reached())
+      return fmt::format("Proved: {}; {}. So no other is better by more than {} mm.", none_has(), this_has(),
+                         short_number_up(difference_rounded_up(*bound(), *reached())));
     return fmt::format("Stopped before the search was complete: {}. Proved so far: {}.", this_has(),
                        none_has());
   }
   [[nodiscard]] std::vector<std::string> proof() const {
     std::vector<std::string> sentences{verdict()};
-    const std::string boxes = fmt::format("The proof, {} boxes of poses, is in ", report_.certificate_boxes);
+    const std::string boxes = fmt::format("The proof, {} {} of poses, is in ", report_.certificate_boxes,
+                                          report_.certificate_boxes == 1 ? "box" : "boxes");
     const std::string recheck = "lekalo verify rechecks the clearance exactly, with code of its own";
     if (report_.certificate_boxes == 0) {
       sentences.push_back(recheck + ".");

@@ -68,6 +68,14 @@ TEST(SolidReport, SaysWhatIsProvedAndWhatIsNot) {
   EXPECT_TRUE(has(svg, "Nothing is proved about other placements"));
   EXPECT_FALSE(has(svg, "boxes of poses"));
   report = example();
+  report.scene.upper_bound.reset(), report.scene.margin = {0.25, 0.5, true}, report.certificate_boxes = 1;
+  svg = solid_report_svg(report);
+  EXPECT_TRUE(has(svg, "Proved: no placement moved")) << svg;
+  EXPECT_FALSE(has(svg, "Nothing is proved"));
+  EXPECT_TRUE(has(svg, "1 box of poses"));
+  report.scene.status = "infeasible", report.scene.margin = {-0.5, -0.25, false};
+  EXPECT_TRUE(has(solid_report_svg(report), "what is demanded"));
+  report = example();
   report.scene.status = "infeasible", report.scene.min_allowance = 2, report.scene.shortfall = 1;
   report.certificate_file = {"part.certificate.json", std::string(64, 'c')};
   svg = solid_report_svg(report);
