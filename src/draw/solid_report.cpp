@@ -175,7 +175,7 @@ class SolidReportPage {
     return y;
   }
 
-  /// What is proved of all placements, and what this one has: of the allowance, or over the demands.
+  /// The figures that count: those of the allowance, or of what is left over the demands.
   [[nodiscard]] const std::optional<double>& bound() const {
     return scene_.margin ? scene_.margin->bound : scene_.upper_bound;
   }
