@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lekalo/base/disjoint_sets.hpp"
+#include "lekalo/base/parallel.hpp"
 #include "lekalo/base/stop.hpp"
 #include "triangle_pair.hpp"
 
@@ -15,8 +16,6 @@ namespace {
 /// Moving a point, differences and products with a unit vector are some forty roundings of 2^-53 of the
 /// coordinates; making boxes and their axes, moving them and all their shadows less than two hundred.
 constexpr double kPairRounding = 0x1p-45;
-/// The part is cut into this many pieces, if it has as many triangles.
-constexpr std::size_t kPieces = 64;
 
 }  // namespace
 
@@ -34,7 +33,7 @@ std::vector<Vector> surface_points(const Mesh& mesh) {
 }
 
 MeshClearance::Blank::Blank(const Mesh& blank, const std::vector<double>& widths)
-    : tree(blank, 1), boxes(oriented_boxes(tree)), points(surface_points(blank)) {
+    : tree(blank, 1), boxes(tree), points(surface_points(blank)) {
   if (widths.empty()) return;
   for (std::uint32_t k = 0; k < widths.size(); ++k) width.push_back(widths[tree.triangle(k)]);
   const auto& nodes = tree.nodes();
@@ -44,18 +43,29 @@ MeshClearance::Blank::Blank(const Mesh& blank, const std::vector<double>& widths
         nodes[at].right == 0 ? width[nodes[at].begin] : std::max(widest[at + 1], widest[nodes[at].right]);
 }
 
-MeshClearance::MeshClearance(const Mesh& part, std::shared_ptr<const Blank> blank)
-    : part_(part, 1),
-      part_boxes_(oriented_boxes(part_)),
+MeshClearance::MeshClearance(const Mesh& part, TriangleTree tree, std::shared_ptr<const Blank> blank)
+    : part_(std::move(tree)),
+      part_boxes_(part_),
       pieces_(part_.patches(kPieces)),
       of_part_(surface_points(part)),
       blank_(std::move(blank)) {}
 
-MeshClearance::MeshClearance(const Mesh& part, const Mesh& blank, const std::vector<double>& widths)
-    : MeshClearance(part, std::make_shared<const Blank>(blank, widths)) {}
+MeshClearance::MeshClearance(const Mesh& part, const Mesh& blank, const std::vector<double>& widths,
+                             unsigned threads)
+    : MeshClearance([&] {
+        std::optional<TriangleTree> of_part;
+        std::shared_ptr<const Blank> of_blank;
+        share_out(2, threads, [&](std::size_t k) {
+          if (k == 0)
+            of_part.emplace(part, 1);
+          else
+            of_blank = std::make_shared<const Blank>(blank, widths);
+        });
+        return MeshClearance(part, *std::move(of_part), std::move(of_blank));
+      }()) {}
 
 MeshClearance::MeshClearance(const Mesh& part, const MeshClearance& other)
-    : MeshClearance(part, other.blank_) {}
+    : MeshClearance(part, TriangleTree(part, 1), other.blank_) {}
 
 /// Walks both trees at one pose.
 struct MeshClearance::Walk {
@@ -108,12 +118,16 @@ struct MeshClearance::Walk {
     std::size_t count = 0;
     const auto& of_parts = meter.part_.nodes();
     const auto& of_blanks = blank.tree.nodes();
-    const auto& part_boxes = meter.part_boxes_;
-    const auto& blank_boxes = blank.boxes;
+    const auto part_box = [&](std::uint32_t at) -> const OrientedBox& {
+      return meter.part_boxes_.of(meter.part_, at);
+    };
+    const auto blank_box = [&](std::uint32_t at) -> const OrientedBox& {
+      return blank.boxes.of(blank.tree, at);
+    };
     const auto push = [&](const Open& open) {
       if (!apart(open.gap, open.at_blank)) stack[count++] = open;
     };
-    push({squared_gap(moved(motion, part_boxes[of_part]), blank_boxes[of_blank]), of_part, of_blank});
+    push({squared_gap(moved(motion, part_box(of_part)), blank_box(of_blank)), of_part, of_blank});
     while (count > 0) {
       if (cross || limit + widest() <= rounding) {
         // They cross, and no other pair is needed to know that.
@@ -131,16 +145,15 @@ struct MeshClearance::Walk {
         continue;
       }
       Open one, other;
-      if (b.right == 0 || (p.right != 0 && part_boxes[part].size() > blank_boxes[at_blank].size())) {
+      const OrientedBox &of_p = part_box(part), &of_b = blank_box(at_blank);
+      if (b.right == 0 || (p.right != 0 && of_p.size() > of_b.size())) {
         const auto child = [&](std::uint32_t at) {
-          return Open{squared_gap(moved(motion, part_boxes[at]), blank_boxes[at_blank]), at, at_blank};
+          return Open{squared_gap(moved(motion, part_box(at)), of_b), at, at_blank};
         };
         one = child(part + 1), other = child(p.right);
       } else {
-        const OrientedBox box = moved(motion, part_boxes[part]);
-        const auto child = [&](std::uint32_t at) {
-          return Open{squared_gap(box, blank_boxes[at]), part, at};
-        };
+        const OrientedBox box = moved(motion, of_p);
+        const auto child = [&](std::uint32_t at) { return Open{squared_gap(box, blank_box(at)), part, at}; };
         one = child(at_blank + 1), other = child(b.right);
       }
       if (other.gap < one.gap) std::swap(one, other);
@@ -197,10 +210,23 @@ NearPair MeshClearance::pair(const Motion& blank_from_part, std::uint32_t part_t
 }
 
 void MeshClearance::nearest_by_piece(const Motion& blank_from_part, double most, std::size_t count,
-                                     std::vector<NearPair>& found) const {
+                                     std::vector<NearPair>& found, unsigned threads) const {
   found.clear();
-  Walk walk(*this, blank_from_part);
   const auto nearer = [](const NearPair& a, const NearPair& b) { return a.high < b.high; };
+  if (count >= pieces_.size()) {
+    std::vector<std::optional<NearPair>> of_piece(pieces_.size());
+    share_out(pieces_.size(), threads, [&](std::size_t k) {
+      Walk walk(*this, blank_from_part);
+      walk.start(most);
+      walk.walk(pieces_[k], 0);
+      if (walk.found) of_piece[k] = walk.pair();
+    });
+    for (const std::optional<NearPair>& pair : of_piece)
+      if (pair) found.push_back(*pair);
+    std::stable_sort(found.begin(), found.end(), nearer);
+    return;
+  }
+  Walk walk(*this, blank_from_part);
   for (const std::uint32_t piece : pieces_) {
     walk.start(found.size() < count ? most : std::min(most, found.front().high));
     walk.walk(piece, 0);

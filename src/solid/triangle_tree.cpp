@@ -78,48 +78,66 @@ double distance(const Corners& t, Vector p) noexcept {
 }
 
 TriangleTree::TriangleTree(const Mesh& mesh, std::uint32_t leaf) {
-  std::vector<Corners> all;
-  all.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles)
-    all.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
-  order_.resize(all.size());
-  for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
-  if (all.empty()) return;
-  nodes_.reserve(all.size());
-  build(0, static_cast<std::uint32_t>(all.size()), leaf, all);
+  const auto corners_of = [&](std::uint32_t triangle) {
+    const Triangle& t = mesh.triangles[triangle];
+    return Corners{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+  };
+  std::vector<Middle> middles(mesh.triangles.size());
+  for (std::uint32_t k = 0; k < middles.size(); ++k) {
+    const Corners t = corners_of(k);
+    middles[k] = {t[0] + t[1] + t[2], k};
+  }
+  if (middles.empty()) return;
+  nodes_.reserve(2 * middles.size() / std::max(1U, leaf) + 1);
+  sort(0, static_cast<std::uint32_t>(middles.size()), leaf, middles);
+  order_.resize(middles.size());
+  place_in_order_.resize(middles.size());
+  corners_.reserve(middles.size());
+  for (std::uint32_t k = 0; k < order_.size(); ++k) {
+    order_[k] = middles[k].triangle;
+    place_in_order_[order_[k]] = k;
+    corners_.push_back(corners_of(order_[k]));
+  }
+  // Children come behind their parents.
+  for (std::size_t at = nodes_.size(); at-- > 0;) {
+    Node& node = nodes_[at];
+    if (node.right != 0) {
+      node.box = nodes_[at + 1].box;
+      node.box.hold(nodes_[node.right].box.low);
+      node.box.hold(nodes_[node.right].box.high);
+      continue;
+    }
+    for (std::uint32_t k = node.begin; k < node.end; ++k)
+      for (const Vector p : corners_[k]) node.box.hold(p);
+  }
   box_ = nodes_[0].box;
   largest_ = std::max(largest_coordinate(box_.low), largest_coordinate(box_.high));
-  corners_.reserve(all.size());
-  place_in_order_.resize(all.size());
-  for (std::uint32_t k = 0; k < order_.size(); ++k) {
-    corners_.push_back(all[order_[k]]);
-    place_in_order_[order_[k]] = k;
-  }
 }
 
-std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end, std::uint32_t leaf,
-                                  const std::vector<Corners>& all) {
+/// Halves triangles along the axis along which their middles are spread most.
+std::uint32_t TriangleTree::sort(std::uint32_t begin, std::uint32_t end, std::uint32_t leaf,
+                                 std::vector<Middle>& middles) {
   ask(end - begin);
   const auto at = static_cast<std::uint32_t>(nodes_.size());
-  Box box, middles;
-  const auto middle = [&](std::uint32_t i) { return all[i][0] + all[i][1] + all[i][2]; };
-  for (std::uint32_t k = begin; k < end; ++k) {
-    for (const Vector p : all[order_[k]]) box.hold(p);
-    middles.hold(middle(order_[k]));
-  }
-  nodes_.push_back({box, begin, end, 0});
+  nodes_.push_back({{}, begin, end, 0});
   if (end - begin <= leaf) return at;
-  const Vector spread = middles.high - middles.low;
-  const double Vector::*const axis = spread.x >= spread.y && spread.x >= spread.z ? &Vector::x
-                                     : spread.y >= spread.z                       ? &Vector::y
-                                                                                  : &Vector::z;
+  Box box;
+  for (std::uint32_t k = begin; k < end; ++k) box.hold(middles[k].sum);
+  const Vector spread = box.high - box.low;
   const std::uint32_t half = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
-                   [&](std::uint32_t a, std::uint32_t b) {
-                     return std::pair(middle(a).*axis, a) < std::pair(middle(b).*axis, b);
-                   });
-  build(begin, half, leaf, all);
-  const std::uint32_t right = build(half, end, leaf, all);
+  const auto split = [&](double Vector::*const axis) {
+    std::nth_element(middles.begin() + begin, middles.begin() + half, middles.begin() + end,
+                     [axis](const Middle& a, const Middle& b) {
+                       return a.sum.*axis < b.sum.*axis ||
+                              (a.sum.*axis == b.sum.*axis && a.triangle < b.triangle);
+                     });
+  };
+  if (spread.x >= spread.y && spread.x >= spread.z)
+    split(&Vector::x);
+  else
+    split(spread.y >= spread.z ? &Vector::y : &Vector::z);
+  sort(begin, half, leaf, middles);
+  const std::uint32_t right = sort(half, end, leaf, middles);
   nodes_[at].right = right;
   return at;
 }
@@ -213,6 +231,38 @@ double TriangleTree::least_sum(Vector p, const std::vector<double>& widths, doub
     open.push_back(left);
   }
   return best - 2 * rounding;
+}
+
+Vector TriangleTree::foremost(Vector direction) const {
+  const Vector n = direction;
+  const auto lowest = [n](const Box& box) {
+    return n.x * (n.x > 0 ? box.low.x : box.high.x) + n.y * (n.y > 0 ? box.low.y : box.high.y) +
+           n.z * (n.z > 0 ? box.low.z : box.high.z);
+  };
+  double least = std::numeric_limits<double>::infinity();
+  Vector found;
+  // Each step leaves one node behind, so there are as many as the tree is high.
+  std::array<std::pair<double, std::uint32_t>, 64> stack;
+  std::size_t size = 0;
+  stack[size++] = {lowest(nodes_[0].box), 0};
+  while (size > 0) {
+    const auto [low, at] = stack[--size];
+    if (low >= least) continue;
+    const Node& node = nodes_[at];
+    ask();
+    if (node.right == 0) {
+      for (std::uint32_t k = node.begin; k < node.end; ++k)
+        for (const Vector p : corners_[k])
+          if (const double along = dot(n, p); along < least) least = along, found = p;
+      continue;
+    }
+    std::pair<double, std::uint32_t> one{lowest(nodes_[at + 1].box), at + 1},
+        other{lowest(nodes_[node.right].box), node.right};
+    if (other.first < one.first) std::swap(one, other);
+    stack[size++] = other;
+    stack[size++] = one;
+  }
+  return found;
 }
 
 bool TriangleTree::holds(Vector p) const {

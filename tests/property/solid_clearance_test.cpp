@@ -140,6 +140,20 @@ TEST(TriangleTree, SidesHoldWhereTheWayMeetsCornersAndEdges) {
   }
 }
 
+TEST(TriangleTree, TheForemostCornerIsOne) {
+  Random random(cases::seed(), 46);
+  for (std::size_t i = 0; i < cases::case_count(10); ++i) {
+    const solid::Mesh mesh = body(random);
+    const solid::TriangleTree tree(mesh, 1 + static_cast<std::uint32_t>(random.below(4)));
+    for (int k = 0; k < 10; ++k) {
+      const Vector n{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+      double least = 1e300;
+      for (const Vector v : mesh.vertices) least = std::min(least, dot(n, v));
+      EXPECT_EQ(dot(n, tree.foremost(n)), least);
+    }
+  }
+}
+
 TEST(TriangleTree, ABoundHoldsBesideTrianglesAsThinAsCanBe) {
   Random random(cases::seed(), 43);
   for (std::size_t i = 0; i < cases::case_count(2000); ++i) {

@@ -45,10 +45,9 @@ TEST(OrientedBox, HoldsTheTrianglesOfItsNode) {
     const Motion motion = cases::small_motion(random, 3, 100);
     for (Vector& p : mesh.vertices) p = motion({p.x, p.y, flat * p.z});
     const TriangleTree tree(mesh, 1 + static_cast<std::uint32_t>(random.below(4)));
-    const auto boxes = oriented_boxes(tree);
-    ASSERT_EQ(boxes.size(), tree.nodes().size());
-    for (std::size_t at = 0; at < boxes.size(); ++at) {
-      const OrientedBox& box = boxes[at];
+    const solid::OrientedBoxes boxes(tree);
+    for (std::uint32_t at = 0; at < tree.nodes().size(); ++at) {
+      const OrientedBox& box = boxes.of(tree, at);
       expect_across(box);
       const TriangleTree::Node& node = tree.nodes()[at];
       for (std::uint32_t k = node.begin; k < node.end; ++k)
@@ -66,15 +65,15 @@ TEST(OrientedBox, OfTrianglesWithoutAreaHoldsThem) {
   mesh.vertices = {{1, 2, 3}, {4, 2, 3}, {2.5, 2, 3}, {1e-200, 0, 0}, {0, 1e-200, 0}, {0, 0, 1e-200}};
   mesh.triangles = {{0, 0, 0}, {0, 1, 2}, {0, 1, 1}, {3, 4, 5}};
   const TriangleTree tree(mesh, 1);
-  const auto boxes = oriented_boxes(tree);
-  for (std::size_t at = 0; at < boxes.size(); ++at) {
-    expect_across(boxes[at]);
+  const solid::OrientedBoxes boxes(tree);
+  for (std::uint32_t at = 0; at < tree.nodes().size(); ++at) {
+    const OrientedBox& box = boxes.of(tree, at);
+    expect_across(box);
     const TriangleTree::Node& node = tree.nodes()[at];
     for (std::uint32_t k = node.begin; k < node.end; ++k)
       for (const Vector p : tree.corners(k))
         for (std::size_t axis = 0; axis < 3; ++axis)
-          EXPECT_LE(std::abs(dot(boxes[at].axes[axis], p - boxes[at].middle)),
-                    half_widths(boxes[at])[axis] + 1e-14);
+          EXPECT_LE(std::abs(dot(box.axes[axis], p - box.middle)), half_widths(box)[axis] + 1e-14);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -57,12 +58,34 @@ class ClearanceMeter {
 
  private:
   class Pass;
+  /// Points that lie beside each other.
+  struct Group {
+    std::array<float, 3> centre{};  ///< as from_middle
+    float radius = 0;               ///< mm, around all of them
+    /// No point of it was nearer than this when it was looked at, at the pose with this number.
+    float low = -std::numeric_limits<float>::infinity();
+    std::uint32_t seen = 0;
+    double bound = 0;  ///< the same at the pose that is asked for
+  };
+  /// How points, as seen from their middle, have moved since a pose: by `shift` and `turn` times the place.
+  struct Step {
+    Vector shift;
+    std::array<Vector, 3> turn;
+    double most = 0;  ///< the turn makes no way longer than by this factor
+    double off = 0;   ///< mm, what rounding may have added
+  };
+  std::uint32_t remembered(const Motion& motion);
+  void find_steps(const Motion& motion);
 
   const TriangleTree* tree_;
   PointCloud cloud_;
   DistanceField field_;
   unsigned threads_;
   std::vector<float> bounds_;
+  std::vector<Group> groups_;
+  std::vector<Motion> poses_;
+  std::vector<Step> steps_;
+  std::size_t last_ = 0;  ///< the nearest point of the pose before
 };
 
 }  // namespace lekalo::solid

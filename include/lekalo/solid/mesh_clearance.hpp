@@ -28,7 +28,9 @@ struct NearPair {
 class MeshClearance {
  public:
   /// \param widths  of the blank's triangles, mm, >= 0; or none, of a blank taken as drawn
-  MeshClearance(const Mesh& part, const Mesh& blank, const std::vector<double>& widths = {});
+  /// \param threads  that make the trees
+  MeshClearance(const Mesh& part, const Mesh& blank, const std::vector<double>& widths = {},
+                unsigned threads = 1);
   /// Some triangles of a part, which need not be closed, in the blank of another.
   MeshClearance(const Mesh& part, const MeshClearance& other);
 
@@ -54,10 +56,11 @@ class MeshClearance {
                               std::uint32_t blank_triangle) const;
 
   /// The nearest pairs of those pieces of the part that have one less than `most` apart, or some pair of a
-  /// piece that crosses: at most `count` of them, nearest first. The pieces are some tens of patches of like
-  /// size. \pre count > 0
+  /// piece that crosses: at most `count` of them, nearest first. The pieces are kPieces patches of like size,
+  /// if the part has as many triangles; threads share them out where all are wanted. \pre count > 0
   void nearest_by_piece(const Motion& blank_from_part, double most, std::size_t count,
-                        std::vector<NearPair>& found) const;
+                        std::vector<NearPair>& found, unsigned threads = 1) const;
+  static constexpr std::size_t kPieces = 64;
 
   /// Says if the part lies inside the blank where their surfaces are apart: a point of each surface of the
   /// part is in the blank, and a point of each of the blank is not in the part. Where they cross it may say
@@ -72,16 +75,16 @@ class MeshClearance {
     Blank(const Mesh& blank, const std::vector<double>& widths);
 
     TriangleTree tree;
-    std::vector<OrientedBox> boxes;  ///< of the tree's nodes
+    OrientedBoxes boxes;  ///< of the tree's nodes
     /// The widths of its triangles in leaf order, and the widest of each node; both empty without widths.
     std::vector<double> width, widest;
     /// A vertex of each surface that hangs together.
     std::vector<Vector> points;
   };
-  MeshClearance(const Mesh& part, std::shared_ptr<const Blank> blank);
+  MeshClearance(const Mesh& part, TriangleTree tree, std::shared_ptr<const Blank> blank);
 
   TriangleTree part_;
-  std::vector<OrientedBox> part_boxes_;
+  OrientedBoxes part_boxes_;
   /// The roots of the pieces.
   std::vector<std::uint32_t> pieces_;
   std::vector<Vector> of_part_;

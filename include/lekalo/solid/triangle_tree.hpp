@@ -50,6 +50,9 @@ class TriangleTree {
   /// Appends the triangles that this way crosses, in any order, and returns how many were looked at.
   std::size_t crossed_above(Vector p, std::vector<std::uint32_t>& triangles) const;
 
+  /// The corner that is foremost against a direction: the product with it is least. \pre there are triangles
+  [[nodiscard]] Vector foremost(Vector direction) const;
+
   [[nodiscard]] const Box& box() const noexcept { return box_; }
 
   struct Node {
@@ -72,8 +75,13 @@ class TriangleTree {
   [[nodiscard]] double largest() const noexcept { return largest_; }
 
  private:
-  std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::uint32_t leaf,
-                      const std::vector<Corners>& all);
+  /// Three times the middle of a triangle.
+  struct Middle {
+    Vector sum;
+    std::uint32_t triangle = 0;
+  };
+  std::uint32_t sort(std::uint32_t begin, std::uint32_t end, std::uint32_t leaf,
+                     std::vector<Middle>& middles);
   template <class Visit>
   void descend(std::uint32_t at, const Visit& visit, Vector p) const;
 
