@@ -4,10 +4,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,11 +45,26 @@ bool cuts_in(const solid::MeshClearance& truth, const locate::SolidPlacement& pl
   return !(near->high >= placed.clearance && truth.inside(motion));
 }
 
-void try_one(std::uint64_t number, std::uint64_t seed, double limit, std::uint64_t points, Tally& all) {
-  const cases::SolidCase drawn = cases::casting(number, seed);
-  const solid::MeshClearance truth(drawn.part, drawn.blank);
-  const double there = truth.nearest(drawn.there)->low;
-  locate::SolidProblem problem{drawn.part, drawn.blank, {}};
+/// How the castings are placed, and how many times as many triangles they have.
+struct How {
+  locate::SolidFreedom freedom = locate::SolidFreedom::six;
+  double finer = 1;
+};
+
+void try_one(std::uint64_t number, std::uint64_t seed, double limit, std::uint64_t points, const How& how,
+             Tally& all) {
+  cases::SolidCase drawn = cases::casting(number, seed);
+  if (how.finer > 1)
+    for (solid::Mesh* const mesh : {&drawn.part, &drawn.blank})
+      *mesh = cases::refined_by(std::move(*mesh), how.finer * static_cast<double>(mesh->triangles.size()));
+  const double there = solid::MeshClearance(drawn.part, drawn.blank).nearest(drawn.there)->low;
+  locate::SolidProblem problem{drawn.part, drawn.blank, {}, how.freedom};
+  if (how.freedom != locate::SolidFreedom::six) {
+    // It lies upright, and off by a turn about z and a shift.
+    solid::Motion off = cases::turn({0, 0, 1}, how.freedom == locate::SolidFreedom::xyz ? 0 : 0.04);
+    off.shift = {2, -1.5, 1};
+    for (solid::Vector& p : problem.part.vertices) p = off(drawn.there(p));
+  }
   double seen = 1;
   if (points > 0) {
     Random random(seed, 10'000 + number);
@@ -66,6 +85,7 @@ void try_one(std::uint64_t number, std::uint64_t seed, double limit, std::uint64
   const locate::SolidPlacement rival = place_solid_icp(problem, options).value();
   const double icp = seconds() - start;
 
+  const solid::MeshClearance truth(problem.part, drawn.blank);
   // The search asks now and then, and ends a little after the limit.
   std::atomic<bool> stop = false;
   start = seconds();
@@ -91,6 +111,37 @@ void try_one(std::uint64_t number, std::uint64_t seed, double limit, std::uint64
   all.times.push_back(time), all.climbs.push_back(climb);
 }
 
+/// A binary STL.
+solid::Mesh read_stl(const char* name) {
+  std::ifstream file(name, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  solid::Mesh mesh;
+  for (std::size_t at = 84; at + 50 <= bytes.size(); at += 50) {
+    std::array<float, 9> corners{};
+    std::memcpy(corners.data(), bytes.data() + at + 12, sizeof(corners));
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (std::size_t k = 0; k < 9; k += 3)
+      mesh.vertices.push_back({corners[k], corners[k + 1], corners[k + 2]});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return closed_mesh(std::move(mesh)).value().mesh;
+}
+
+/// Prints the seconds of a climb by the clock and of processor time, its pose and its clearance, for
+/// open3d_icp.py.
+void place_files(const char* part_name, const char* blank_name, unsigned threads) {
+  const solid::Mesh part = read_stl(part_name), blank = read_stl(blank_name);
+  const locate::SolidProblem problem{part, blank, {}};
+  locate::SolidOptions options;
+  options.threads = threads, options.gap = kGap;
+  const double start = seconds();
+  const auto clock = std::chrono::steady_clock::now();
+  const locate::SolidPlacement placed = place_solid(problem, options).value();
+  fmt::print("{:.4f} {:.4f} {} {} {:.6f}\n",
+             std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count(),
+             seconds() - start, part.vertices.size(), blank.vertices.size(), placed.clearance);
+}
+
 double median(std::vector<double> of) {
   std::sort(of.begin(), of.end());
   return of[of.size() / 2];
@@ -98,15 +149,26 @@ double median(std::vector<double> of) {
 
 }  // namespace
 
-/// bench_castings write NUMBER FOLDER
-/// bench_castings [FIRST] [COUNT] [SECONDS] [POINTS] [SEED]
-/// With POINTS the blanks are scanned; the seconds are processor time of one thread.
+/// bench_castings write NUMBER FOLDER [POINTS]
+/// bench_castings place PART BLANK [THREADS]
+/// bench_castings [FIRST] [COUNT] [SECONDS] [POINTS] [SEED] [six|c-xyz|xyz] [FINER]
+/// With FINER the meshes have so many times as many triangles on the same surface. With POINTS the blanks are
+/// scanned; the seconds are processor time of one thread.
 int main(int argc, char** argv) {
   if (argc > 3 && std::string_view(argv[1]) == "write") {
     const cases::SolidCase drawn = cases::casting(std::strtoull(argv[2], nullptr, 10));
     const std::string folder = argv[3];
+    solid::Mesh blank = drawn.blank;
+    if (argc > 4) {
+      Random random(cases::kCastingSeed, 10'000 + std::strtoull(argv[2], nullptr, 10));
+      blank = cases::scan_of(drawn.blank, std::strtoull(argv[4], nullptr, 10), kNoise, random).mesh;
+    }
     std::ofstream(folder + "/part.stl", std::ios::binary) << solid_files::stl_binary(drawn.part);
-    std::ofstream(folder + "/blank.stl", std::ios::binary) << solid_files::stl_binary(drawn.blank);
+    std::ofstream(folder + "/blank.stl", std::ios::binary) << solid_files::stl_binary(blank);
+    return 0;
+  }
+  if (argc > 3 && std::string_view(argv[1]) == "place") {
+    place_files(argv[2], argv[3], argc > 4 ? static_cast<unsigned>(std::strtoul(argv[4], nullptr, 10)) : 1);
     return 0;
   }
   const auto number = [&](int k, std::uint64_t otherwise) {
@@ -115,8 +177,12 @@ int main(int argc, char** argv) {
   const std::uint64_t first = number(1, 0), count = number(2, cases::kCastings), points = number(4, 0),
                       seed = number(5, cases::kCastingSeed);
   const double limit = argc > 3 ? std::strtod(argv[3], nullptr) : 60;
+  How how;
+  if (const std::string_view freedom = argc > 6 ? argv[6] : "six"; freedom != "six")
+    how.freedom = freedom == "xyz" ? locate::SolidFreedom::xyz : locate::SolidFreedom::c_xyz;
+  if (argc > 7) how.finer = std::strtod(argv[7], nullptr);
   Tally all;
-  for (std::uint64_t k = 0; k < count; ++k) try_one(first + k, seed, limit, points, all);
+  for (std::uint64_t k = 0; k < count; ++k) try_one(first + k, seed, limit, points, how, all);
   if (all.cases == 0) return 0;
   const auto share = [&](std::uint64_t n) {
     return 100.0 * static_cast<double>(n) / static_cast<double>(all.cases);

@@ -1,37 +1,88 @@
 #!/usr/bin/env python3
 """A placement without a bound beside the point-to-plane ICP of Open3D (Debian: python3-open3d), on the same files.
 
-    bench/open3d_icp.py LEKALO PART BLANK
+    bench_castings write NUMBER FOLDER [POINTS]      # makes part.stl and blank.stl
+    bench/open3d_icp.py LEKALO BENCH_CASTINGS PART BLANK [RUNS]
 
-Both are given what they read; times are processor time after reading. The pose of Open3D is put before nobody: it does
-not say where material is.
+Both count from what they read, with vertices at one place already made one: lekalo its trees, the climb, the true
+clearance and the contacts; Open3D the normals of the blank, its tree and the iteration, with all vertices of both.
+Open3D is asked once as it comes, which ends after 30 steps, and once until it settles by its own measure. The runs
+alternate, and the least time of each counts. The clearance at its poses is what lekalo measures there.
 """
 import json
-import resource
 import subprocess
 import sys
 import tempfile
 import time
 
+import numpy
 import open3d
 
-lekalo, part, blank = sys.argv[1:]
-source = open3d.io.read_triangle_mesh(part).remove_duplicated_vertices()
-target = open3d.io.read_triangle_mesh(blank).remove_duplicated_vertices()
-start = time.process_time()
-target.compute_vertex_normals()
-clouds = [open3d.geometry.PointCloud(mesh.vertices) for mesh in (source, target)]
-clouds[1].normals = target.vertex_normals
+lekalo, bench, part, blank = sys.argv[1:5]
+runs = int(sys.argv[5]) if len(sys.argv) > 5 else 5
 registration = open3d.pipelines.registration
-found = registration.registration_icp(clouds[0], clouds[1], 20.0,
-                                      estimation_method=registration.TransformationEstimationPointToPlane())
-rival = time.process_time() - start
-with tempfile.NamedTemporaryFile(suffix=".json") as result:
-    subprocess.run([lekalo, "locate", "--part", part, "--blank", blank, "--method", "climb", "-o", result.name],
-                   stderr=subprocess.DEVNULL, check=True)
-    ours = json.load(open(result.name, encoding="utf-8"))
-used = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-print(f"open3d icp: {rival:.2f} s of {len(clouds[0].points)} and {len(clouds[1].points)} points, rms "
-      f"{found.inlier_rmse:.4f} mm")
-print(f"lekalo climb: {ours['run']['seconds']:.2f} s by the clock; {used:.2f} s of processor time with reading, "
-      f"checking and writing; clearance {ours['clearance']:.4f} mm")
+
+
+def quaternion(r):
+    """Of a rotation, as w, x, y, z."""
+    rows = [[1 + r[0, 0] + r[1, 1] + r[2, 2], r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]],
+            [r[2, 1] - r[1, 2], 1 + r[0, 0] - r[1, 1] - r[2, 2], r[1, 0] + r[0, 1], r[0, 2] + r[2, 0]],
+            [r[0, 2] - r[2, 0], r[1, 0] + r[0, 1], 1 - r[0, 0] + r[1, 1] - r[2, 2], r[2, 1] + r[1, 2]],
+            [r[1, 0] - r[0, 1], r[0, 2] + r[2, 0], r[2, 1] + r[1, 2], 1 - r[0, 0] - r[1, 1] + r[2, 2]]]
+    row = numpy.array(rows[max(range(4), key=lambda k: rows[k][k])])
+    return (row / numpy.linalg.norm(row)).tolist()
+
+
+def clearance_at(pose):
+    """That of the part at a pose, and of a window without width."""
+    with tempfile.NamedTemporaryFile("w+", suffix=".json") as result, tempfile.NamedTemporaryFile(
+            "w+", suffix=".json") as start:
+        found = subprocess.run([lekalo, "locate", "--part", part, "--blank", blank, "--method", "climb", "--shift", "0",
+                                "--tilt", "0", "-o", result.name], stderr=subprocess.PIPE, text=True)
+        if found.returncode > 1:
+            sys.exit(found.stderr)
+        written = json.load(open(result.name, encoding="utf-8"))
+        written["quaternion"] = quaternion(pose[:3, :3])
+        written["x"], written["y"], written["z"] = pose[:3, 3].tolist()
+        json.dump(written, start)
+        start.flush()
+        subprocess.run([lekalo, "locate", "--part", part, "--blank", blank, "--method", "climb", "--shift", "0",
+                        "--tilt", "0", "--start", start.name, "-o", result.name], stderr=subprocess.DEVNULL)
+        there = json.load(open(result.name, encoding="utf-8"))["clearance"]
+        return "cuts in" if there is None else f"clearance {there:.4f} mm"
+
+
+def icp(source, target, most):
+    """Times and result of one run, with normals and tree."""
+    clouds = [open3d.geometry.PointCloud(source.vertices), open3d.geometry.PointCloud(target.vertices)]
+    clock, processor = time.perf_counter(), time.process_time()
+    target.vertex_normals = open3d.utility.Vector3dVector()
+    target.triangle_normals = open3d.utility.Vector3dVector()
+    target.compute_vertex_normals()
+    clouds[1].normals = target.vertex_normals
+    found = registration.registration_icp(
+        clouds[0], clouds[1], 20.0, estimation_method=registration.TransformationEstimationPointToPlane(),
+        criteria=registration.ICPConvergenceCriteria(max_iteration=most))
+    return time.perf_counter() - clock, time.process_time() - processor, found
+
+
+def climb():
+    """Times of one climb on one thread, and what it found."""
+    told = subprocess.run([bench, "place", part, blank], capture_output=True, text=True, check=True).stdout.split()
+    return float(told[0]), float(told[1]), float(told[4])
+
+
+meshes = [open3d.io.read_triangle_mesh(name).remove_duplicated_vertices() for name in (part, blank)]
+points = [len(mesh.vertices) for mesh in meshes]
+times = {"icp of 30 steps": [], "icp until it settles": [], "climb": []}
+for _ in range(runs):
+    for name, most in (("icp of 30 steps", 30), ("icp until it settles", 1000)):
+        *both, pose = icp(*meshes, most)
+        times[name].append((*both, pose))
+    times["climb"].append(climb())
+print(f"{points[0]} and {points[1]} points; the least of {runs} runs, by the clock and in processor time")
+for name, each in times.items():
+    found = each[0][2]
+    said = f"clearance {found:.4f} mm" if name == "climb" else (
+        f"rms {found.inlier_rmse:.4f} mm, {clearance_at(numpy.asarray(found.transformation))}")
+    print(f"{name}: {min(t[0] for t in each):.3f} s, {min(t[1] for t in each):.3f} s; {said}")

@@ -13,6 +13,7 @@
 
 #include "locate/solid/solid_placement.hpp"
 #include "support/cases.hpp"
+#include "support/castings.hpp"
 #include "support/solid_cases.hpp"
 
 namespace lekalo::locate::locate_solid_bound_test {
@@ -60,6 +61,65 @@ SolidProblem lying_there(const cases::SolidCase& pair) {
   SolidProblem problem{pair.part, pair.blank, {}};
   for (Vector& p : problem.part.vertices) p = pair.there(p);
   return problem;
+}
+
+TEST(SolidMeter, PlanesOfAConvexBlankSayWhatPairsOfTrianglesDo) {
+  Random random(cases::seed(), 81);
+  std::size_t inside = 0, outside = 0;
+  for (std::uint64_t i = 0; i < cases::case_count(8); ++i) {
+    cases::SolidCase pair = cases::convex_in_convex(random, 16, random.uniform(0.5, 2), i % 2 == 1);
+    // Of many vertices the tree finds the foremost ones.
+    if (i % 4 == 3) pair.part = cases::refined(std::move(pair.part), 4);
+    SolidProblem problem = lying_there(pair);
+    problem.shift = 2, problem.turn = 0.1;
+    const SolidMeter meter(problem, frame_of(problem));
+    ASSERT_TRUE(meter.convex());
+    for (int k = 0; k < 20; ++k) {
+      const FramedPose middle = meter.frame().window.middle(), half = meter.frame().window.half();
+      const FramedPose pose =
+          within(about(middle, {k * k / 400.0 * half.x, k * k / 400.0 * half.at}), random);
+      std::vector<SolidContact> contacts;
+      const MeasuredSolid exact = meter.measure_pairs(pose, kInfinity, 64, contacts),
+                          by_planes = meter.measure(pose, kInfinity, 64, contacts);
+      ASSERT_EQ(by_planes.inside, exact.inside);
+      ++(exact.inside ? inside : outside);
+      for (const SolidContact& contact : contacts)
+        EXPECT_EQ(SolidMeter::over_plane(meter.frame().motion(pose), contact).distance, contact.distance);
+      if (!exact.inside) continue;
+      EXPECT_NEAR(by_planes.value, exact.value, 1e-9);
+      EXPECT_EQ(meter.measure(pose, 0.5 * exact.value, 64, contacts).value, 0.5 * exact.value);
+      EXPECT_TRUE(contacts.empty());
+    }
+  }
+  EXPECT_GT(inside, 20u);
+  EXPECT_GT(outside, 20u);
+}
+
+TEST(SolidMeter, ABlankWithADentOrACoreOrWidthsIsNotConvex) {
+  Random random(cases::seed(), 83);
+  const cases::SolidCase pair = cases::convex_in_convex(random, 16, 1), cored = cases::cored_block(random, 4);
+  const auto convex = [](const SolidProblem& problem) {
+    return SolidMeter(problem, frame_of(problem)).convex();
+  };
+  EXPECT_TRUE(convex({pair.part, pair.blank, {}}));
+  EXPECT_FALSE(convex({cored.part, cored.blank, {}}));
+  SolidProblem problem{pair.part, pair.blank, {}};
+  problem.blank_widths.assign(pair.blank.triangles.size(), 0.1);
+  EXPECT_FALSE(convex(problem));
+  problem.blank_widths.clear();
+  const solid::Box box = box_of(pair.blank.vertices);
+  problem.blank.vertices.front() = 0.3 * problem.blank.vertices.front() + 0.35 * (box.low + box.high);
+  EXPECT_FALSE(convex(problem));
+  // A void, and a body beside it.
+  for (const double at : {0.0, 100.0}) {
+    problem.blank = pair.blank;
+    const auto first = static_cast<std::uint32_t>(problem.blank.vertices.size());
+    for (const solid::Vector v : pair.blank.vertices)
+      problem.blank.vertices.push_back(0.1 * v + solid::Vector{at, 0, 0});
+    for (const auto& [a, b, c] : pair.blank.triangles)
+      problem.blank.triangles.push_back({first + a, first + c, first + b});
+    EXPECT_FALSE(convex(problem));
+  }
 }
 
 TEST(SolidMeter, AGlanceMeetsNothingNearerThanAMeasurement) {

@@ -167,7 +167,7 @@ Motion motion_of(const SolidPose& pose) noexcept {
 
 Result<SolidPlacement> place_solid(const SolidProblem& problem, const SolidOptions& options) {
   LEKALO_CHECK(check(problem, options));
-  const SolidMeter meter(problem, frame_of(problem));
+  const SolidMeter meter(problem, frame_of(problem), options.threads);
   std::uint64_t work = 0;
   const MeasuredSolid best = first_climb(meter, first_trust(problem), kClimbGain, options.run, work);
   const RunControl nobody;

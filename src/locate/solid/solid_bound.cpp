@@ -161,7 +161,7 @@ std::optional<SolidBall> SolidBounds::ball(const Side& side, Vector centre, std:
 /// Balls about places farther and farther from a contact, each as large as the surface leaves it: along its
 /// direction, and along the middle of the directions of the surface there.
 std::vector<SolidBall> SolidBounds::balls(const Side& side, std::uint32_t triangle, Vector from,
-                                          Vector direction) const {
+                                          Vector direction, double farthest) const {
   const Vector middle = middle_normal(side.tree, from, kAtPlace * scale_);
   std::vector<SolidBall> made;
   std::vector<Vector> ways{direction};
@@ -172,7 +172,7 @@ std::vector<SolidBall> SolidBounds::balls(const Side& side, std::uint32_t triang
     const auto beside = ball(side, from + (kPoint * scale_ + kErrors * side.error) * ways[k], triangle);
     if (!beside) continue;
     if (beside->radius > point.radius) point = *beside;
-    for (double way = kSmallestBall * scale_; way <= 2 * scale_; way *= kLadder) {
+    for (double way = kSmallestBall * scale_; way <= farthest; way *= kLadder) {
       const auto next = ball(side, from + way * ways[k], triangle);
       if (!next || !(next->radius > (1 - kMostLoss) * way)) break;
       made.push_back(*next);
@@ -300,6 +300,11 @@ PoseForm SolidBounds::form_of(const SolidHeld& held, const CellView& cell) const
   return form;
 }
 
+void SolidBounds::set_plane(Vector normal, KnownSolid& made) const {
+  const double least = least_along(blank_.tree, normal, blank_.widths, meter_.narrowest());
+  made.plane = {normal, least - blank_.error - 4 * kRounding * (blank_.tree.largest() + std::abs(least))};
+}
+
 std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const FramedPose& pose) const {
   const SolidFrame& frame = meter_.frame();
   const Motion start = motion_of({frame.start_of(pose.chart), {}}), motion = frame.motion(pose);
@@ -309,10 +314,19 @@ std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const 
   const auto seen = [&](Vector p) { return start.turned(p - frame.pivot); };
   if (meter_.has_demands()) set_point(contact, start, made);
   // Balls in the part count with the least demand, so where more is asked for they say little.
-  if (meter_.whole() && made.demand == meter_.least_demand(0))
-    for (const SolidBall& one : balls(part_, contact.part_triangle, contact.part, motion.turned_back(n)))
+  const auto make_part = [&](double largest) {
+    for (const SolidBall& one :
+         balls(part_, contact.part_triangle, contact.part, motion.turned_back(n), largest))
       made.part.push_back({one, seen(one.centre)});
-  made.blank = balls(blank_, contact.blank_triangle, contact.blank, -n);
+  };
+  if (contact.of_plane) {
+    make_part(0);
+    if (made.part.empty()) return std::nullopt;
+    set_plane(n, made);
+    return made;
+  }
+  if (meter_.whole() && made.demand == meter_.least_demand(0)) make_part(2 * scale_);
+  made.blank = balls(blank_, contact.blank_triangle, contact.blank, -n, 2 * scale_);
   if (contact.blank_triangle != kNoTriangle) {
     // The largest width of neighbours counts here, and beside the surface the smallest.
     const double within = meter_.width(contact.blank_triangle) - 4 * off(blank_, contact.blank);
@@ -324,14 +338,13 @@ std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const 
   made.edges = edges(contact, start);
   if (made.blank_face)
     made.blank_face->width = std::max(0.0, meter_.width(contact.blank_triangle) - meter_.width_error());
-  made.plane.normal = n;
+  Vector across = n;
   if (made.blank_face) {
     // Contacts of one face have one plane.
     const Vector of_face = made.blank_face->normal;
-    if (std::abs(dot(of_face, n)) > 1 - 0x1p-30) made.plane.normal = dot(of_face, n) < 0 ? -of_face : of_face;
+    if (std::abs(dot(of_face, n)) > 1 - 0x1p-30) across = dot(of_face, n) < 0 ? -of_face : of_face;
   }
-  const double least = least_along(blank_.tree, made.plane.normal, blank_.widths, meter_.narrowest());
-  made.plane.least = least - blank_.error - 4 * kRounding * (blank_.tree.largest() + std::abs(least));
+  set_plane(across, made);
   if (made.part_face) {
     SolidFace& f = *made.part_face;
     f.normal = start.turned(f.normal);

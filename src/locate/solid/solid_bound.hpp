@@ -114,10 +114,11 @@ class SolidBounds {
   [[nodiscard]] std::optional<SolidBall> ball(const Side& side, solid::Vector centre,
                                               std::uint32_t near) const;
   [[nodiscard]] std::vector<SolidBall> balls(const Side& side, std::uint32_t triangle, solid::Vector from,
-                                             solid::Vector direction) const;
+                                             solid::Vector direction, double farthest) const;
   [[nodiscard]] std::optional<SolidFace> face(const Side& side, std::uint32_t triangle) const;
   [[nodiscard]] std::optional<SolidEdges> edges(const SolidContact& contact,
                                                 const solid::Motion& start) const;
+  void set_plane(solid::Vector normal, KnownSolid& made) const;
   [[nodiscard]] KnownSolid held(const SolidContact& contact, const solid::Motion& start) const;
   [[nodiscard]] PoseForm form_of(const SolidHeld& held, const CellView& cell) const;
   [[nodiscard]] std::optional<SolidForm> form_of_allowance(const KnownSolid& known, SolidChoice choice,

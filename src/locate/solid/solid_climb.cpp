@@ -1,5 +1,6 @@
 #include "solid_climb.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <set>
 #include <utility>
@@ -16,8 +17,14 @@ using solid::Vector;
 constexpr int kMostSteps = 100;
 /// A step that found new contacts is tried again with them, so many times, before it is made smaller.
 constexpr int kMostTries = 3;
-/// So many contacts of one pose are looked at.
-constexpr std::size_t kContacts = 64;
+/// So many contacts of one pose are looked at, and at a glance.
+constexpr std::size_t kContacts = 64, kGlanced = 24, kMissed = 12;
+/// Glances lead up first, as long as they gain so many times what a climb goes on for. What they missed is
+/// measured, so many times at most.
+constexpr int kMostGlances = 24, kMostLeads = 6;
+constexpr double kGlancedGain = 16;
+/// They end where their steps become shorter than this part of the first.
+constexpr double kShortest = 1.0 / 256;
 
 LinearBound<6> row_of(const SolidFrame& frame, const Motion& motion, const SolidContact& contact) {
   const Vector n = 1 / contact.demand.scale * contact.normal,
@@ -25,14 +32,23 @@ LinearBound<6> row_of(const SolidFrame& frame, const Motion& motion, const Solid
   return {{n.x, n.y, n.z, g.x, g.y, g.z}, contact.margin()};
 }
 
-/// The pairs of triangles that were near at some pose, in the order of their numbers.
-using Pool = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+/// The contacts that were near at some pose.
+struct Pool {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;  ///< of triangles
+  std::vector<SolidContact> over_planes;
+};
 
 bool add(Pool& pool, const std::vector<SolidContact>& contacts) {
   bool added = false;
-  for (const SolidContact& c : contacts)
-    if (c.part_triangle != kNoTriangle)
-      added = pool.insert({c.part_triangle, c.blank_triangle}).second || added;
+  for (const SolidContact& c : contacts) {
+    const auto same = [&](const SolidContact& o) { return o.part == c.part && o.normal == c.normal; };
+    if (c.part_triangle != kNoTriangle) {
+      added = pool.pairs.insert({c.part_triangle, c.blank_triangle}).second || added;
+    } else if (c.of_plane && std::none_of(pool.over_planes.begin(), pool.over_planes.end(), same)) {
+      pool.over_planes.push_back(c);
+      added = true;
+    }
+  }
   return added;
 }
 
@@ -45,19 +61,28 @@ bool on_the_inner_side(const solid::Mesh& blank, const SolidContact& contact) {
 }
 
 /// The rows of all known contacts at a pose.
-std::vector<LinearBound<6>> rows_at(const SolidMeter& meter, const MeasuredSolid& at, const Pool& pool,
-                                    const std::vector<SolidContact>& contacts) {
-  const Motion motion = meter.frame().motion(at.pose);
+std::vector<LinearBound<6>> rows_at(const SolidMeter& meter, const FramedPose& pose, bool inside,
+                                    const Pool& pool, const std::vector<SolidContact>& contacts) {
+  const Motion motion = meter.frame().motion(pose);
   std::vector<LinearBound<6>> rows;
   for (const SolidContact& contact : contacts)
-    if (contact.part_triangle == kNoTriangle) rows.push_back(row_of(meter.frame(), motion, contact));
-  for (const auto& [part, blank] : pool) {
+    if (contact.part_triangle == kNoTriangle && !contact.of_plane)
+      rows.push_back(row_of(meter.frame(), motion, contact));
+  for (const SolidContact& contact : pool.over_planes)
+    rows.push_back(row_of(meter.frame(), motion, SolidMeter::over_plane(motion, contact)));
+  for (const auto& [part, blank] : pool.pairs) {
     const SolidContact contact = meter.contact(motion, part, blank);
-    if (contact.directed() && (at.inside || on_the_inner_side(meter.blank(), contact)))
+    if (contact.directed() && (inside || on_the_inner_side(meter.blank(), contact)))
       rows.push_back(row_of(meter.frame(), motion, contact));
   }
   return rows;
 }
+
+/// A pose to measure, with the margin that it may have.
+struct Lead {
+  FramedPose pose;
+  double most = kInfinity;
+};
 
 template <class Found, class Look>
 std::optional<Found> unless_stopped(const RunControl& run, const Look& look) {
@@ -65,10 +90,72 @@ std::optional<Found> unless_stopped(const RunControl& run, const Look& look) {
   until_stop.stop = run.stop;
   const Listening listening(until_stop);
   try {
+    Listening::look();
     return look();
   } catch (const Stopped&) {
     return std::nullopt;
   }
+}
+
+/// A pose as glances see it.
+struct Glanced {
+  FramedPose pose;
+  double value = -kInfinity;
+  bool inside = false;
+  std::vector<LinearBound<6>> rows;
+  std::vector<SolidContact> contacts;
+
+  /// Works out what the pose is worth by all contacts that are known by now.
+  void weigh(const SolidMeter& meter, const Pool& pool) {
+    inside = std::all_of(contacts.begin(), contacts.end(),
+                         [](const SolidContact& c) { return c.part_triangle != kNoTriangle; });
+    rows = rows_at(meter, pose, inside, pool, contacts);
+    value = kInfinity;
+    for (const LinearBound<6>& row : rows) value = std::min(value, row.level);
+  }
+};
+
+/// Climbs by what glances and the contacts that are known say, with no measurement, as long as that seems to
+/// gain `enough`.
+Lead led_up(const SolidMeter& meter, const FramedPose& from, double enough, const RunControl& run,
+            double widest, Pool& pool, std::uint64_t& work) {
+  const SolidFrame& frame = meter.frame();
+  double trust = widest;
+  Glanced here, there;
+  const auto look = [&](Glanced& at, const FramedPose& pose, double most) {
+    at.pose = pose;
+    if (!glanced_unless_stopped(meter, pose, most, kGlanced, run, at.contacts)) return false;
+    ++work;
+    return true;
+  };
+  if (!look(here, from, kInfinity)) return {from};
+  add(pool, here.contacts);
+  Lead lead{from};
+  int tries = 0;
+  for (int step = 0; step < kMostGlances && trust >= kShortest * widest && !run.stop_requested(); ++step) {
+    if (run.progress) run.progress({work, 0});
+    here.weigh(meter, pool);
+    lead = {here.pose};
+    if (here.rows.empty()) break;
+    const LinearSolution<6> solution = solve_cell(here.rows, frame.trusted(trust));
+    const double most = std::max(solution.bound, meter.floor() + enough);
+    if (here.inside) lead.most = most;
+    if (!(solution.bound > here.value + enough)) break;
+    if (!look(there, frame.moved(here.pose, solution.z), most)) break;
+    const bool added = add(pool, there.contacts);
+    there.weigh(meter, pool);
+    if (there.inside != here.inside ? there.inside : there.value > here.value) {
+      const double gained = there.value - here.value, hoped = solution.bound - here.value;
+      std::swap(here, there);
+      if (gained < 0.25 * hoped && !added) trust *= 0.5;
+      if (gained > 0.75 * hoped) trust = std::min(widest, 2 * trust);
+      tries = 0;
+    } else if (!added || ++tries == kMostTries) {
+      trust *= 0.25;
+      tries = 0;
+    }
+  }
+  return lead;
 }
 
 }  // namespace
@@ -90,17 +177,35 @@ MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trus
   const SolidFrame& frame = meter.frame();
   std::vector<SolidContact> here, there;
   Pool pool;
-  MeasuredSolid best = meter.measure(from, kInfinity, kContacts, here);
-  // There is something to show from here on.
-  const RunControl nobody;
-  const Listening to_the_end(nobody);
-  ++work;
-  add(pool, here);
   const double widest = trust;
+  Lead lead{from};
+  const RunControl nobody;
+  std::optional<Listening> to_the_end;
+  if (meter.datums().empty() && !meter.convex()) {
+    lead = led_up(meter, from, kGlancedGain * enough, run, trust, pool, work);
+    // They were told of, so there has to be something to show.
+    to_the_end.emplace(nobody);
+  }
+  MeasuredSolid best = meter.measure(lead.pose, lead.most, lead.most < kInfinity ? kMissed : kContacts, here);
+  // There is something to show from here on.
+  if (!to_the_end) to_the_end.emplace(nobody);
+  ++work;
+  for (int more = 1; add(pool, here) && best.inside && lead.most < kInfinity && more < kMostLeads; ++more) {
+    lead = led_up(meter, best.pose, kGlancedGain * enough, run, trust, pool, work);
+    const auto next = measured_unless_stopped(meter, lead.pose, lead.most, kMissed, run, there);
+    if (!next) break;
+    ++work;
+    if (!next->better_than(best)) {
+      add(pool, there);
+      break;
+    }
+    best = *next;
+    here = there;
+  }
   int tries = 0;
   for (int step = 0; step < kMostSteps && !run.stop_requested(); ++step) {
     if (run.progress) run.progress({work, static_cast<double>(step) / kMostSteps});
-    const auto rows = rows_at(meter, best, pool, here);
+    const auto rows = rows_at(meter, best.pose, best.inside, pool, here);
     if (rows.empty()) break;
     const LinearSolution<6> solution = solve_cell(rows, frame.trusted(trust));
     if (!(solution.bound > best.value + enough)) break;
@@ -129,7 +234,7 @@ std::vector<SolidTouch> holding_contacts(const SolidMeter& meter, const Measured
   const SolidFrame& frame = meter.frame();
   const Motion motion = frame.motion(at.pose);
   std::vector<SolidContact> contacts;
-  (void)meter.measure(at.pose, std::max(at.value, meter.floor()) + within, kContacts, contacts);
+  (void)meter.measure_pairs(at.pose, std::max(at.value, meter.floor()) + within, kContacts, contacts);
   std::vector<SolidTouch> touches;
   if (contacts.empty()) return touches;
   std::vector<LinearBound<6>> rows;

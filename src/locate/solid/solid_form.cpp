@@ -1,6 +1,7 @@
 #include "solid_form.hpp"
 
 #include <cmath>
+#include <span>
 
 namespace lekalo::locate {
 namespace {
@@ -55,14 +56,14 @@ void coefficients(const Quadratic& q, const CellView& cell, const Each& each) {
   }
 }
 
-/// Calls each(coefficient, that of what the bound is taken times, corner of the shifts, index along each
-/// turn).
+/// Calls each(coefficient, that of what the bound is taken times, one of the shifts, index along each turn).
 template <class Each>
-void coefficients(const PoseForm& form, const CellView& cell, const Each& each) {
+void coefficients(const PoseForm& form, const CellView& cell, std::span<const Vector> shifts,
+                  const Each& each) {
   std::array<std::array<std::array<double, 3>, 3>, 3> scale{};
   coefficients(quadratic(form.whole, form.whole_turned), cell,
                [&](double value, const auto& k) { scale[k[0]][k[1]][k[2]] = value; });
-  for (const Vector t : cell.corners)
+  for (const Vector t : shifts)
     coefficients(at_shift(form, t), cell,
                  [&](double value, const auto& k) { each(value, scale[k[0]][k[1]][k[2]], t, k); });
 }
@@ -140,7 +141,7 @@ void PoseForm::take_off(const SolidDemand& demand) noexcept {
 
 double PoseForm::most(const CellView& cell) const {
   double most = -kInfinity;
-  coefficients(*this, cell, [&](double value, double scale, Vector, const auto&) {
+  coefficients(*this, cell, cell.corners, [&](double value, double scale, Vector, const auto&) {
     const double raised = value + kFormRounding * size;
     // A sum in which the bound has no part proves any bound, or none.
     const double bound = scale == 0 && raised < 0 ? -kInfinity : kInfinity;
@@ -169,11 +170,16 @@ LinearBound<6> PoseForm::tangent(const CellView& cell) const {
   };
   const Vector by_t = (1 + dot(x, x)) / scale *
                       (linear + cell.turned.turned(lever) + Vector{around(1, 2), around(2, 0), around(0, 1)});
+  // A height over a plane is as far above its tangent at any shift.
+  const bool of_plane = square == 0 && lever == Vector{} && across == std::array<Vector, 3>{} &&
+                        whole_turned == std::array<Vector, 3>{};
+  const Vector no_shift;
   double lift = -kInfinity;
-  coefficients(*this, cell, [&](double coefficient, double d, Vector t, const std::array<std::size_t, 3>& k) {
-    const Vector step{cell.x[0][k[0]] - x.x, cell.x[1][k[1]] - x.y, cell.x[2][k[2]] - x.z};
-    lift = std::max(lift, coefficient / d - dot(by_t, t) - dot(by_x, step));
-  });
+  coefficients(*this, cell, of_plane ? std::span(&no_shift, 1) : std::span(cell.corners),
+               [&](double coefficient, double d, Vector t, const std::array<std::size_t, 3>& k) {
+                 const Vector step{cell.x[0][k[0]] - x.x, cell.x[1][k[1]] - x.y, cell.x[2][k[2]] - x.z};
+                 lift = std::max(lift, coefficient / d - dot(by_t, t) - dot(by_x, step));
+               });
   const Vector g = 0.5 / cell.reach * by_x;
   return {{by_t.x, by_t.y, by_t.z, g.x, g.y, g.z}, lift};
 }

@@ -18,6 +18,8 @@ using solid::Vector;
 
 /// So many vertices of each mesh are looked at where they cross.
 constexpr std::size_t kSamples = 96;
+/// They are spread over so many vertices of a larger mesh.
+constexpr std::size_t kSpreadOver = 4096;
 /// And at most so many of them for a quick word.
 constexpr std::size_t kFewSamples = 32;
 /// A glance looks at a vertex of so many patches of each mesh, and of so many neighbours goes on with the one
@@ -37,15 +39,19 @@ constexpr double kDatumRounding = 0x1p-44;
 /// The square root of 3, rounded up: how far a point is off at most for each of its coordinates.
 constexpr double kDiagonal = 1.7321;
 
-/// Points as far from each other as can be: each is the farthest from those before. Returns their numbers.
+/// Points as far from each other as can be: each is the farthest from those before. Of very many, only some
+/// are looked at. Returns their numbers.
 std::vector<std::size_t> spread(const std::vector<Vector>& points, std::size_t count = kSamples) {
+  const std::size_t step = 1 + points.size() / kSpreadOver;
+  std::vector<Vector> some;
+  for (std::size_t k = 0; k < points.size(); k += step) some.push_back(points[k]);
   std::vector<std::size_t> chosen;
-  std::vector<double> apart(points.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> apart(some.size(), std::numeric_limits<double>::infinity());
   std::size_t next = 0;
-  while (chosen.size() < std::min(count, points.size())) {
-    chosen.push_back(next);
+  while (chosen.size() < std::min(count, some.size())) {
+    chosen.push_back(step * next);
     for (std::size_t k = 0; k < apart.size(); ++k) {
-      const Vector way = points[k] - points[next];
+      const Vector way = some[k] - some[next];
       apart[k] = std::min(apart[k], dot(way, way));
     }
     next = static_cast<std::size_t>(std::max_element(apart.begin(), apart.end()) - apart.begin());
@@ -133,17 +139,20 @@ SolidDemand demand_in(const std::vector<std::optional<SolidDemand>>& demands, st
 
 }  // namespace
 
-SolidMeter::SolidMeter(const SolidProblem& problem, const SolidFrame& frame)
+SolidMeter::SolidMeter(const SolidProblem& problem, const SolidFrame& frame, unsigned threads)
     : frame_(frame),
+      threads_(threads),
       part_(problem.part),
       blank_(problem.blank),
       widths_(problem.blank_widths),
-      clearance_(problem.part, problem.blank, problem.blank_widths),
+      clearance_(problem.part, problem.blank, problem.blank_widths, threads),
       demand_of_(problem.demands),
       datums_(problem.datums),
       part_error_(kDiagonal * problem.part_coordinate_error),
       blank_error_(kDiagonal * problem.blank_coordinate_error),
       width_error_(problem.blank_width_error) {
+  if (problem.blank_widths.empty() && problem.demands.empty() && problem.datums.empty())
+    convex_ = ConvexBlank::of(problem.blank, clearance_.blank());
   sort_by_demand();
   of_part_ = samples_of_part();
   for (const std::size_t v : spread(blank_.vertices)) of_blank_.push_back(blank_.vertices[v]);
@@ -260,6 +269,7 @@ void SolidMeter::cut_in_patches() {
     }
   };
   cut(clearance_, clearance_.blank(), kPatches, nullptr, patches_of_blank_);
+  if (convex()) return;
   if (!has_demands()) cut(clearance_, clearance_.part(), kPatches, nullptr, patches_of_part_);
   for (const Demanded& one : demanded_)
     cut(one.clearance, one.clearance.part(), 1 + kPatches / demanded_.size(), &one.numbers, patches_of_part_);
@@ -289,8 +299,34 @@ SolidContact SolidMeter::contact(const Motion& motion, std::uint32_t part_triang
   return contact(motion, clearance_.pair(motion, part_triangle, blank_triangle));
 }
 
+SolidContact SolidMeter::over_plane(const Motion& motion, SolidContact contact) {
+  contact.distance = dot(contact.normal, motion(contact.part) - contact.blank);
+  return contact;
+}
+
+void SolidMeter::measure_planes(const Motion& motion, double most, std::size_t count,
+                                std::vector<SolidContact>& contacts) const {
+  std::vector<ConvexBlank::Foremost> found;
+  convex_->foremost(part_, clearance_.part(), motion, most, count, found);
+  contacts.clear();
+  for (const auto& [plane, part, height] : found) {
+    SolidContact made{part, plane->place, plane->normal, height};
+    made.of_plane = true;
+    contacts.push_back(made);
+  }
+}
+
 MeasuredSolid SolidMeter::measure(const FramedPose& pose, double most, std::size_t count,
                                   std::vector<SolidContact>& contacts) const {
+  if (!convex()) return measure_pairs(pose, most, count, contacts);
+  const double error = part_error_ + blank_error_;
+  measure_planes(frame_.motion(pose), most + error, count, contacts);
+  const double least = contacts.empty() ? most : contacts.front().distance - error;
+  return {pose, std::min(most, least), least > 0};
+}
+
+MeasuredSolid SolidMeter::measure_pairs(const FramedPose& pose, double most, std::size_t count,
+                                        std::vector<SolidContact>& contacts) const {
   const Motion motion = frame_.motion(pose);
   std::vector<NearPair> pairs = nearest(motion, most, count);
   const double error = part_error_ + blank_error_;
@@ -326,7 +362,7 @@ std::vector<NearPair> SolidMeter::nearest(const Motion& motion, double most, std
   std::vector<NearPair> pairs;
   const double error = part_error_ + blank_error_;
   if (!has_demands()) {
-    clearance_.nearest_by_piece(motion, most + error, count, pairs);
+    clearance_.nearest_by_piece(motion, most + error, count, pairs, threads_);
     return pairs;
   }
   std::vector<NearPair> of_demand;
@@ -449,6 +485,10 @@ std::optional<SolidContact> SolidMeter::crossing(Vector part, Vector blank, doub
 double SolidMeter::glance(const FramedPose& pose, double most, std::size_t count,
                           std::vector<SolidContact>& contacts) const {
   const Motion motion = frame_.motion(pose);
+  if (convex()) {
+    measure_planes(motion, most, count, contacts);
+    return contacts.empty() ? most : contacts.front().distance;
+  }
   /// The patch of some neighbours that comes nearest, and what it is near to.
   struct Low {
     double margin = 0, apart = 0;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "convex_blank.hpp"
 #include "lekalo/solid/mesh_clearance.hpp"
 #include "solid_frame.hpp"
 
@@ -29,6 +30,8 @@ struct SolidContact {
   /// The numbers of a datum and of a point that it holds, if it is one. Then what is left of the tolerance,
   /// times kDatumWeight and above all margins where it is kept, counts as the distance.
   std::uint32_t datum = kNoTriangle, datum_point = 0;
+  /// True of a face of a convex blank: the distance is the height over its plane, at any pose.
+  bool of_plane = false;
   [[nodiscard]] double margin() const { return (distance - demand.minimum) / demand.scale; }
   /// False where the two points are too near to each other to give a normal.
   [[nodiscard]] bool directed() const { return !(normal == solid::Vector{}); }
@@ -55,7 +58,8 @@ struct MeasuredPose {
 /// Measures a part in a blank. Its answers depend on their arguments alone, so threads may share it.
 class SolidMeter {
  public:
-  SolidMeter(const SolidProblem& problem, const SolidFrame& frame);
+  /// \param threads  that make it, and measure with all pieces
+  SolidMeter(const SolidProblem& problem, const SolidFrame& frame, unsigned threads = 1);
   SolidMeter(const SolidMeter&) = delete;
   SolidMeter& operator=(const SolidMeter&) = delete;
 
@@ -91,12 +95,21 @@ class SolidMeter {
   /// No pose that is inside has less margin: allowances are above 0 there.
   [[nodiscard]] double floor() const noexcept { return floor_; }
 
+  /// True of a convex blank with few faces, without widths, demands and datums. Then planes are all that
+  /// poses and boxes are looked at with.
+  [[nodiscard]] bool convex() const noexcept { return convex_.has_value(); }
+  /// A contact of a plane as it is at a pose.
+  [[nodiscard]] static SolidContact over_plane(const solid::Motion& motion, SolidContact contact);
+
   /// Measures at a pose. Where the part is inside and all has the margin `most` or more, the value is at
   /// least `most`, and nothing more is known. The contacts are those with the least margins of `count` pieces
   /// of the part, less than `most`, and where part and blank cross the deepest points of either in the other;
   /// and what holds the points of datums.
   [[nodiscard]] MeasuredSolid measure(const FramedPose& pose, double most, std::size_t count,
                                       std::vector<SolidContact>& contacts) const;
+  /// The same with pairs of triangles, also in a convex blank.
+  [[nodiscard]] MeasuredSolid measure_pairs(const FramedPose& pose, double most, std::size_t count,
+                                            std::vector<SolidContact>& contacts) const;
   [[nodiscard]] MeasuredPose measure(const solid::Motion& motion) const;
   /// How far the points of a datum are off at a pose at most, mm.
   [[nodiscard]] double off(const SolidDatum& datum, const solid::Motion& motion) const;
@@ -152,11 +165,15 @@ class SolidMeter {
   void add_crossings(const solid::Motion& motion, const std::vector<solid::NearPair>& pairs,
                      std::vector<SolidContact> crossing, std::vector<SolidContact>& contacts) const;
   [[nodiscard]] SolidContact contact(const solid::Motion& motion, const solid::NearPair& pair) const;
+  void measure_planes(const solid::Motion& motion, double most, std::size_t count,
+                      std::vector<SolidContact>& contacts) const;
 
   SolidFrame frame_;
+  unsigned threads_;
   const solid::Mesh &part_, &blank_;
   const std::vector<double>& widths_;
   solid::MeshClearance clearance_;
+  std::optional<ConvexBlank> convex_;
   const std::vector<std::optional<SolidDemand>>& demand_of_;
   bool whole_ = true;
   double floor_ = 0;

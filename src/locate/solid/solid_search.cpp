@@ -84,6 +84,7 @@ SolidSearch::Node SolidSearch::first_box(std::uint8_t chart) {
       normal.*axis = side;
       SolidContact contact = meter_.foremost(motion, normal);
       const auto& of_blank = meter_.blank().vertices;
+      contact.of_plane = meter_.convex();
       contact.blank = *std::min_element(of_blank.begin(), of_blank.end(),
                                         [&](Vector a, Vector b) { return side * a.*axis < side * b.*axis; });
       contacts.push_back(contact);
