@@ -371,7 +371,7 @@ def main():
     runs.add_argument("--only", default="")
     runs.add_argument("--jobs", type=int, default=os.cpu_count())
     runs.add_argument("--minutes", type=float, default=85)
-    runs.add_argument("--longest", type=float, default=3)
+    runs.add_argument("--longest", type=float, default=6)
     runs.add_argument("--most", type=float, default=20)
     runs.add_argument("--explained", action="store_true")
     arguments = parser.parse_args()

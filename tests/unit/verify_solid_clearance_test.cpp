@@ -112,8 +112,9 @@ TEST(SolidClearance, ATiltedPartIsMeasuredExactly) {
 TEST(SolidClearance, ATouchIsNoClearanceAndLeavesZeroOpen) {
   const Mesh blank = block({0, 0, 0}, {10, 10, 10});
   const Mesh part = block({0, 0, 0}, {8, 8, 8});
-  for (const auto& shift :
-       {unturned({"0", "1", "1"}), unturned({"0", "0", "0"}), unturned({"2", "1", "1"})}) {
+  // The last one touches from outside.
+  for (const auto& shift : {unturned({"0", "1", "1"}), unturned({"0", "0", "0"}), unturned({"2", "1", "1"}),
+                            unturned({"10", "1", "1"})}) {
     EXPECT_TRUE(says(answer(part, blank, shift, "1e-300"), "touches"))
         << answer(part, blank, shift, "1e-300");
     EXPECT_TRUE(says(answer(part, blank, shift, "1e-300"), "fault"));

@@ -37,19 +37,20 @@ struct Held {
   double multiplier = 1, bound = 0.75, margin = 0.75;
   std::array<double, 3> at{0, 0, -0.25};
   Json low = {0, 0, 1, -6};
+  Json bottom = {0, 1};  // the triangles of the feature
   Json on_part = {0, 0.25, 0.5};
 
   [[nodiscard]] SolidResultFiles files() const {
     const Json features{{"minimum", 0},
-                        {"features", Json::array({Json{{"name", "bottom"}, {"triangles", {0, 1}}}})},
+                        {"features", Json::array({Json{{"name", "bottom"}, {"triangles", bottom}}})},
                         {"datums", Json::array({datum})}};
     Json certificate = one_leaf(Json::array({{"point_plane", 0, 0, 1}, {"datum", 0, 0, multiplier}}),
                                 Json::array(), Json::array(), Json::array({low}));
     certificate["part_points"] = Json::array({on_part});
     certificate["datum_points"] = Json::array({point});
     certificate["directions"] = Json::array({direction});
-    SolidResultFiles made = cases::with_demands(features, Json::array({demand_of_result("bottom", 2, 0, 1)}),
-                                                certificate, margin, bound);
+    SolidResultFiles made = cases::with_demands(
+        features, Json::array({demand_of_result("bottom", bottom.size(), 0, 1)}), certificate, margin, bound);
     made.result["clearance"] = margin;
     made.result["contacts"] = Json::array();
     made.result["x"] = at[0], made.result["y"] = at[1], made.result["z"] = at[2];
@@ -164,6 +165,9 @@ TEST(SolidDatums, RowsOfTheirTablesAreRead) {
   EXPECT_TRUE(says(point({0.5, 0}), "its datum is none"));
   EXPECT_TRUE(says(point({0, 6}), "its point is none of the datum"));
   EXPECT_TRUE(says(point({0, -1}), "its point is none of the datum"));
+  Held half;
+  half.bottom = {1}, half.point = {0, 0};
+  EXPECT_TRUE(says(half.told(), "its point is none of the datum"));
   EXPECT_TRUE(says(point({0}), "bad input"));
   EXPECT_TRUE(says(point({0, 1e11}), "its point is none of the datum"));
   Held short_of_one;

@@ -114,8 +114,8 @@ std::optional<std::string> fault_of_datum_point(const std::vector<SolidDatum>& d
   if (!k) return "its point is none of the datum";
   std::size_t place = *k;
   if (!datum.triangles.empty()) {
+    if (!std::ranges::binary_search(datum.triangles, *k / 3)) return "its point is none of the datum";
     const auto found = std::ranges::lower_bound(datum.triangles, *k / 3);
-    if (found == datum.triangles.end() || *found != *k / 3) return "its point is none of the datum";
     place = 3 * static_cast<std::size_t>(found - datum.triangles.begin()) + *k % 3;
   }
   if (place >= datum.points.size()) return "its point is none of the datum";

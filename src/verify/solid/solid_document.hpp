@@ -46,11 +46,11 @@ struct WrittenSolidContact {
 /// The statements of the result about a blank that was touched, and why they hold it (docs/formats.md).
 struct WrittenTouches {
   struct Term {
-    std::size_t touch = 0, ball = 0;
+    std::size_t touch{}, ball{};
     Decimal multiplier;
   };
   struct Cut {
-    std::size_t axis = 0;  ///< x, y, z, turn_x, turn_y, turn_z
+    std::size_t axis{};  ///< x, y, z, turn_x, turn_y, turn_z
     bool above = false;
     Decimal at;
     std::vector<Term> terms;
