@@ -76,6 +76,10 @@ show "$lekalo" nest $layouts/shoes.json --work 4000000 --seed 1 -o demo-out/shoe
 show "$lekalo" pocket examples/pockets/cover.json --tool 6 --depth 4 --stepdown 2 --spindle 12000 -o demo-out/cover.ngc --picture demo-out/cover.png --animation demo-out/cover.html
 show "$lekalo" simulate demo-out/cover.ngc --pocket examples/pockets/cover.json --tool 6
 
+# A hub pressed on a shaft: what that does to their surfaces. What is computed and not proved, verify names (exit status 1).
+show "$lekalo" fit --fit 18H8/z8 --hub-outer 36 --length 18 --shaft-length 54 --material C45 --friction 0.08,0.12 -o demo-out/fit.json
+show "$lekalo" verify demo-out/fit.json || [ $? -eq 1 ]
+
 # The editor, seen by a browser (tests drive it further: ctest -L browser).
 if [ -x "$(command -v chromium)" ] && [ -d web/node_modules ]; then
   show env LEKALO=$lekalo node web/bench/picture.mjs demo-out/shoes.json demo-out/editor.png
@@ -94,6 +98,7 @@ say "                                     picture, report, a page that turns, re
 say "  shoes.json, shoes.svg, shoes.pdf   a pair of shoes on a hide with defects and zones: layout and picture"
 say "  shoes-nested.json, shoes-nested.svg  three pairs laid out by lekalo nest"
 say "  cover.ngc, cover.png, cover.html   a pocket with an island: the program that clears it, its path by engagement, played"
+say "  fit.json                           a hub pressed on a shaft: pressures and growths along the axis"
 say "  editor.png                         the same in the editor, a part in hand over another. To use it:"
 say ""
 say "    $lekalo serve $layouts/shoes.json"

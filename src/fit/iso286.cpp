@@ -129,7 +129,7 @@ class Size {
   const ShaftRow& shafts_;
 };
 
-constexpr const char* kWayOut = "state the interference itself";
+constexpr const char* kWayOut = "give the interference itself, --diameter MM --interference MM";
 
 }  // namespace
 

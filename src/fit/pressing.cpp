@@ -340,7 +340,7 @@ tl::unexpected<Error> no_solution(double part) {
   return failure(ErrorCode::bad_input,
                  fmt::format("the parts carry no more than {:.3g} % of this interference: a part has yielded "
                              "through and does not harden; choose a smaller interference, a thicker wall, or "
-                             "state its hardening",
+                             "state --hardening",
                              100 * part));
 }
 

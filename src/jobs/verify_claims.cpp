@@ -50,6 +50,8 @@ class ClaimJudge {
       case Kind::check_report:
       case Kind::show_report:
         return reported(verify::verify_layout_report);
+      case Kind::fit_report:
+        return reported(verify::verify_fit_report);
       case Kind::program:
         return beside_.layout && beside_.profile ? profile() : program();
       case Kind::dxf:

@@ -60,6 +60,10 @@ std::vector<Command> commands() {
        {"pocket", "pocket.json", "--tool", "6", "--depth", "2", "-o", "p.ngc", "--json"},
        {"p.ngc"}},
       {"simulate", {"simulate", "p.nc", "--pocket", "pocket.json", "--tool", "6", "--json"}, {}},
+      {"fit",
+       {"fit", "--diameter", "18", "--interference", "0.02", "--hub-outer", "36", "--length", "18",
+        "--material", "C45", "--json", "-o", "f.json"},
+       {"f.json"}},
   };
 }
 

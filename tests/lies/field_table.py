@@ -20,7 +20,8 @@ import verify_lies
 # The kinds of results, and the words with which their table begins.
 TABLES = {"placement, solids": "Placements of solids:", "placement": "Placements:", "layout": "**Layouts.**",
           "report of nest": "**Reports of nest and check.**", "report of check": "**Reports of nest and check.**",
-          "report of pocket": "**Reports of simulate and pocket", "report of simulate": "**Reports of simulate and pocket"}
+          "report of pocket": "**Reports of simulate and pocket", "report of simulate": "**Reports of simulate and pocket",
+          "result of fit": "**Results of fit.**"}
 
 
 def named(text):

@@ -154,6 +154,7 @@ def kinds():
     yield from of_solids()
     yield from of_layouts()
     yield from of_pockets()
+    yield from of_fits()
 
 
 def box(low, high):
@@ -303,3 +304,10 @@ def of_pockets():
                truth.pocket_report, written=made, inputs=["pocket.json", "p.ngc"])
     yield Kind("program, pocket, in its report", [], [plain], "p.ngc", of_r, truth.pocket_program, written=made,
                form="text", report_of="r.json")
+
+
+def of_fits():
+    """What finite elements say is never confirmed, so that verify gives 1 and no change needs an excuse."""
+    sizes = ["--hub-outer", "36", "--length", "18", "--material", "C45", "--bore", "6", "-o", "r.json"]
+    yield Kind("result of fit", [], [["fit", "--fit", "18H8/z8", "--friction", "0.08,0.12", "--clearance", "18"] + sizes],
+               "r.json", ["verify", "r.json"], lambda context: lambda change: None, base=1)

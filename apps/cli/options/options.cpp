@@ -29,6 +29,7 @@ constexpr CommandForm kForms[] = {
     {"pocket", "Make the NC program that clears a pocket with bounded engagement", add_pocket_form},
     {"simulate", "Say what an NC program cuts of a pocket: coverage, gouges, engagement, time",
      add_simulate_form},
+    {"fit", "Say what pressing a hub on a shaft does to their surfaces", add_fit_form},
     {"check", "Say which rules a cutting layout breaks, exactly, and where", add_check_form},
     {"show", "Show a cutting layout: material used, parts, kits, picture", add_show_form},
     {"export", "Write a layout or a job of another program in another form", add_export_form},
@@ -40,8 +41,8 @@ constexpr CommandForm kForms[] = {
 };
 
 /// The commands whose work is counted in steps.
-constexpr std::string_view kWorkInSteps[] = {"verify", "pocket", "simulate", "check",
-                                             "show",   "export", "edit"};
+constexpr std::string_view kWorkInSteps[] = {"verify", "pocket", "simulate", "fit",
+                                             "check",  "show",   "export",   "edit"};
 bool counts_steps(std::string_view command) {
   return std::find(std::begin(kWorkInSteps), std::end(kWorkInSteps), command) != std::end(kWorkInSteps);
 }

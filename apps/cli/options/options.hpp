@@ -11,6 +11,7 @@
 #include "lekalo/base/units.hpp"
 #include "lekalo/io/formats/part_file.hpp"
 #include "lekalo/jobs/export.hpp"
+#include "lekalo/jobs/fit.hpp"
 #include "lekalo/jobs/locate.hpp"
 #include "lekalo/jobs/locate_solid.hpp"
 #include "lekalo/jobs/nest.hpp"
@@ -99,6 +100,13 @@ struct PocketOptions : jobs::PocketOptions {
   std::vector<EarlierFile> after;
 };
 
+/// The parts that are pressed, and the file of the result.
+struct FitOptions {
+  jobs::FitJob job;
+  std::string output;  ///< may be empty
+  bool json = false;
+};
+
 struct CheckOptions {
   LayoutSource source;
   std::string picture;  ///< may be empty
@@ -157,9 +165,9 @@ struct PrintText {
   std::string text;
 };
 
-using Command =
-    std::variant<LocateOptions, VerifyOptions, PocketOptions, SimulateOptions, CheckOptions, ShowOptions,
-                 ExportOptions, EditOptions, NestOptions, NewOptions, ServeOptions, StoreOptions, PrintText>;
+using Command = std::variant<LocateOptions, VerifyOptions, PocketOptions, SimulateOptions, FitOptions,
+                             CheckOptions, ShowOptions, ExportOptions, EditOptions, NestOptions, NewOptions,
+                             ServeOptions, StoreOptions, PrintText>;
 
 /// The steps of work (base/stop.hpp) after which a command that does not search gives up, so that no input
 /// takes for ever: docs/limits.md.

@@ -24,6 +24,7 @@ enum class Kind : std::uint8_t {
   show_report,
   pocket_report,
   simulate_report,
+  fit_report,
   verify_report,
   certificate,
   program,
@@ -90,6 +91,16 @@ struct NamedFile {
 /// cannot be read. Cost: that of verify_layout. \param files  the bytes of named_files(), in that order
 [[nodiscard]] Result<ClaimReport> verify_layout_report(const Document& report,
                                                        const std::vector<Document>& files);
+
+/// Rechecks a result of `lekalo fit`: the interferences, by a table of limits of its own; what follows from
+/// formulas; and by Betti's theorem that the mean growths of parts that do not yield are those of the
+/// pressures, which the forces make, to a thousandth. How growths are distributed, stresses, and what has
+/// yielded, is computed by finite elements and named as unchecked.
+///
+/// Fails with bad_input for fields that are missing, not known or of a wrong form. Cost: O(bytes).
+/// \param files  the bytes of named_files(), in that order
+[[nodiscard]] Result<ClaimReport> verify_fit_report(const Document& report,
+                                                    const std::vector<Document>& files);
 
 /// Judges a program for a pocket by itself: the tool leaves the pocket nowhere by more than 0.005 mm, meets
 /// material in no rapid motion, and leaves no place uncut that it can reach, wider than 0.02 mm. Errors and

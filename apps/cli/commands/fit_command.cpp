@@ -1,0 +1,61 @@
+#include "fit_command.hpp"
+
+#include <fmt/core.h>
+
+#include "interrupt.hpp"
+#include "lekalo/disk/files.hpp"
+#include "lekalo/jobs/fit.hpp"
+#include "outputs.hpp"
+#include "summary.hpp"
+
+namespace lekalo::cli {
+namespace {
+
+std::string case_row(const jobs::FitCase& one) {
+  const fit::Pressed& p = one.pressed;
+  const fit::RingGrowth& shaft = p.rings.front();
+  const std::string bore =
+      shaft.inner.empty() ? "" : fmt::format(", bore closes by {:.2f}", -1000 * shaft.inner.front().diameter);
+  const std::string din =
+      one.din ? fmt::format("{:.1f} MPa, {:.2f} um", one.din->pressure_mpa, 1000 * one.din->hub_outer_growth)
+              : std::string("does not hold here");
+  return fmt::format(
+      "{:g} um: {}, pressure {:.1f} MPa ({:.1f} in the middle)\n"
+      "  diameters, um        hub's outside +{:.2f} in the middle and +{:.2f} at its end, shaft {:.2f}{}\n"
+      "  after taking apart   hub's bore +{:.2f}, outside +{:.2f}\n"
+      "  DIN 7190             {}\n",
+      1000 * one.interference, fit::name_of(p.state), p.seats.front().pressure_mpa,
+      p.seats.front().middle_mpa, 1000 * p.rings.back().outer.front().diameter,
+      1000 * p.rings.back().outer.back().diameter, 1000 * shaft.outer.front().diameter, bore,
+      1000 * one.released.rings[1].inner.front().diameter,
+      1000 * one.released.rings.back().outer.front().diameter, din);
+}
+
+std::string words_of(const jobs::FitJob& job, const jobs::Fitted& made) {
+  std::string text;
+  for (const jobs::FitCase& one : made.cases) {
+    text += case_row(one);
+    const double force = one.pressed.seats.front().force_n;
+    if (job.friction)
+      text += fmt::format("  force of pressing    {:.1f} to {:.1f} kN\n", (*job.friction)[0] * force / 1000,
+                          (*job.friction)[1] * force / 1000);
+    const auto shrink = job.clearance_um ? fit::shrink_difference(made.assembly.rings[1], one.interference,
+                                                                  *job.clearance_um / 1000)
+                                         : std::nullopt;
+    if (shrink) text += fmt::format("  hub warmer by        {:.0f} K\n", *shrink);
+  }
+  return text + "Friction while the parts give way, spin and torque are not modelled: docs/design/fit.md\n";
+}
+
+}  // namespace
+
+Result<int> run_fit(const FitOptions& o) {
+  LEKALO_CHECK(check_outputs({{"-o", o.output}}, {}));
+  LEKALO_TRY(const jobs::Fitted made, jobs::fit(o.job, progress_lines()));
+  if (!o.output.empty()) LEKALO_CHECK(deliver(o.output, made.json));
+  if (o.json) LEKALO_CHECK(print(made.json));
+  tell(words_of(o.job, made));
+  return 0;
+}
+
+}  // namespace lekalo::cli

@@ -1,0 +1,165 @@
+#include "lekalo/jobs/fit.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <utility>
+
+#include "fit_document.hpp"
+#include "lekalo/fit/material.hpp"
+#include "lekalo/verify/claims.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+/// Peaks give way by 0.4 (DIN 7190-1:2017) to 0.8 (before) of both Rz, in diameter: an interval.
+constexpr double kLeastSmoothed = 0.4, kMostSmoothed = 0.8;
+
+tl::unexpected<Error> refused(const std::string& sentence) { return failure(ErrorCode::bad_input, sentence); }
+
+std::string names_of_materials() {
+  std::string names;
+  for (const fit::KnownMaterial& m : fit::known_materials())
+    names += (names.empty() ? "" : ", ") + std::string(m.name);
+  return names;
+}
+
+Result<fit::Material> material_of(const MaterialWords& words, double inner, double outer) {
+  fit::Material material;
+  if (!words.name.empty()) {
+    const fit::KnownMaterial* const known = fit::known_material(words.name);
+    if (known == nullptr)
+      return refused(
+          fmt::format("{}: no such material; there are {}, or give --youngs, --poisson and --yield",
+                      words.name, names_of_materials()));
+    material = fit::material_in(*known, inner, outer);
+    if (material.yield_mpa == 0 && !words.yield_mpa)
+      return refused(fmt::format("{}: no yield stress is known of a section as thick as {} mm; give --yield",
+                                 words.name, inner > 0 ? (outer - inner) / 2 : outer));
+  } else if (!words.youngs_mpa || !words.poisson || !words.yield_mpa) {
+    return refused(fmt::format("without --material ({}) a metal needs --youngs, --poisson and --yield",
+                               names_of_materials()));
+  } else {
+    material.name = "as stated";
+  }
+  for (const auto& [word, number] : {std::pair{&words.youngs_mpa, &material.youngs_mpa},
+                                     {&words.poisson, &material.poisson},
+                                     {&words.yield_mpa, &material.yield_mpa},
+                                     {&words.hardening_mpa, &material.hardening_mpa},
+                                     {&words.expansion_per_k, &material.expansion_per_k}})
+    if (*word) *number = **word;
+  if (!(material.yield_mpa > 0)) return refused("the yield stress has to be above 0 MPa");
+  return material;
+}
+
+Result<fit::Assembly> assembled(const FitJob& job, double diameter) {
+  fit::Assembly assembly;
+  const double shaft_length = job.shaft_length > 0 ? job.shaft_length : 3 * job.length;
+  const MaterialWords& of_shaft = job.shaft_material ? *job.shaft_material : job.material;
+  if (!(job.bore >= 0 && job.bore < diameter))
+    return refused(
+        fmt::format("the shaft: its bore is {} mm, not below its diameter of {} mm", job.bore, diameter));
+  if (!(job.hub_outer > diameter))
+    return refused(fmt::format("the hub: its outer diameter is {} mm, not above its bore of {} mm",
+                               job.hub_outer, diameter));
+  if (shaft_length < job.length)
+    return refused(fmt::format("the shaft is {} mm long and the hub {} mm; it has to be as long at least",
+                               shaft_length, job.length));
+  LEKALO_TRY(const fit::Material shaft, material_of(of_shaft, job.bore, diameter));
+  assembly.rings.push_back({job.bore, diameter, shaft_length, shaft});
+  double inner = diameter;
+  std::vector<OuterRing> rings{{job.hub_outer, 0}};
+  rings.insert(rings.end(), job.more.begin(), job.more.end());
+  for (const OuterRing& ring : rings) {
+    LEKALO_TRY(const fit::Material material, material_of(job.material, inner, ring.outer_diameter));
+    assembly.rings.push_back({inner, ring.outer_diameter, job.length, material});
+    inner = ring.outer_diameter;
+  }
+  LEKALO_CHECK(fit::check_assembly(assembly));
+  return assembly;
+}
+
+struct Interference {
+  double at_least = 0, at_most = 0;  // um
+};
+
+Result<Interference> interference_of(const FitJob& job, const std::optional<fit::NamedFit>& named) {
+  Interference i{1000 * job.interference, 1000 * job.interference};
+  std::string whose = fmt::format("the interference is {} um", i.at_least);
+  if (named) {
+    i = {named->least_um, named->greatest_um};
+    whose = fmt::format("{}: the interference is {} to {} um", job.fit, i.at_least, i.at_most);
+  }
+  if (!(i.at_least > 0))
+    return refused(whose +
+                   ", and has to be above 0 throughout; choose a tighter fit, or state one with "
+                   "--diameter MM --interference MM");
+  if (job.roughness_um) {
+    const double rz = (*job.roughness_um)[0] + (*job.roughness_um)[1];
+    i.at_least -= kMostSmoothed * rz, i.at_most -= kLeastSmoothed * rz;
+    if (!(i.at_least > 0))
+      return refused(
+          fmt::format("{}, and smoothing takes up to {:.6g} um of it, so nothing may be left; choose a "
+                      "tighter fit or smoother surfaces",
+                      whose, kMostSmoothed * rz));
+  }
+  return i;
+}
+
+/// One path through all cases. What has yielded through and does not harden carries no more.
+Result<void> press_all(const FitJob& job, const Interference& interference, Fitted& made,
+                       const PhaseListener& phases, std::uint64_t& work) {
+  std::vector<std::pair<const char*, double>> stations{{"pressing", interference.at_most}};
+  if (interference.at_least != interference.at_most)
+    stations = {{"pressing the least interference", interference.at_least},
+                {"pressing the mean interference", (interference.at_least + interference.at_most) / 2},
+                {"pressing the greatest interference", interference.at_most}};
+  fit::Pressing pressing(made.assembly);
+  for (const auto& [words, um] : stations) {
+    const ProgressListener listening = begin_phase(phases, words);
+    std::vector<double> seats{um / 1000};
+    for (const OuterRing& ring : job.more) seats.push_back(ring.interference);
+    FitCase one;
+    one.interference = um / 1000;
+    LEKALO_TRY(one.pressed, pressing.press(seats));
+    if (one.pressed.state == fit::State::full)
+      for (std::size_t i = 0; i < one.pressed.rings.size(); ++i)
+        if (one.pressed.rings[i].through && made.assembly.rings[i].material.hardening_mpa == 0)
+          return refused(
+              fmt::format("{} yields through its whole wall at {:.6g} um and does not harden, so it carries "
+                          "no more; choose a smaller interference, a thicker wall, or state --hardening",
+                          fit::ring_name(i), um));
+    LEKALO_TRY(one.released, pressing.released());
+    one.din = fit::din_7190(made.assembly, one.interference);
+    made.cases.push_back(std::move(one));
+  }
+  work = pressing.work();
+  return {};
+}
+
+}  // namespace
+
+Result<Fitted> fit(const FitJob& job, const PhaseListener& phases) {
+  Fitted made;
+  double diameter = job.diameter;
+  if (!job.fit.empty()) {
+    LEKALO_TRY(made.named, fit::read_fit(job.fit));
+    diameter = made.named->diameter_mm;
+  }
+  if (!(diameter > 0)) return refused(fmt::format("the diameter is {} mm; it has to be above 0", diameter));
+  for (const OuterRing& ring : job.more)
+    if (!(ring.interference > 0))
+      return refused(fmt::format("the interference of the ring of {} mm is {} mm; it has to be above 0",
+                                 ring.outer_diameter, ring.interference));
+  LEKALO_TRY(const Interference interference, interference_of(job, made.named));
+  LEKALO_TRY(made.assembly, assembled(job, diameter));
+  std::uint64_t work = 0;
+  LEKALO_CHECK(press_all(job, interference, made, phases, work));
+  made.json = fit_json(job, made, work);
+  LEKALO_TRY(const verify::ClaimReport report, verify::verify_fit_report({"the result", made.json}, {}));
+  if (!report.findings.empty())
+    return failure(ErrorCode::refuted, "the checker refutes the result: " + report.findings.front());
+  return made;
+}
+
+}  // namespace lekalo::jobs

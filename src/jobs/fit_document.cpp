@@ -1,0 +1,140 @@
+#include "fit_document.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lekalo/base/version.hpp"
+#include "report_document.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+/// Figures stand to 1e-6 of their unit (um, MPa, N): far below what the elements know, far above rounding.
+double shown(double value) {
+  const double rounded = std::round(value * 1e6) / 1e6;
+  return rounded == 0 ? 0.0 : rounded;
+}
+double um(double mm) { return shown(1000 * mm); }
+
+void write_limits(io::JsonWriter& json, const char* key, const fit::Limits& limits) {
+  json.key(key).list({limits.lower_um, limits.upper_um});
+}
+
+void write_rings(io::JsonWriter& json, const fit::Assembly& assembly) {
+  json.key("rings").begin_list();
+  for (std::size_t i = 0; i < assembly.rings.size(); ++i) {
+    const fit::Ring& ring = assembly.rings[i];
+    json.begin_object().fields({{"name", fit::ring_name(i)},
+                                {"inner_diameter_mm", ring.inner_diameter},
+                                {"outer_diameter_mm", ring.outer_diameter},
+                                {"length_mm", ring.length},
+                                {"material", ring.material.name},
+                                {"youngs_mpa", ring.material.youngs_mpa},
+                                {"poisson", ring.material.poisson},
+                                {"yield_mpa", ring.material.yield_mpa},
+                                {"hardening_mpa", ring.material.hardening_mpa},
+                                {"expansion_per_k", ring.material.expansion_per_k}});
+    json.end();
+  }
+  json.end();
+}
+
+/// The row of a surface at a place of the shaft; null beyond its end.
+std::optional<double> growth_at(const std::vector<fit::Growth>& surface, std::size_t row) {
+  return row < surface.size() ? std::optional(um(surface[row].diameter)) : std::nullopt;
+}
+
+void write_profile(io::JsonWriter& json, const fit::Pressed& pressed) {
+  const fit::RingGrowth &shaft = pressed.rings.front(), &hub = pressed.rings[1],
+                        &outside = pressed.rings.back();
+  const std::size_t rows = std::max(shaft.outer.size(), hub.outer.size());
+  json.key("profile").begin_list();
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double z = i < shaft.outer.size() ? shaft.outer[i].z : hub.outer[i].z;
+    json.begin_object().fields({{"z_mm", shown(z)},
+                                {"bore_um", growth_at(shaft.inner, i)},
+                                {"shaft_um", growth_at(shaft.outer, i)},
+                                {"hub_bore_um", growth_at(hub.inner, i)},
+                                {"hub_um", growth_at(outside.outer, i)}});
+    json.end();
+  }
+  json.end();
+}
+
+void write_case(io::JsonWriter& json, const FitJob& job, const Fitted& made, const FitCase& one) {
+  const fit::SeatLoad& seat = one.pressed.seats.front();
+  const fit::RingGrowth& shaft = one.pressed.rings.front();
+  json.begin_object().fields({{"interference_um", um(one.interference)},
+                              {"state", fit::name_of(one.pressed.state)},
+                              {"pressure_mpa", shown(seat.pressure_mpa)},
+                              {"middle_pressure_mpa", shown(seat.middle_mpa)},
+                              {"touching_mm", shown(seat.touching_mm)},
+                              {"hub_outer_growth_um", um(one.pressed.rings.back().outer.front().diameter)}});
+  json.field("shaft_bore_closure_um",
+             shaft.inner.empty() ? std::nullopt : std::optional(-um(shaft.inner.front().diameter)));
+  json.key("seats").list(one.pressed.seats, [&](const fit::SeatLoad& s) {
+    const auto index = static_cast<std::size_t>(&s - one.pressed.seats.data());
+    json.object({{"interference_um", um(one.pressed.interference[index])},
+                 {"force_n", shown(s.force_n)},
+                 {"pressure_mpa", shown(s.pressure_mpa)}});
+  });
+  json.key("stresses").list(one.pressed.rings, [&](const fit::RingGrowth& ring) {
+    json.object({{"yields", ring.yields},
+                 {"plastic_part", shown(ring.plastic_part)},
+                 {"middle_mises_mpa", shown(ring.middle_mises_mpa)},
+                 {"largest_mises_mpa", shown(ring.largest_mises_mpa)}});
+  });
+  json.key("din_7190");
+  if (one.din)
+    json.object({{"state", fit::name_of(one.din->state)},
+                 {"pressure_mpa", shown(one.din->pressure_mpa)},
+                 {"hub_outer_growth_um", um(one.din->hub_outer_growth)}});
+  else
+    json.value(nullptr);
+  json.key("released")
+      .object({{"hub_bore_growth_um", um(one.released.rings[1].inner.front().diameter)},
+               {"hub_outer_growth_um", um(one.released.rings.back().outer.front().diameter)},
+               {"shaft_growth_um", um(one.released.rings.front().outer.front().diameter)}});
+  json.key("press_force_n");
+  if (job.friction)
+    json.list({shown((*job.friction)[0] * seat.force_n), shown((*job.friction)[1] * seat.force_n)});
+  else
+    json.value(nullptr);
+  const auto shrink = job.clearance_um ? fit::shrink_difference(made.assembly.rings[1], one.interference,
+                                                                *job.clearance_um / 1000)
+                                       : std::nullopt;
+  json.field("shrink_difference_k", shrink ? std::optional(shown(*shrink)) : std::nullopt);
+  write_profile(json, one.pressed);
+  json.end();
+}
+
+}  // namespace
+
+std::string fit_json(const FitJob& job, const Fitted& made, std::uint64_t work) {
+  io::JsonWriter json = begin_document("lekalo-fit");
+  json.fields({{"status", "computed"}, {"units", "mm"}}).key("inputs").begin_list().end();
+  json.key("warnings").begin_list().end();
+  json.fields({{"seed", 0}, {"work", work}, {"version", kVersion}});
+  json.field("diameter_mm", made.assembly.rings.front().outer_diameter);
+  json.key("fit");
+  if (made.named) {
+    json.begin_object().fields({{"hole", made.named->hole}, {"shaft", made.named->shaft}});
+    write_limits(json, "hole_limits_um", made.named->hole_limits);
+    write_limits(json, "shaft_limits_um", made.named->shaft_limits);
+    json.end();
+  } else {
+    json.value(nullptr);
+  }
+  json.key("roughness_um");
+  job.roughness_um ? json.list({(*job.roughness_um)[0], (*job.roughness_um)[1]}) : json.value(nullptr);
+  json.key("friction");
+  job.friction ? json.list({(*job.friction)[0], (*job.friction)[1]}) : json.value(nullptr);
+  json.field("clearance_um", job.clearance_um);
+  write_rings(json, made.assembly);
+  json.key("cases").begin_list();
+  for (const FitCase& one : made.cases) write_case(json, job, made, one);
+  json.end().key("run").object({});
+  return end_document(json);
+}
+
+}  // namespace lekalo::jobs

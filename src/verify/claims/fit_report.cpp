@@ -1,0 +1,388 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "report_fields.hpp"
+#include "verify/fit/iso286.hpp"
+#include "verify/fit/rings.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+/// Figures stand to 1e-6 of a micrometre, a megapascal or a newton.
+constexpr double kShown = 1.1e-6;
+/// Elements keep Betti's theorem to this part; the test unit.fit_report holds it over many fits.
+constexpr double kBetti = 1e-3;
+/// Differences of displacements where surfaces touch, um: two figures and what the iteration leaves.
+constexpr double kTouch = 1e-5;
+/// Peaks give way by 0.4 to 0.8 of both Rz.
+constexpr double kLeastSmoothed = 0.4, kMostSmoothed = 0.8;
+
+struct Row {
+  double z = 0;
+  std::optional<double> bore, shaft, hub_bore, hub;  // um
+};
+
+/// The integral of what is there over both halves; the rows are corners and middles of elements in turn.
+double integral(const std::vector<Row>& rows, std::optional<double> Row::*figure) {
+  double sum = 0;
+  for (std::size_t i = 0; i + 2 < rows.size() && rows[i + 2].*figure; i += 2)
+    sum += (rows[i + 2].z - rows[i].z) / 3 *
+           (*(rows[i].*figure) + 4 * *(rows[i + 1].*figure) + *(rows[i + 2].*figure));
+  return sum;
+}
+
+class FitReport {
+ public:
+  FitReport(const Document& report, Json root) : report_(report), fields_(root, "", complaint_) {}
+
+  Result<ClaimReport> rechecked() {
+    check_format(fields_, "lekalo-fit", complaint_);
+    for (const char* known : {"inputs", "outputs", "warnings", "seed", "work", "version", "run"})
+      (void)fields_.get(known);
+    if (fields_.text("status") != "computed") fields_.complain("field status is not \"computed\"");
+    read_rings();
+    read_words();
+    if (!complaint_.empty()) return refused();
+    check_fit();
+    check_cases();
+    fields_.refuse_others();
+    if (!complaint_.empty()) return refused();
+    claims_.unchecked = {
+        "profile: how growths are distributed along the axis is computed by finite elements and not proved; "
+        "their means "
+        "are rechecked, of parts that do not yield",
+        "state: it is computed by finite elements and not proved",
+        "stresses: they are computed by finite elements and not proved",
+        "middle_pressure_mpa: it is computed by finite elements and not proved",
+        "released: it is computed by finite elements and not proved"};
+    return std::move(claims_);
+  }
+
+ private:
+  [[nodiscard]] tl::unexpected<Error> refused() const {
+    return failure(ErrorCode::bad_input, fmt::format("{}: {}", report_.name, complaint_));
+  }
+  void find(const std::string& sentence) { claims_.findings.push_back(sentence); }
+  void hold(const std::string& what, double written, double found, double within) {
+    if (!(std::abs(written - found) <= within))
+      find(fmt::format("{} is {} and is to be {:.9g}", what, written, found));
+  }
+
+  std::optional<double> number_or_null(ReportFields& fields, std::string_view key) {
+    const Json value = fields.get(key);
+    if (value.text.empty()) fields.complain(fmt::format("field {} is missing", fields.name(key)));
+    if (value.text.empty() || value.is_null()) return {};
+    return fields.number(key);
+  }
+  /// Two numbers, or none where there is null.
+  std::optional<std::array<double, 2>> pair_or_null(ReportFields& fields, std::string_view key) {
+    const Json value = fields.get(key);
+    if (value.text.empty()) fields.complain(fmt::format("field {} is missing", fields.name(key)));
+    if (value.text.empty() || value.is_null()) return {};
+    std::array<double, 2> pair{};
+    std::size_t count = 0;
+    fields.each(key, [&](Json item, const std::string& path) {
+      if (count < 2) pair[count] = approximate(number_of(item, path));
+      ++count;
+    });
+    if (count != 2) fields.complain(fmt::format("field {} has not two numbers", fields.name(key)));
+    return pair;
+  }
+  Decimal number_of(Json item, const std::string& path) {
+    const auto number = item.is_number() ? parse_decimal(item.text) : std::nullopt;
+    if (!number) fields_.complain(fmt::format("{} is not a number", path));
+    return number.value_or(Decimal{});
+  }
+
+  void read_rings() {
+    fields_.each("rings", [&](Json item, const std::string& path) {
+      ReportFields f(item, path, complaint_);
+      if (!complaint_.empty()) return;
+      CheckedRing ring{f.number("inner_diameter_mm"), f.number("outer_diameter_mm"), f.number("length_mm"),
+                       f.number("youngs_mpa"),        f.number("poisson"),           f.number("yield_mpa"),
+                       f.number("hardening_mpa"),     f.number("expansion_per_k")};
+      (void)f.text("material");
+      const std::string name = rings_.empty()       ? "the shaft"
+                               : rings_.size() == 1 ? "the hub"
+                                                    : fmt::format("ring {}", rings_.size());
+      if (f.text("name") != name) f.complain(fmt::format("field {} is not \"{}\"", f.name("name"), name));
+      f.refuse_others();
+      const bool sound = ring.inner >= 0 && ring.outer > ring.inner && ring.length > 0 && ring.youngs > 0 &&
+                         ring.poisson >= 0 && ring.poisson < 0.5 && ring.yield > 0 && ring.hardening >= 0 &&
+                         ring.expansion >= 0;
+      if (!sound || (!rings_.empty() && ring.inner != rings_.back().outer))
+        f.complain(fmt::format("{} is no ring of a fit", path));
+      rings_.push_back(ring);
+    });
+    if (complaint_.empty() && rings_.size() < 2) fields_.complain("field rings has fewer than two");
+    if (!complaint_.empty()) return;
+    for (std::size_t i = 1; i < rings_.size(); ++i)
+      if (rings_[i].length > rings_[0].length || rings_[i].length != rings_[1].length)
+        fields_.complain("field rings: a ring is longer than the shaft, or not as long as the hub");
+    if (fields_.number("diameter_mm") != rings_[0].outer)
+      fields_.complain("field diameter_mm is not that of the shaft");
+  }
+
+  void read_words() {
+    if (!complaint_.empty()) return;
+    roughness_ = pair_or_null(fields_, "roughness_um");
+    friction_ = pair_or_null(fields_, "friction");
+    clearance_ = number_or_null(fields_, "clearance_um");
+  }
+
+  /// The cases that a named fit has, by the table of the checker.
+  void check_fit() {
+    const Json value = fields_.get("fit");
+    if (value.text.empty()) fields_.complain("field fit is missing");
+    if (!complaint_.empty() || value.is_null()) return;
+    ReportFields f(value, "fit", complaint_);
+    const std::string hole = f.text("hole"), shaft = f.text("shaft");
+    const auto hole_limits = pair_or_null(f, "hole_limits_um"),
+               shaft_limits = pair_or_null(f, "shaft_limits_um");
+    f.refuse_others();
+    if (!complaint_.empty()) return;
+    const std::optional<ClassLimits> h = iso286_limits(rings_[0].outer, hole),
+                                     s = iso286_limits(rings_[0].outer, shaft);
+    if (!h || !s || hole.empty() || hole[0] >= 'a' || shaft[0] < 'a')
+      return find(fmt::format("fit: {}/{} has no limits at {} mm", hole, shaft, rings_[0].outer));
+    if (!hole_limits || !shaft_limits || *hole_limits != std::array{h->lower, h->upper} ||
+        *shaft_limits != std::array{s->lower, s->upper})
+      find(fmt::format("fit: the limits of {}/{} at {} mm are {} to {} and {} to {} um", hole, shaft,
+                       rings_[0].outer, h->lower, h->upper, s->lower, s->upper));
+    const double rz = roughness_ ? (*roughness_)[0] + (*roughness_)[1] : 0;
+    const double least = s->lower - h->upper - kMostSmoothed * rz,
+                 most = s->upper - h->lower - kLeastSmoothed * rz;
+    wanted_ = {least, (least + most) / 2, most};
+  }
+
+  void check_cases() {
+    std::size_t count = 0;
+    fields_.each("cases", [&](Json item, const std::string& path) {
+      ReportFields f(item, path, complaint_);
+      if (!complaint_.empty()) return;
+      check_case(f, path, count++);
+      f.refuse_others();
+    });
+    if (!complaint_.empty()) return;
+    if (!wanted_.empty() ? count != wanted_.size() : count != 1 && !(roughness_ && count == 3))
+      find(fmt::format("cases has {} items", count));
+  }
+
+  void check_case(ReportFields& f, const std::string& path, std::size_t index) {
+    const double interference = f.number("interference_um");
+    if (!(interference > 0)) find(path + ".interference_um is not above 0");
+    if (index < wanted_.size()) hold(path + ".interference_um", interference, wanted_[index], kShown);
+    const std::vector<double> pressures = read_seats(f, path, interference);
+    const std::vector<bool> yields = read_stresses(f, path);
+    const std::vector<Row> rows = read_profile(f, path);
+    const double touching = f.number("touching_mm"), pressure = f.number("pressure_mpa");
+    const double growth = f.number("hub_outer_growth_um");
+    const std::optional<double> closure = number_or_null(f, "shaft_bore_closure_um");
+    (void)f.number("middle_pressure_mpa");
+    check_state(f, path, yields);
+    check_released(f);
+    check_by_formulas(f, path, interference, pressures);
+    if (!complaint_.empty() || rows.empty() || pressures.empty()) return;
+    hold(path + ".pressure_mpa", pressure, pressures[0], 0);
+    hold(path + ".hub_outer_growth_um", growth, rows[0].hub.value_or(0), 0);
+    if (closure.has_value() != rows[0].bore.has_value())
+      find(path + ".shaft_bore_closure_um is there where the shaft has no bore, or the other way round");
+    else if (closure)
+      hold(path + ".shaft_bore_closure_um", *closure, -*rows[0].bore, 0);
+    check_touching(rows, path, interference, touching);
+    check_means(rows, path, pressures, yields);
+  }
+
+  std::vector<double> read_seats(ReportFields& f, const std::string& path, double interference) {
+    std::vector<double> pressures;
+    f.each("seats", [&](Json item, const std::string& place) {
+      ReportFields seat(item, place, complaint_);
+      if (!complaint_.empty()) return;
+      const double of = seat.number("interference_um"), force = seat.number("force_n");
+      const double pressure = seat.number("pressure_mpa");
+      seat.refuse_others();
+      const std::size_t i = pressures.size();
+      pressures.push_back(pressure);
+      if (!complaint_.empty() || i + 1 >= rings_.size()) return;
+      const double area = std::numbers::pi * rings_[i].outer * rings_[i + 1].length;
+      hold(place + ".pressure_mpa", pressure, force / area, kShown * (1 + 1 / area));
+      if (i == 0) {
+        hold(place + ".interference_um", of, interference, 0);
+        force_ = force;
+      } else if (!(of > 0)) {
+        find(place + ".interference_um is not above 0");
+      }
+    });
+    if (complaint_.empty() && pressures.size() + 1 != rings_.size())
+      f.complain(fmt::format("field {}.seats has not one of each seat", path));
+    return pressures;
+  }
+
+  std::vector<bool> read_stresses(ReportFields& f, const std::string& path) {
+    std::vector<bool> yields;
+    f.each("stresses", [&](Json item, const std::string& place) {
+      ReportFields stress(item, place, complaint_);
+      if (!complaint_.empty()) return;
+      const Json does = stress.get("yields");
+      if (!does.is_bool()) stress.complain(fmt::format("field {}.yields is neither true nor false", place));
+      const double part = stress.number("plastic_part"), middle = stress.number("middle_mises_mpa");
+      const double largest = stress.number("largest_mises_mpa");
+      stress.refuse_others();
+      const std::size_t i = yields.size();
+      yields.push_back(does.is_true());
+      if (!complaint_.empty() || i >= rings_.size()) return;
+      const double most = rings_[i].yield + kShown;
+      if (!(part >= 0 && part <= 1) || (part > 0 && !does.is_true()))
+        find(place + ".plastic_part does not go with what yields");
+      if (!(middle >= 0 && middle <= largest)) find(place + ".middle_mises_mpa is above the largest");
+      if ((!does.is_true() || rings_[i].hardening == 0) && !(largest <= most * (1 + 1e-9)))
+        find(place + ".largest_mises_mpa is above the yield stress");
+    });
+    if (complaint_.empty() && yields.size() != rings_.size())
+      f.complain(fmt::format("field {}.stresses has not one of each ring", path));
+    return yields;
+  }
+
+  void check_state(ReportFields& f, const std::string& path, const std::vector<bool>& yields) {
+    const std::string state = f.text("state");
+    const bool any = std::find(yields.begin(), yields.end(), true) != yields.end();
+    bool hardens = false;
+    for (const CheckedRing& ring : rings_) hardens = hardens || ring.hardening > 0;
+    if (state != "elastic" && state != "plastic" && state != "full")
+      f.complain(fmt::format("field {}.state is not elastic, plastic or full", path));
+    else if ((state == "elastic") == any || (state == "full" && !hardens))
+      find(fmt::format("{}.state is {}, which does not go with what yields and hardens", path, state));
+  }
+
+  void check_released(ReportFields& f) {
+    ReportFields released(f.get("released"), f.name("released"), complaint_);
+    if (!complaint_.empty()) return;
+    for (const char* key : {"hub_bore_growth_um", "hub_outer_growth_um", "shaft_growth_um"})
+      (void)released.number(key);
+    released.refuse_others();
+  }
+
+  /// Formulas give these: DIN 7190, friction, shrinking.
+  void check_by_formulas(ReportFields& f, const std::string& path, double interference,
+                         const std::vector<double>& pressures) {
+    const std::optional<CheckedDin> din = checked_din(rings_, interference / 1000);
+    const Json written = f.get("din_7190");
+    if (written.text.empty()) f.complain(fmt::format("field {}.din_7190 is missing", path));
+    if (written.is_object()) {
+      ReportFields d(written, path + ".din_7190", complaint_);
+      const std::string state = d.text("state");
+      const double pressure = d.number("pressure_mpa"), growth = d.number("hub_outer_growth_um");
+      d.refuse_others();
+      if (!din) return find(path + ".din_7190 is said where its form does not hold");
+      if (state != (din->yields ? "plastic" : "elastic")) find(path + ".din_7190.state is another");
+      hold(path + ".din_7190.pressure_mpa", pressure, din->pressure, kShown);
+      hold(path + ".din_7190.hub_outer_growth_um", growth, 1000 * din->growth, kShown);
+    } else if (din) {
+      find(path + ".din_7190 is not said where its form holds");
+    }
+    const auto force = pair_or_null(f, "press_force_n");
+    if (force.has_value() != friction_.has_value()) find(path + ".press_force_n does not go with friction");
+    if (force && friction_ && !pressures.empty())
+      for (const std::size_t i : {0U, 1U})
+        hold(path + ".press_force_n", (*force)[i], (*friction_)[i] * force_, kShown * (1 + (*friction_)[i]));
+    const std::optional<double> shrink = number_or_null(f, "shrink_difference_k");
+    const bool known = clearance_ && rings_[1].expansion > 0;
+    if (shrink.has_value() != known) find(path + ".shrink_difference_k does not go with the clearance");
+    if (shrink && known)
+      hold(path + ".shrink_difference_k", *shrink,
+           (interference + *clearance_) / 1000 / (rings_[1].expansion * rings_[1].inner), 1e-5);
+  }
+
+  /// Rows from the middle to the shaft's end; those of the hub end with it.
+  std::vector<Row> read_profile(ReportFields& f, const std::string& path) {
+    std::vector<Row> rows;
+    f.each("profile", [&](Json item, const std::string& place) {
+      ReportFields r(item, place, complaint_);
+      if (!complaint_.empty()) return;
+      Row row{r.number("z_mm"), number_or_null(r, "bore_um"), number_or_null(r, "shaft_um"),
+              number_or_null(r, "hub_bore_um"), number_or_null(r, "hub_um")};
+      r.refuse_others();
+      rows.push_back(row);
+    });
+    if (!complaint_.empty()) return {};
+    const auto wrong = [&](const std::string& why) {
+      f.complain(fmt::format("field {}.profile {}", path, why));
+      return std::vector<Row>();
+    };
+    if (rows.size() < 3 || rows.size() % 2 == 0) return wrong("has not rows of whole elements");
+    const double end = rings_[0].length / 2, hub_end = rings_[1].length / 2;
+    if (rows[0].z != 0 || std::abs(rows.back().z - end) > kShown)
+      return wrong("does not go from the middle to the end of the shaft");
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Row& row = rows[i];
+      if (i > 0 && !(row.z > rows[i - 1].z)) return wrong("is not in order");
+      if (i % 2 == 1 && std::abs(row.z - (rows[i - 1].z + rows[i + 1].z) / 2) > 2 * kShown)
+        return wrong("has a row that is not in the middle of its neighbours");
+      const bool on_hub = row.z <= hub_end + kShown;
+      if (!row.shaft || row.hub.has_value() != on_hub || row.hub_bore.has_value() != on_hub ||
+          row.bore.has_value() != (rings_[0].inner > 0))
+        return wrong("has a row of other surfaces than there are");
+    }
+    return rows;
+  }
+
+  /// Surfaces that touch are apart by the interference; none is nearer.
+  void check_touching(const std::vector<Row>& rows, const std::string& path, double interference,
+                      double touching) {
+    double length = 0;
+    const auto gap = [&](const Row& row) { return *row.hub_bore - *row.shaft - interference; };
+    for (std::size_t i = 0; i < rows.size() && rows[i].hub_bore; ++i)
+      if (!(gap(rows[i]) >= -kTouch))
+        return find(fmt::format("{}.profile: shaft and hub overlap at z = {}", path, rows[i].z));
+    for (std::size_t i = 0; i + 2 < rows.size() && rows[i + 2].hub_bore; i += 2)
+      if (gap(rows[i]) <= kTouch && gap(rows[i + 1]) <= kTouch && gap(rows[i + 2]) <= kTouch)
+        length += 2 * (rows[i + 2].z - rows[i].z);
+    hold(path + ".touching_mm", touching, length, 1e-4);
+  }
+
+  /// Betti's theorem with a ring that grows evenly: mean growths are those of mean pressures.
+  void check_means(const std::vector<Row>& rows, const std::string& path,
+                   const std::vector<double>& pressures, const std::vector<bool>& yields) {
+    const auto mean = [&](const char* name, std::optional<double> Row::*figure, std::size_t i,
+                          double diameter, double inside, double outside) {
+      if (yields[i]) return;
+      const double found = integral(rows, figure) / rings_[i].length;
+      const double wanted = 1000 * mean_growth(rings_[i], diameter, inside, outside);
+      // Each of two pressures counts, also where they nearly cancel.
+      const double scale = 1000 * (std::abs(mean_growth(rings_[i], diameter, inside, 0)) +
+                                   std::abs(mean_growth(rings_[i], diameter, 0, outside)));
+      if (!(std::abs(found - wanted) <= kBetti * scale + kTouch))
+        find(fmt::format("{}.profile: the mean of {} is {:.6g} um and its pressures make {:.6g} um", path,
+                         name, found, wanted));
+    };
+    const double of_shaft = pressures[0] * rings_[1].length / rings_[0].length;
+    mean("shaft_um", &Row::shaft, 0, rings_[0].outer, 0, of_shaft);
+    if (rings_[0].inner > 0) mean("bore_um", &Row::bore, 0, rings_[0].inner, 0, of_shaft);
+    mean("hub_bore_um", &Row::hub_bore, 1, rings_[1].inner, pressures[0],
+         pressures.size() > 1 ? pressures[1] : 0);
+    mean("hub_um", &Row::hub, rings_.size() - 1, rings_.back().outer, pressures.back(), 0);
+  }
+
+  const Document& report_;
+  std::string complaint_;
+  ReportFields fields_;
+  ClaimReport claims_;
+  std::vector<CheckedRing> rings_;
+  std::optional<std::array<double, 2>> roughness_, friction_;
+  std::optional<double> clearance_;
+  std::vector<double> wanted_;  // interferences of a named fit, um
+  double force_ = 0;            // of the first seat in the case at hand
+};
+
+}  // namespace
+
+Result<ClaimReport> verify_fit_report(const Document& report, const std::vector<Document>&) {
+  LEKALO_TRY(const Json root, parse_json(report.bytes, report.name));
+  return FitReport(report, root).rechecked();
+}
+
+}  // namespace lekalo::verify
