@@ -21,13 +21,6 @@ constexpr int kContactRounds = 40;
 constexpr int kHalvings = 8;
 constexpr double kStepsOfAll = 16;  // plastic steps of one press()
 
-/// Nodes of two rings at one place of a seat.
-struct Pair {
-  int shaft = 0, hub = 0;
-  std::size_t seat = 0;
-  double turned = 0;  // what the radii overlap beyond the interference, mm
-};
-
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// The free surface of a hub that yields has reached 2 / sqrt(3) of the yield strain around: the measure of
@@ -54,6 +47,13 @@ std::string_view name_of(State state) noexcept {
 }
 
 struct Pressing::Model {
+  /// Nodes of two rings at one place of a seat.
+  struct Pair {
+    int shaft = 0, hub = 0;
+    std::size_t seat = 0;
+    double turned = 0;  // what the radii overlap beyond the interference, mm
+  };
+
   Assembly assembly;
   RingMesh mesh;
   std::vector<StrainAt> strains;  // of each element's points
