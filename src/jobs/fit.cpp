@@ -137,6 +137,31 @@ Result<void> press_all(const FitJob& job, const Interference& interference, Fitt
   return {};
 }
 
+/// The profile for the mean interference, pressed again at all of them, and its files.
+Result<void> correct(const FitJob& job, Fitted& made, const PhaseListener& phases) {
+  const ProgressListener listening = begin_phase(phases, "pressing again with the turned profile");
+  std::vector<std::vector<double>> interferences;
+  std::vector<fit::Pressed> pressed;
+  for (const FitCase& one : made.cases)
+    interferences.push_back(one.pressed.interference), pressed.push_back(one.pressed);
+  LEKALO_TRY(made.corrected,
+             fit::corrected(made.assembly, interferences, pressed, made.cases.size() / 2, *job.cylindrical));
+  if (!job.table_as.empty()) made.table = fit::profile_csv(*made.corrected);
+  if (!job.drawing_as.empty()) made.drawing = fit::profile_dxf(*made.corrected);
+  if (!job.program_as.empty()) made.program = fit::turning_program(*made.corrected, job.turning);
+  return {};
+}
+
+/// The files that the document names, in its order.
+std::vector<verify::Document> files_of(const FitJob& job, const Fitted& made) {
+  std::vector<verify::Document> files;
+  for (const auto& [name, bytes] : {std::pair{&job.table_as, &made.table},
+                                    {&job.drawing_as, &made.drawing},
+                                    {&job.program_as, &made.program}})
+    if (!bytes->empty()) files.push_back({*name, *bytes});
+  return files;
+}
+
 }  // namespace
 
 Result<Fitted> fit(const FitJob& job, const PhaseListener& phases) {
@@ -154,9 +179,14 @@ Result<Fitted> fit(const FitJob& job, const PhaseListener& phases) {
   LEKALO_TRY(const Interference interference, interference_of(job, made.named));
   LEKALO_TRY(made.assembly, assembled(job, diameter));
   std::uint64_t work = 0;
+  if (job.cylindrical == fit::Surface::bore && job.bore == 0)
+    return refused(
+        "the shaft has no bore that could be made cylindrical; give --bore, or choose the outside");
   LEKALO_CHECK(press_all(job, interference, made, phases, work));
+  if (job.cylindrical) LEKALO_CHECK(correct(job, made, phases));
   made.json = fit_json(job, made, work);
-  LEKALO_TRY(const verify::ClaimReport report, verify::verify_fit_report({"the result", made.json}, {}));
+  LEKALO_TRY(const verify::ClaimReport report,
+             verify::verify_fit_report({"the result", made.json}, files_of(job, made)));
   if (!report.findings.empty())
     return failure(ErrorCode::refuted, "the checker refutes the result: " + report.findings.front());
   return made;

@@ -108,11 +108,47 @@ void write_case(io::JsonWriter& json, const FitJob& job, const Fitted& made, con
   json.end();
 }
 
+void write_correction(io::JsonWriter& json, const FitJob& job, const Fitted& made) {
+  json.key("correction");
+  if (!made.corrected) {
+    json.value(nullptr);
+    return;
+  }
+  const fit::Corrected& c = *made.corrected;
+  json.begin_object().fields({{"surface", c.surface == fit::Surface::outside ? "outside" : "bore"},
+                              {"nominal_mm", c.nominal},
+                              {"case", made.cases.size() / 2}});
+  json.key("remains").begin_list();
+  for (std::size_t i = 0; i < c.variations.size(); ++i)
+    json.object({{"interference_um", um(made.cases[i].interference)},
+                 {"before_um", um(c.variations[i].before)},
+                 {"after_um", um(c.variations[i].after)}});
+  json.end().key("profile").list(c.profile, [&](const fit::TurnedPoint& p) {
+    json.object({{"z_mm", shown(p.z)}, {"diameter_mm", shown(p.diameter)}});
+  });
+  json.key("turning");
+  if (made.program.empty())
+    json.value(nullptr);
+  else
+    json.object({{"control", job.turning.control == fit::Lathe::fanuc ? "fanuc" : "linuxcnc"},
+                 {"x", job.turning.radius ? "radius" : "diameter"},
+                 {"feed_mm_per_min", job.turning.feed_mm_per_min},
+                 {"spindle_rpm", job.turning.spindle_rpm}});
+  json.end();
+}
+
 }  // namespace
 
 std::string fit_json(const FitJob& job, const Fitted& made, std::uint64_t work) {
   io::JsonWriter json = begin_document("lekalo-fit");
   json.fields({{"status", "computed"}, {"units", "mm"}}).key("inputs").begin_list().end();
+  if (!made.table.empty() || !made.drawing.empty() || !made.program.empty()) {
+    json.key("outputs").begin_list();
+    if (!made.table.empty()) write_file(json, "profile", {job.table_as, made.table});
+    if (!made.drawing.empty()) write_file(json, "drawing", {job.drawing_as, made.drawing});
+    if (!made.program.empty()) write_file(json, "program", {job.program_as, made.program});
+    json.end();
+  }
   json.key("warnings").begin_list().end();
   json.fields({{"seed", 0}, {"work", work}, {"version", kVersion}});
   json.field("diameter_mm", made.assembly.rings.front().outer_diameter);
@@ -133,7 +169,9 @@ std::string fit_json(const FitJob& job, const Fitted& made, std::uint64_t work) 
   write_rings(json, made.assembly);
   json.key("cases").begin_list();
   for (const FitCase& one : made.cases) write_case(json, job, made, one);
-  json.end().key("run").object({});
+  json.end();
+  write_correction(json, job, made);
+  json.key("run").object({});
   return end_document(json);
 }
 

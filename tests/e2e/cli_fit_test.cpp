@@ -41,6 +41,20 @@ TEST(CliFit, AStatedInterferenceIsOneCase) {
   EXPECT_EQ(cases[0]["state"], "plastic");
 }
 
+TEST(CliFit, WritesTheTurnedProfile) {
+  const TemporaryFolder folder;
+  const Ran made = run(folder.path(), with({"fit", "--diameter", "18", "--interference", "0.04",
+                                            "--cylindrical", "outside", "--profile", "p.csv", "--drawing",
+                                            "p.dxf", "--program", "p.ngc", "-o", "fit.json"},
+                                           kSizes));
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(folder.files().size(), 4U);
+  EXPECT_NE(read_bytes(folder / "p.ngc").find("G18"), std::string::npos);
+  EXPECT_EQ(run(folder.path(), {"verify", "fit.json"}).status, 1);
+  write_bytes(folder / "p.ngc", read_bytes(folder / "p.ngc") + " ");
+  EXPECT_EQ(run(folder.path(), {"verify", "fit.json"}).status, 4);
+}
+
 TEST(CliFit, WhatIsWrongIsSaidInOneSentence) {
   const TemporaryFolder folder;
   struct Wrong {
@@ -59,6 +73,9 @@ TEST(CliFit, WhatIsWrongIsSaidInOneSentence) {
         {{"--diameter", "18", "--interference", "0.02", "--bore", "18"}, 3, "not below its diameter"},
         {{"--diameter", "18"}, 2, "--interference"},
         {{"--fit", "18H8/z8", "--diameter", "18"}, 2, "say what is pressed"},
+        {{"--fit", "18H8/z8", "--program", "p.ngc"}, 2, "need --cylindrical"},
+        {{"--fit", "18H8/z8", "--cylindrical", "seat"}, 2, "is not outside or bore"},
+        {{"--fit", "18H8/z8", "--cylindrical", "bore"}, 3, "has no bore"},
         {{"--fit", "18H8/z8", "--friction", "0.2,0.1"}, 2, "the least comes first"},
         {{"--fit", "18H8/z8", "--ring", "50"}, 2, "--ring"}}) {
     const Ran ran = run(folder.path(), with(with({"fit", "-o", "fit.json"}, w.words), kSizes));

@@ -125,6 +125,38 @@ TEST(VerifyFit, LiesAreRefuted) {
   EXPECT_TRUE(found([](Json& d) { d["cases"][0]["profile"].erase(5); }));
 }
 
+TEST(VerifyFit, ProfilesAndTheirFilesAreHeldAgainstTheGrowths) {
+  jobs::FitJob job = article();
+  job.fit.clear(), job.diameter = 18, job.interference = 0.04;
+  job.cylindrical = fit::Surface::outside;
+  job.table_as = "p.csv", job.drawing_as = "p.dxf", job.program_as = "p.ngc";
+  const jobs::Fitted made = jobs::fit(job).value();
+  const auto found = [&](const std::function<void(Json&)>& change, const std::string& program) {
+    Json document = Json::parse(made.json);
+    change(document);
+    const auto report = verify::verify_fit_report(
+        {"r.json", document.dump()}, {{"p.csv", made.table}, {"p.dxf", made.drawing}, {"p.ngc", program}});
+    return !report || !report->findings.empty();
+  };
+  EXPECT_FALSE(found([](Json&) {}, made.program));
+  EXPECT_TRUE(found([](Json&) {}, made.program + "G0 X0\n"));
+  for (const char* path :
+       {"/correction/nominal_mm", "/correction/profile/0/diameter_mm", "/correction/profile/3/z_mm",
+        "/correction/remains/0/before_um", "/correction/remains/0/interference_um",
+        "/correction/turning/feed_mm_per_min", "/correction/turning/spindle_rpm"})
+    EXPECT_TRUE(found([&](Json& d) { d.at(path) = d.at(path).get<double>() + 1; }, made.program)) << path;
+  for (const auto& lie :
+       std::initializer_list<std::pair<const char*, Json>>{{"/correction/surface", "bore"},
+                                                           {"/correction/case", 1},
+                                                           {"/correction/turning/control", "fanuc"},
+                                                           {"/correction/turning/x", "radius"},
+                                                           {"/correction/turning", nullptr},
+                                                           {"/correction", nullptr},
+                                                           {"/correction/remains/0/after_um", 2},
+                                                           {"/outputs/0/role", "program"}})
+    EXPECT_TRUE(found([&](Json& d) { d.at(lie.first) = lie.second; }, made.program)) << lie.first;
+}
+
 TEST(VerifyFit, ClosedFormIsTheCheckersOwn) {
   jobs::FitJob job = article();
   job.bore = 0;

@@ -44,15 +44,34 @@ std::string words_of(const jobs::FitJob& job, const jobs::Fitted& made) {
                                          : std::nullopt;
     if (shrink) text += fmt::format("  hub warmer by        {:.0f} K\n", *shrink);
   }
+  if (made.corrected) {
+    text += fmt::format("Turned for the mean interference, the {} varies by\n",
+                        made.corrected->surface == fit::Surface::outside ? "outside" : "bore");
+    for (std::size_t i = 0; i < made.cases.size(); ++i)
+      text += fmt::format("  {:.2f} um instead of {:.2f} at {:g} um\n",
+                          1000 * made.corrected->variations[i].after,
+                          1000 * made.corrected->variations[i].before, 1000 * made.cases[i].interference);
+  }
   return text + "Friction while the parts give way, spin and torque are not modelled: docs/design/fit.md\n";
 }
 
 }  // namespace
 
 Result<int> run_fit(const FitOptions& o) {
-  LEKALO_CHECK(check_outputs({{"-o", o.output}}, {}));
+  const jobs::FitJob& job = o.job;
+  LEKALO_CHECK(check_outputs({{"-o", o.output},
+                              {"--profile", job.table_as},
+                              {"--drawing", job.drawing_as},
+                              {"--program", job.program_as}},
+                             {}));
   LEKALO_TRY(const jobs::Fitted made, jobs::fit(o.job, progress_lines()));
-  if (!o.output.empty()) LEKALO_CHECK(deliver(o.output, made.json));
+  disk::AtomicFiles files;
+  for (const auto& [path, bytes] : {std::pair{&o.output, &made.json},
+                                    {&job.table_as, &made.table},
+                                    {&job.drawing_as, &made.drawing},
+                                    {&job.program_as, &made.program}})
+    if (!path->empty()) LEKALO_CHECK(files.add(*path, *bytes));
+  LEKALO_CHECK(files.commit());
   if (o.json) LEKALO_CHECK(print(made.json));
   tell(words_of(o.job, made));
   return 0;

@@ -12,9 +12,10 @@ namespace {
 struct FitWords {
   std::string fit, diameter, interference, hub_outer, length, shaft_length, bore, roughness, friction,
       clearance;
-  std::string material, youngs, poisson, yield, hardening, expansion, shaft_material, output;
+  std::string material, youngs, poisson, yield, hardening, expansion, shaft_material, output, cylindrical,
+      table, drawing, program, control, feed, spindle;
   std::vector<std::string> rings;
-  bool json = false;
+  bool json = false, radius = false;
 };
 
 constexpr const char* kLength = "a length from 0.001 to 10000 mm";
@@ -49,6 +50,26 @@ void read_optional(WordReader& read, const char* option, const std::string& word
   value = number;
 }
 
+/// The profile that is turned before pressing, and its files.
+void read_turning(WordReader& read, const FitWords& w, jobs::FitJob& job) {
+  if (w.cylindrical == "outside") job.cylindrical = fit::Surface::outside;
+  if (w.cylindrical == "bore") job.cylindrical = fit::Surface::bore;
+  read.require(w.cylindrical.empty() || job.cylindrical,
+               fmt::format("--cylindrical: \"{}\" is not outside or bore", w.cylindrical));
+  job.table_as = w.table, job.drawing_as = w.drawing, job.program_as = w.program;
+  read.require(job.cylindrical || (w.table + w.drawing + w.program).empty(),
+               "--profile, --drawing and --program need --cylindrical outside or bore");
+  read.require(!w.program.empty() || (w.control + w.feed + w.spindle).empty(),
+               "--control, --feed and --spindle are for --program FILE");
+  read.require(!w.radius || !w.program.empty(), "--radius is for --program FILE");
+  if (w.control == "fanuc") job.turning.control = fit::Lathe::fanuc;
+  read.require(w.control.empty() || w.control == "fanuc" || w.control == "linuxcnc",
+               fmt::format("--control: \"{}\" is not linuxcnc or fanuc", w.control));
+  job.turning.radius = w.radius;
+  read.number("--feed", w.feed, 0.1, 1e5, "a feed from 0.1 to 100000 mm/min", job.turning.feed_mm_per_min);
+  read.number("--spindle", w.spindle, 1.0, 1e5, "a speed from 1 to 100000 1/min", job.turning.spindle_rpm);
+}
+
 Result<Command> to_fit(const FitWords& w) {
   WordReader read;
   FitOptions o;
@@ -80,6 +101,7 @@ Result<Command> to_fit(const FitWords& w) {
   read.require(!o.job.friction || (*o.job.friction)[0] <= (*o.job.friction)[1],
                "--friction " + w.friction + ": the least comes first");
   read_optional(read, "--clearance", w.clearance, 0, 1e4, "a clearance in um", o.job.clearance_um);
+  read_turning(read, w, o.job);
   if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint());
   return Command(std::move(o));
 }
@@ -110,6 +132,15 @@ Typed add_fit_form(Form& form) {
   add("--roughness", w.roughness, "SHAFT,HUB", "Rz in um: the interference that is smoothed away");
   add("--friction", w.friction, "LEAST,MOST", "For the force of pressing");
   add("--clearance", w.clearance, "UM", "In diameter, for the temperature of shrinking");
+  add("--cylindrical", w.cylindrical, "SURFACE",
+      "outside or bore: turn it such that it is a cylinder after pressing");
+  add("--profile", w.table, "FILE", "Write what is to be turned as CSV");
+  add("--drawing", w.drawing, "FILE", "Write it as DXF");
+  add("--program", w.program, "FILE", "Write the finishing cut along it as NC program");
+  add("--control", w.control, "NAME", "Whose words it has: linuxcnc or fanuc [linuxcnc]");
+  add("--radius", w.radius, "X of the program is a radius, not a diameter");
+  add("--feed", w.feed, "MM/MIN", "Of the finishing cut [50]");
+  add("--spindle", w.spindle, "1/MIN", "Speed of the spindle [1000]");
   add("-o,--output", w.output, "FILE", "Write the result as JSON");
   add("--json", w.json, "Print the result as JSON on stdout");
   form.footer =

@@ -100,7 +100,7 @@ struct PocketOptions : jobs::PocketOptions {
   std::vector<EarlierFile> after;
 };
 
-/// The parts that are pressed, and the file of the result.
+/// The parts that are pressed, and the file of the result. The job has the names of the profile's files.
 struct FitOptions {
   jobs::FitJob job;
   std::string output;  ///< may be empty

@@ -8,8 +8,10 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/fit/assembly.hpp"
 #include "lekalo/fit/closed_form.hpp"
+#include "lekalo/fit/corrected.hpp"
 #include "lekalo/fit/iso286.hpp"
 #include "lekalo/fit/pressing.hpp"
+#include "lekalo/fit/turning.hpp"
 #include "lekalo/jobs/phases.hpp"
 
 namespace lekalo::jobs {
@@ -39,6 +41,11 @@ struct FitJob {
   std::optional<std::array<double, 2>> roughness_um;
   std::optional<std::array<double, 2>> friction;  ///< least and greatest, for the force of pressing
   std::optional<double> clearance_um;             ///< in diameter, for the temperature of shrinking
+  /// The surface that is to be a cylinder after pressing, at the mean interference; and the names of the
+  /// files of its profile, as they stand in the result; empty: not asked for.
+  std::optional<fit::Surface> cylindrical;
+  std::string table_as, drawing_as, program_as;
+  fit::TurningWords turning;
 };
 
 /// One interference, and what it does.
@@ -52,7 +59,9 @@ struct Fitted {
   std::optional<fit::NamedFit> named;
   fit::Assembly assembly;
   std::vector<FitCase> cases;  ///< the least, the mean and the greatest; one where one is given
-  std::string json;            ///< format lekalo-fit (docs/formats.md); confirmed by the checker
+  std::optional<fit::Corrected> corrected;
+  std::string table, drawing, program;  ///< of the profile: CSV, DXF, NC; empty where not asked for
+  std::string json;                     ///< format lekalo-fit (docs/formats.md); confirmed by the checker
 };
 
 /// Presses the rings and says what it does to them. bad_input with one sentence for a fit, an assembly or a

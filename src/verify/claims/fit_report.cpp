@@ -8,6 +8,7 @@
 #include "report_fields.hpp"
 #include "verify/fit/iso286.hpp"
 #include "verify/fit/rings.hpp"
+#include "verify/fit/turning_check.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -18,6 +19,8 @@ constexpr double kShown = 1.1e-6;
 constexpr double kBetti = 1e-3;
 /// Differences of displacements where surfaces touch, um: two figures and what the iteration leaves.
 constexpr double kTouch = 1e-5;
+/// Turned diameters and places stand in whole tenths of a micrometre.
+constexpr double kDecimal = 5.2e-5;
 /// Peaks give way by 0.4 to 0.8 of both Rz.
 constexpr double kLeastSmoothed = 0.4, kMostSmoothed = 0.8;
 
@@ -37,7 +40,9 @@ double integral(const std::vector<Row>& rows, std::optional<double> Row::*figure
 
 class FitReport {
  public:
-  FitReport(const Document& report, Json root) : report_(report), fields_(root, "", complaint_) {}
+  FitReport(const Document& report, Json root, const std::vector<NamedFile>& names,
+            const std::vector<Document>& files)
+      : report_(report), names_(names), files_(files), fields_(root, "", complaint_) {}
 
   Result<ClaimReport> rechecked() {
     check_format(fields_, "lekalo-fit", complaint_);
@@ -49,6 +54,7 @@ class FitReport {
     if (!complaint_.empty()) return refused();
     check_fit();
     check_cases();
+    if (complaint_.empty()) check_correction();
     fields_.refuse_others();
     if (!complaint_.empty()) return refused();
     claims_.unchecked = {
@@ -59,6 +65,9 @@ class FitReport {
         "stresses: they are computed by finite elements and not proved",
         "middle_pressure_mpa: it is computed by finite elements and not proved",
         "released: it is computed by finite elements and not proved"};
+    if (corrected_)
+      claims_.unchecked.emplace_back(
+          "correction.remains.after_um: it is computed by finite elements and not proved");
     return std::move(claims_);
   }
 
@@ -174,6 +183,7 @@ class FitReport {
 
   void check_case(ReportFields& f, const std::string& path, std::size_t index) {
     const double interference = f.number("interference_um");
+    interferences_.push_back(interference);
     if (!(interference > 0)) find(path + ".interference_um is not above 0");
     if (index < wanted_.size()) hold(path + ".interference_um", interference, wanted_[index], kShown);
     const std::vector<double> pressures = read_seats(f, path, interference);
@@ -186,6 +196,7 @@ class FitReport {
     check_state(f, path, yields);
     check_released(f);
     check_by_formulas(f, path, interference, pressures);
+    rows_.push_back(rows);
     if (!complaint_.empty() || rows.empty() || pressures.empty()) return;
     hold(path + ".pressure_mpa", pressure, pressures[0], 0);
     hold(path + ".hub_outer_growth_um", growth, rows[0].hub.value_or(0), 0);
@@ -367,22 +378,141 @@ class FitReport {
     mean("hub_um", &Row::hub, rings_.size() - 1, rings_.back().outer, pressures.back(), 0);
   }
 
+  /// The turned profile takes off what the surface grows at the mean interference; files say the same.
+  void check_correction() {
+    const Json value = fields_.get("correction");
+    if (value.text.empty()) return fields_.complain("field correction is missing");
+    if (value.is_null()) {
+      if (!files_.empty()) fields_.complain("field outputs names files of a correction that is not there");
+      return;
+    }
+    corrected_ = true;
+    ReportFields f(value, "correction", complaint_);
+    const std::string surface = f.text("surface");
+    const double nominal = f.number("nominal_mm");
+    const std::size_t at = f.index("case");
+    if (complaint_.empty() && surface != "outside" && surface != "bore")
+      f.complain("field correction.surface is neither outside nor bore");
+    if (complaint_.empty() && (at != rows_.size() / 2 || (surface == "bore" && rings_[0].inner == 0)))
+      f.complain("field correction is of another case, or of a bore that is not there");
+    if (!complaint_.empty()) return;
+    const bool bore = surface == "bore";
+    if (nominal != (bore ? rings_[0].inner : rings_.back().outer))
+      find("correction.nominal_mm is not the surface's diameter");
+    const auto figure = bore ? &Row::bore : &Row::hub;
+    check_remains(f, at, figure);
+    const std::vector<ProfilePoint> half = read_turned(f);
+    const std::optional<TurningClaim> turning = read_turning(f, bore);
+    f.refuse_others();
+    if (!complaint_.empty()) return;
+    std::vector<ProfilePoint> wanted;
+    for (const Row& row : rows_[at])
+      if (row.*figure && (wanted.empty() || row.z > wanted.back().z + kDecimal))
+        wanted.push_back({row.z, nominal - *(row.*figure) / 1000});
+    if (half.size() != wanted.size()) return find("correction.profile has other places than the surface");
+    for (std::size_t i = 0; i < half.size(); ++i)
+      if (!(std::abs(half[i].z - wanted[i].z) <= kDecimal &&
+            std::abs(half[i].diameter - wanted[i].diameter) <= kDecimal))
+        return find(
+            fmt::format("correction.profile at z = {} does not take off what the surface grows", half[i].z));
+    check_files(half, turning);
+  }
+
+  void check_remains(ReportFields& f, std::size_t at, std::optional<double> Row::*figure) {
+    std::size_t count = 0;
+    f.each("remains", [&](Json item, const std::string& place) {
+      ReportFields r(item, place, complaint_);
+      if (!complaint_.empty()) return;
+      const double interference = r.number("interference_um"), before = r.number("before_um"),
+                   after = r.number("after_um");
+      r.refuse_others();
+      const std::size_t i = count++;
+      if (i >= rows_.size()) return;
+      hold(place + ".interference_um", interference, interferences_[i], 0);
+      double least = HUGE_VAL, most = -HUGE_VAL;
+      for (const Row& row : rows_[i])
+        if (row.*figure) least = std::min(least, *(row.*figure)), most = std::max(most, *(row.*figure));
+      hold(place + ".before_um", before, most - least, 4 * kShown);
+      if (i == at && !(after >= 0 && after <= std::max(1.0, 0.05 * before) + kShown))
+        find(place + ".after_um is no cylinder");
+    });
+    if (complaint_.empty() && count != rows_.size())
+      f.complain("field correction.remains has not one of each case");
+  }
+
+  std::vector<ProfilePoint> read_turned(ReportFields& f) {
+    std::vector<ProfilePoint> half;
+    f.each("profile", [&](Json item, const std::string& place) {
+      ReportFields p(item, place, complaint_);
+      if (!complaint_.empty()) return;
+      half.push_back({p.number("z_mm"), p.number("diameter_mm")});
+      p.refuse_others();
+    });
+    return half;
+  }
+
+  std::optional<TurningClaim> read_turning(ReportFields& f, bool bore) {
+    const Json value = f.get("turning");
+    if (value.text.empty()) f.complain("field correction.turning is missing");
+    if (value.text.empty() || value.is_null()) return {};
+    ReportFields t(value, "correction.turning", complaint_);
+    const std::string control = t.text("control"), x = t.text("x");
+    TurningClaim claim{control == "fanuc", x == "radius", bore, t.number("feed_mm_per_min"),
+                       t.number("spindle_rpm")};
+    t.refuse_others();
+    if ((control != "fanuc" && control != "linuxcnc") || (x != "radius" && x != "diameter"))
+      t.complain("field correction.turning is of no such control, or X");
+    return claim;
+  }
+
+  void check_files(const std::vector<ProfilePoint>& half, const std::optional<TurningClaim>& turning) {
+    std::vector<ProfilePoint> whole(half.rbegin(), half.rend());
+    for (const ProfilePoint& p : half)
+      if (p.z > 0) whole.push_back({-p.z, p.diameter});
+    bool program = false;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const std::string& role = names_[i].role;
+      std::optional<std::string> fault;
+      if (role == "profile") {
+        fault = fault_of_profile_table(files_[i].bytes, whole);
+      } else if (role == "drawing") {
+        fault = fault_of_profile_drawing(files_[i].bytes, whole);
+      } else if (role == "program" && turning) {
+        program = true;
+        fault = fault_of_turning(files_[i].bytes, whole, *turning);
+      } else {
+        fault = "no such file is one of a correction";
+      }
+      if (fault) find(fmt::format("the {} {} is not the turned profile: {}", role, files_[i].name, *fault));
+    }
+    if (turning.has_value() != program) find("correction.turning is said without a program");
+  }
+
   const Document& report_;
+  const std::vector<NamedFile>& names_;
+  const std::vector<Document>& files_;
   std::string complaint_;
   ReportFields fields_;
   ClaimReport claims_;
   std::vector<CheckedRing> rings_;
   std::optional<std::array<double, 2>> roughness_, friction_;
   std::optional<double> clearance_;
-  std::vector<double> wanted_;  // interferences of a named fit, um
-  double force_ = 0;            // of the first seat in the case at hand
+  std::vector<double> wanted_;          // interferences of a named fit, um
+  std::vector<std::vector<Row>> rows_;  // of each case
+  std::vector<double> interferences_;
+  bool corrected_ = false;
+  double force_ = 0;  // of the first seat in the case at hand
 };
 
 }  // namespace
 
-Result<ClaimReport> verify_fit_report(const Document& report, const std::vector<Document>&) {
+Result<ClaimReport> verify_fit_report(const Document& report, const std::vector<Document>& files) {
   LEKALO_TRY(const Json root, parse_json(report.bytes, report.name));
-  return FitReport(report, root).rechecked();
+  LEKALO_TRY(const std::vector<NamedFile> names, named_files(report));
+  if (names.size() != files.size())
+    return failure(ErrorCode::bad_input,
+                   fmt::format("{}: names {} files, not {}", report.name, names.size(), files.size()));
+  return FitReport(report, root, names, files).rechecked();
 }
 
 }  // namespace lekalo::verify

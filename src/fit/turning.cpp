@@ -1,0 +1,66 @@
+#include "lekalo/fit/turning.hpp"
+
+#include <fmt/core.h>
+
+namespace lekalo::fit {
+namespace {
+
+constexpr double kLead = 1;  // mm
+
+/// Points of the whole part, from its right end (z > 0) to its left one.
+std::vector<TurnedPoint> whole(const Corrected& corrected) {
+  std::vector<TurnedPoint> points(corrected.profile.rbegin(), corrected.profile.rend());
+  for (const TurnedPoint& p : corrected.profile)
+    if (p.z > 0) points.push_back({-p.z, p.diameter});
+  return points;
+}
+
+const char* name_of_surface(Surface surface) {
+  return surface == Surface::outside ? "OUTSIDE OF THE HUB" : "BORE OF THE SHAFT";
+}
+
+}  // namespace
+
+std::string profile_csv(const Corrected& corrected) {
+  std::string text = "z_mm,diameter_mm\n";
+  for (const TurnedPoint& p : whole(corrected)) text += fmt::format("{:.4f},{:.4f}\n", p.z, p.diameter);
+  return text;
+}
+
+std::string profile_dxf(const Corrected& corrected) {
+  std::string text =
+      "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n9\n$"
+      "INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n"
+      "0\nPOLYLINE\n8\nPROFILE\n66\n1\n70\n0\n";
+  for (const TurnedPoint& p : whole(corrected))
+    text += fmt::format("0\nVERTEX\n8\nPROFILE\n10\n{:.4f}\n20\n{:.5f}\n", p.z, p.diameter / 2);
+  return text + "0\nSEQEND\n8\nPROFILE\n0\nENDSEC\n0\nEOF\n";
+}
+
+std::string turning_program(const Corrected& corrected, const TurningWords& words) {
+  const std::vector<TurnedPoint> points = whole(corrected);
+  const double face = points.front().z, scale = words.radius ? 0.5 : 1,
+               away = corrected.surface == Surface::outside ? 2 : -2;
+  // A radius is half of a diameter, and needs one decimal more to be as exact.
+  const auto x = [&](double diameter) {
+    return fmt::format("X{:.{}f}", scale * diameter, words.radius ? 5 : 4);
+  };
+  const auto z = [&](double place) { return fmt::format("Z{:.4f}", place - face); };
+  std::string text = words.control == Lathe::fanuc ? "%\nO0001\n" : "";
+  text += fmt::format("(LEKALO FIT - {})\n(Z0 IS THE RIGHT FACE, X IS A {})\n",
+                      name_of_surface(corrected.surface), words.radius ? "RADIUS" : "DIAMETER");
+  text += words.control == Lathe::fanuc
+              ? "G21 G18 G40 G80 G97 G98\n"
+              : fmt::format("G21 G18 G40 G80 G90 G94 G97 {}\n", words.radius ? "G8" : "G7");
+  text += fmt::format("S{:.0f} M3\n", words.spindle_rpm);
+  text += fmt::format("G0 {}\nG0 {}\n", z(face + kLead), x(points.front().diameter));
+  text += fmt::format("G1 {} F{:.1f}\n", z(face), words.feed_mm_per_min);
+  for (std::size_t i = 1; i < points.size(); ++i)
+    text += fmt::format("G1 {} {}\n", x(points[i].diameter), z(points[i].z));
+  text += fmt::format("G1 {}\n", z(points.back().z - kLead));
+  text += fmt::format("G0 {}\nG0 {}\n", x(points.back().diameter + away * kLead), z(face + kLead));
+  text += "M5\nM30\n";
+  return words.control == Lathe::fanuc ? text + "%\n" : text;
+}
+
+}  // namespace lekalo::fit

@@ -1,0 +1,123 @@
+// Corrected profiles: pressed again the surface is a cylinder, and the files say what is to be turned.
+
+#include "lekalo/fit/corrected.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lekalo/fit/turning.hpp"
+#include "verify/fit/turning_check.hpp"
+
+namespace lekalo::fit_corrected_test {
+namespace {
+
+using fit::Assembly;
+using fit::Corrected;
+using fit::Surface;
+
+Corrected made(double bore, double yield, const std::vector<double>& ends, Surface surface) {
+  const fit::Material shaft{"steel", 210000, 0.3, 900, 0, 0}, hub{"steel", 210000, 0.3, yield, 0, 0};
+  const Assembly assembly{{{bore, 18, 54, shaft}, {18, 36, 18, hub}}};
+  fit::Pressing pressing(assembly);
+  std::vector<std::vector<double>> interferences;
+  std::vector<fit::Pressed> pressed;
+  for (const double mm : ends) {
+    interferences.push_back({mm});
+    pressed.push_back(pressing.press({mm}).value());
+  }
+  return fit::corrected(assembly, interferences, pressed, ends.size() / 2, surface).value();
+}
+
+TEST(Corrected, PressedAgainTheSurfaceIsACylinder) {
+  for (const auto& [bore, yield, surface] : {std::tuple{0.0, 900.0, Surface::outside},
+                                             {0.0, 340.0, Surface::outside},
+                                             {8.0, 900.0, Surface::bore},
+                                             {8.0, 340.0, Surface::bore}}) {
+    const Corrected c = made(bore, yield, {0.033, 0.060, 0.087}, surface);
+    const fit::Variation& mean = c.variations[1];
+    EXPECT_GT(mean.before, 0.0005);
+    EXPECT_LE(mean.after, std::max(0.001, 0.05 * mean.before)) << bore << " " << yield;
+    EXPECT_LE(mean.after, 0.0003) << "rounding to a tenth of a micrometre, and little else";
+    // At the least interference as much may be left the other way round.
+    EXPECT_LT(c.variations[2].after, c.variations[2].before);
+    for (std::size_t i = 1; i < c.profile.size(); ++i) EXPECT_LT(c.profile[i - 1].z, c.profile[i].z);
+  }
+}
+
+// The hub grows more at its ends, so less is left there; a bore closes most in the middle.
+TEST(Corrected, WhatGrowsMoreIsTurnedSmaller) {
+  const Corrected outside = made(0, 900, {0.04}, Surface::outside),
+                  bore = made(8, 900, {0.04}, Surface::bore);
+  EXPECT_LT(outside.profile.back().diameter, outside.profile.front().diameter);
+  EXPECT_LT(outside.profile.front().diameter, 36);
+  EXPECT_GT(bore.profile.front().diameter, 8);
+  EXPECT_GT(bore.profile.front().diameter, bore.profile.back().diameter);
+}
+
+TEST(Corrected, ASolidShaftHasNoBore) {
+  const Assembly solid{
+      {{0, 18, 54, {"steel", 210000, 0.3, 900, 0, 0}}, {18, 36, 18, {"steel", 210000, 0.3, 900, 0, 0}}}};
+  fit::Pressing pressing(solid);
+  const std::vector<fit::Pressed> pressed{pressing.press({0.03}).value()};
+  EXPECT_FALSE(fit::corrected(solid, {{0.03}}, pressed, 0, Surface::bore));
+}
+
+std::vector<verify::ProfilePoint> whole(const Corrected& c) {
+  std::vector<verify::ProfilePoint> points;
+  for (auto p = c.profile.rbegin(); p != c.profile.rend(); ++p) points.push_back({p->z, p->diameter});
+  for (std::size_t i = 1; i < c.profile.size(); ++i)
+    points.push_back({-c.profile[i].z, c.profile[i].diameter});
+  return points;
+}
+
+TEST(Corrected, FilesAreTheProfileAndChangedOnesAreNot) {
+  for (const Surface surface : {Surface::outside, Surface::bore}) {
+    const Corrected c = made(8, 900, {0.04}, surface);
+    const std::vector<verify::ProfilePoint> points = whole(c);
+    const std::string table = fit::profile_csv(c), drawing = fit::profile_dxf(c);
+    EXPECT_EQ(verify::fault_of_profile_table(table, points), std::nullopt);
+    EXPECT_EQ(verify::fault_of_profile_drawing(drawing, points), std::nullopt);
+    std::vector<verify::ProfilePoint> other = points;
+    other[3].diameter += 0.0002;
+    EXPECT_NE(verify::fault_of_profile_table(table, other), std::nullopt);
+    EXPECT_NE(verify::fault_of_profile_drawing(drawing, other), std::nullopt);
+    for (const fit::Lathe control : {fit::Lathe::linuxcnc, fit::Lathe::fanuc})
+      for (const bool radius : {false, true}) {
+        const std::string program = fit::turning_program(c, {control, radius, 60, 1200});
+        const verify::TurningClaim claim{control == fit::Lathe::fanuc, radius, surface == Surface::bore, 60,
+                                         1200};
+        EXPECT_EQ(verify::fault_of_turning(program, points, claim), std::nullopt) << program.substr(0, 300);
+        EXPECT_NE(verify::fault_of_turning(program, other, claim), std::nullopt);
+        verify::TurningClaim lie = claim;
+        lie.feed = 61;
+        EXPECT_NE(verify::fault_of_turning(program, points, lie), std::nullopt);
+        const auto changed = [&](const std::string& from, const std::string& to) {
+          std::string text = program;
+          const std::size_t at = text.find(from);
+          EXPECT_NE(at, std::string::npos) << from;
+          return text.replace(at, from.size(), to);
+        };
+        for (const auto& [from, to] : {std::pair{"G18 ", ""},
+                                       {"G18", "G17"},
+                                       {"G21", "G20"},
+                                       {"M3\n", "M4\n"},
+                                       {"G0 Z1", "G0 Z-1"},
+                                       {"G1 X", "G0 X"},
+                                       {"G1 X", "G2 X"},
+                                       {"M5\n", ""},
+                                       {"M30\n", ""},
+                                       {" F60.0", ""},
+                                       {"M30", "M30\nG0 X0"}})
+          EXPECT_NE(verify::fault_of_turning(changed(from, to), points, claim), std::nullopt) << from << to;
+        if (control == fit::Lathe::fanuc) continue;
+        EXPECT_NE(
+            verify::fault_of_turning(changed(radius ? "G8" : "G7", radius ? "G7" : "G8"), points, claim),
+            std::nullopt);
+      }
+  }
+}
+
+}  // namespace
+}  // namespace lekalo::fit_corrected_test
