@@ -19,6 +19,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include <fmt/core.h>
 
@@ -65,29 +66,32 @@ std::string place_of(std::size_t face, const FaceRecord& record) {
   return record.name.empty() ? fmt::format("face {}", face) : fmt::format("face {} ({})", face, record.name);
 }
 
-Result<Converted> bounded(const TopoDS_Shape& shape, const std::vector<std::string>& names) {
+/// The triangles that OCCT has made, divided where they are not fine enough, with their bounds.
+Result<Converted> refined(const TopoDS_Shape& shape, const std::vector<std::string>& names, double asked) {
   Converted made;
-  MeshBuilder builder;
-  std::size_t number = 0;
+  BodyMesh body;
   for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next()) {
     ++made.solids;
-    for (TopExp_Explorer face(solid.Current(), TopAbs_FACE); face.More(); face.Next(), ++number) {
-      FaceRecord record = builder.add(TopoDS::Face(face.Current()));
-      record.name = names[number];
-      if (!record.fault.empty())
-        return refuse(
-            fmt::format("{}: {}, so that nothing is proved of its triangles; export a mesh (STL, "
-                        "PLY, OBJ) instead",
-                        place_of(number, record), record.fault));
-      made.deviation = std::max(made.deviation, record.deviation);
-      made.faces.push_back(std::move(record));
-      if (builder.mesh().triangles.size() > limits::kMostSolidItems)
-        return refuse(
-            fmt::format("more than {} triangles; ask for a larger --deviation", limits::kMostSolidItems));
-    }
+    for (TopExp_Explorer face(solid.Current(), TopAbs_FACE); face.More(); face.Next())
+      body.add(TopoDS::Face(face.Current()));
   }
-  made.mesh = builder.mesh();
-  made.face_of_triangle = builder.face_of_triangle();
+  for (std::size_t k = 0; k < names.size(); ++k) body.faces()[k].name = names[k];
+  body.refine(asked - rounding(body.mesh().first), limits::kMostSolidItems);
+  if (body.triangle_count() > limits::kMostSolidItems)
+    return refuse(
+        fmt::format("more than {} triangles; ask for a larger --deviation", limits::kMostSolidItems));
+  body.bound();
+  made.faces = body.faces();
+  for (std::size_t k = 0; k < made.faces.size(); ++k) {
+    const FaceRecord& record = made.faces[k];
+    if (!record.fault.empty())
+      return refuse(
+          fmt::format("{}: {}, so that nothing is proved of its triangles; export a mesh (STL, "
+                      "PLY, OBJ) instead",
+                      place_of(k, record), record.fault));
+    made.deviation = std::max(made.deviation, record.deviation);
+  }
+  std::tie(made.mesh, made.face_of_triangle) = body.mesh();
   made.deviation += rounding(made.mesh);
   return made;
 }
@@ -116,20 +120,20 @@ Result<Converted> convert(const std::string& path, double deviation) {
   for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next())
     TopExp::MapShapes(solid.Current(), TopAbs_FACE, within);
 
-  constexpr int kMostRounds = 8;
-  double deflection = 0.5 * deviation;
+  // OCCT's triangles are only the beginning: it is as fine everywhere as it is anywhere, and slow at it.
+  constexpr int kMostRounds = 6;
+  constexpr double kCoarse = 4;
+  double deflection = kCoarse * deviation;
   Result<Converted> best = refuse("nothing is proved of its triangles");
   for (int round = 0; round < kMostRounds; ++round) {
     triangulate(shape, deflection);
-    Result<Converted> made = bounded(shape, names);
+    Result<Converted> made = refined(shape, names, deviation);
     if (!made) return made;
-    const double reached = made->deviation;
-    if (!best || reached < best->deviation) best = std::move(made);
-    // A face that its triangles do not follow by now is not followed by finer ones.
-    constexpr int kRoundsToFollow = 3;
-    if (reached <= deviation || (!std::isfinite(reached) && round >= kRoundsToFollow)) break;
-    constexpr double kLeast = 0.25, kMost = 0.8;
-    deflection *= std::clamp(0.9 * deviation / reached, kLeast, kMost);
+    if (!best || made->deviation < best->deviation) best = std::move(made);
+    // A face that its triangles do not follow is followed by finer ones, or by none.
+    if (std::isfinite(best->deviation)) break;
+    constexpr double kFiner = 0.4;
+    deflection *= kFiner;
   }
   if (!best) return best;
   if (!std::isfinite(best->deviation)) {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "face_mesh.hpp"
+#include "body_mesh.hpp"
 #include "lekalo/base/error.hpp"
 #include "lekalo/solid/mesh.hpp"
 
@@ -21,7 +21,7 @@ struct Converted {
 };
 
 /// Reads a STEP file and triangulates its solids so finely that no point of a triangle is farther than the
-/// deviation from its face, and back; it refines a few times, and keeps what was reached.
+/// deviation from its face, and back, or as near as they come.
 ///
 /// Fails with bad_input and one sentence: no STEP, no solids, a face of which nothing can be proved, a
 /// surface that does not close.

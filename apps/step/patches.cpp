@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "nets.hpp"
 
 namespace lekalo::step {
 namespace {
@@ -51,29 +54,10 @@ struct Longest {
   Longest operator*(double factor) const { return {factor * vector, factor * weight}; }
 };
 
-/// Bounds of the second derivatives of a polynomial patch over its box.
-DerivativeBounds second(const std::vector<Point>& net, std::size_t columns, double width_u, double width_v) {
-  const std::size_t n = columns, rows = net.size() / n;
-  const auto at = [&](std::size_t i, std::size_t j) -> const Point& { return net[i * n + j]; };
-  Longest value, uu, uv, vv;
-  for (const Point& p : net) value.hold(p);
-  for (std::size_t i = 0; i < rows; ++i)
-    for (std::size_t j = 0; j < n; ++j) {
-      if (i + 2 < rows) uu.hold((at(i + 2, j) - at(i + 1, j)) - (at(i + 1, j) - at(i, j)));
-      if (j + 2 < n) vv.hold((at(i, j + 2) - at(i, j + 1)) - (at(i, j + 1) - at(i, j)));
-      if (i + 1 < rows && j + 1 < n) uv.hold((at(i + 1, j + 1) - at(i, j + 1)) - (at(i + 1, j) - at(i, j)));
-    }
-  const double p = static_cast<double>(rows - 1), q = static_cast<double>(n - 1);
-  uu = uu * (p * (p - 1) / (width_u * width_u)), vv = vv * (q * (q - 1) / (width_v * width_v));
-  uv = uv * (p * q / (width_u * width_v));
-  return {0, 0, uu.vector, uv.vector, vv.vector, 0, 0, value.vector};
-}
-
 }  // namespace
 
 void DerivativeBounds::hold(const DerivativeBounds& other) noexcept {
   u = std::max(u, other.u), v = std::max(v, other.v);
-  value = std::max(value, other.value);
   uu = std::max(uu, other.uu), uv = std::max(uv, other.uv), vv = std::max(vv, other.vv);
   kink_u += other.kink_u, kink_v += other.kink_v;
 }
@@ -127,6 +111,18 @@ Patches::Patches(const Handle(Geom_BSplineCurve) & curve) {
   }
 }
 
+Patches::Patches(const Handle(Geom_BSplineCurve) & curve, const gp_Dir& along) : Patches(curve) {
+  v_ = {1, {0, 1}, {false, false}, 0};
+  for (Points& points : patches_) {
+    Points both;
+    for (const Point& p : points) {
+      both.push_back(p);
+      both.push_back({p[0] + p[3] * along.X(), p[1] + p[3] * along.Y(), p[2] + p[3] * along.Z(), p[3]});
+    }
+    points = std::move(both);
+  }
+}
+
 std::vector<Patches::Piece> Patches::pieces(const Axis& axis, Range range) {
   std::vector<Piece> found;
   const double first = axis.knots.front();
@@ -160,7 +156,7 @@ std::vector<Patches::Piece> Patches::pieces(const Axis& axis, Range range) {
 }
 
 Patches::Points Patches::cut(const Piece& u, const Piece& v) const {
-  Points net = patches_[u.span * (v_.knots.size() - 1) + v.span];
+  Points net = patch(u.span, v.span);
   const std::size_t rows = net.size() / columns();
   for (std::size_t j = 0; j < columns(); ++j) cut_curve(&net[j], rows - 1, columns(), u.from, u.to);
   for (std::size_t i = 0; i < rows; ++i) cut_curve(&net[i * columns()], columns() - 1, 1, v.from, v.to);
@@ -172,7 +168,7 @@ Patches::Points Patches::cut(const Piece& u, const Piece& v) const {
 DerivativeBounds Patches::bounds(const Points& net, double width_u, double width_v) const {
   Point low{kInfinite, kInfinite, kInfinite, kInfinite}, high{-kInfinite, -kInfinite, -kInfinite, -kInfinite};
   for (const Point& p : net) {
-    if (!(p[3] > 0)) return {kInfinite, kInfinite, kInfinite, kInfinite, kInfinite, 0, 0, kInfinite};
+    if (!(p[3] > 0)) return {kInfinite, kInfinite, kInfinite, kInfinite, kInfinite, 0, 0};
     for (std::size_t axis = 0; axis < 4; ++axis) {
       const double x = axis < 3 ? p[axis] / p[3] : p[3];
       low[axis] = std::min(low[axis], x), high[axis] = std::max(high[axis], x);
@@ -200,7 +196,7 @@ DerivativeBounds Patches::bounds(const Points& net, double width_u, double width
   uu = uu * (p * (p - 1) / (width_u * width_u)), vv = vv * (q * (q - 1) / (width_v * width_v));
   uv = uv * (p * q / (width_u * width_v));
   const double least = low[3];
-  DerivativeBounds made{0, 0, 0, 0, 0, 0, 0, kInfinite};
+  DerivativeBounds made;
   made.u = (u.vector + r * u.weight) / least;
   made.v = (v.vector + r * v.weight) / least;
   made.uu = (uu.vector + 2 * made.u * u.weight + r * uu.weight) / least;
@@ -212,7 +208,7 @@ DerivativeBounds Patches::bounds(const Points& net, double width_u, double width
 /// Two patches meet along a line: so much the first derivative across it jumps there, at most. With equal
 /// N and w on the line, w [S_u] = [N_u] - (S - c) [w_u].
 double Patches::jump(const Points& before, double width_before, const Points& after, double width_after,
-                     bool along_u, const Points& reach) const {
+                     bool along_u) const {
   const std::size_t n = columns(), rows = before.size() / n;
   const std::size_t count = along_u ? n : rows, degree = (along_u ? rows : n) - 1;
   const auto place = [&](std::size_t i, std::size_t k) { return along_u ? i * n + k : k * n + i; };
@@ -234,9 +230,6 @@ double Patches::jump(const Points& before, double width_before, const Points& af
     jumps.hold(difference);
     r = std::max(r, length(away)), least = std::min(least, at[3]);
   }
-  for (const Point& p : reach)
-    r = std::max(r, std::hypot(p[0] - middle[0] / middle[3], p[1] - middle[1] / middle[3],
-                               p[2] - middle[2] / middle[3]));
   return (jumps.vector + r * jumps.weight) / least;
 }
 
@@ -245,60 +238,136 @@ DerivativeBounds Patches::over(Range u, Range v) const {
   const std::vector<Piece> pieces_u = pieces(u_, u), pieces_v = pieces(v_, v);
   for (const Piece& a : pieces_u)
     for (const Piece& b : pieces_v) made.hold(bounds(cut(a, b), a.width, b.width));
-  add_kinks(pieces_u, pieces_v, {}, made);
+  add_kinks(pieces_u, pieces_v, made);
   return made;
 }
 
-std::array<double, 4> Affine::operator()(double x, double y) const {
-  std::array<double, 4> made{0, 0, 0, 1};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    made[axis] = at[axis] + (x - u) * along_u[axis] + (y - v) * along_v[axis];
+std::vector<Patches::Cell> Patches::cells(const Axis& axis, Range range) {
+  std::vector<Cell> found;
+  const double first = axis.knots.front();
+  const std::size_t spans = axis.knots.size() - 1;
+  double rounds_from = 0, rounds_to = 0;
+  if (axis.period > 0) {
+    rounds_from = std::floor((range.low - first) / axis.period);
+    rounds_to = std::floor((range.high - first) / axis.period);
+  }
+  for (double round = rounds_from; round <= rounds_to; ++round)
+    for (std::size_t span = 0; span < spans; ++span) {
+      const double begin = axis.knots[span] + round * axis.period,
+                   end = axis.knots[span + 1] + round * axis.period;
+      // Beyond its ends the spline goes on as its last polynomials.
+      const double low = axis.period == 0 && span == 0 ? -kInfinite : begin,
+                   high = axis.period == 0 && span + 1 == spans ? kInfinite : end;
+      const bool meets = low < range.high && range.low < high;
+      // A range without width that lies at a knot is in one of the cells beside it.
+      if (meets || (range.low == range.high && low <= range.low && range.high <= high))
+        found.push_back({span, low, high, begin, end - begin});
+    }
+  return found;
+}
+
+std::vector<gp_XYZ> Patches::hull(Range range) const {
+  std::vector<gp_XYZ> made;
+  for (const Cell& cell : cells(u_, range)) {
+    const double low = std::max(range.low, cell.low), high = std::min(range.high, cell.high);
+    const Piece piece{cell.span, (low - cell.begin) / cell.size, (high - cell.begin) / cell.size, low,
+                      high - low};
+    for (const Point& p : cut(piece, Piece{0, 0, 1, 0, 1})) {
+      if (!(p[3] > 0)) return {};
+      made.emplace_back(p[0] / p[3], p[1] / p[3], p[2] / p[3]);
+    }
+  }
   return made;
 }
 
-/// The control points of N - L w, one degree higher each way than those of N and w.
-Patches::Points Patches::less(const Points& net, const Affine& flat, const Piece& u, const Piece& v) const {
-  const std::size_t n = columns(), rows = net.size() / n;
-  Points made((rows + 1) * (n + 1), Point{});
-  for (std::size_t a = 0; a < 2; ++a)
-    for (std::size_t b = 0; b < 2; ++b) {
-      const Point corner =
-          flat(u.low + static_cast<double>(a) * u.width, v.low + static_cast<double>(b) * v.width);
-      for (std::size_t i = 0; i < rows; ++i)
-        for (std::size_t j = 0; j < n; ++j) {
-          const Point& p = net[i * n + j];
-          const double share = static_cast<double>(a == 0 ? rows - i : i + 1) / static_cast<double>(rows) *
-                               static_cast<double>(b == 0 ? n - j : j + 1) / static_cast<double>(n);
-          Point& to = made[(i + a) * (n + 1) + j + b];
-          for (std::size_t axis = 0; axis < 3; ++axis) to[axis] += share * (p[axis] - corner[axis] * p[3]);
+namespace {
+
+/// A corner of a piece of a triangle.
+struct Clipped {
+  double u = 0, v = 0;
+  gp_XYZ flat;
+};
+
+/// What of a convex polygon has a coordinate on one side of a limit.
+std::vector<Clipped> clipped(const std::vector<Clipped>& polygon, double Clipped::*at, double limit,
+                             bool above) {
+  if (!std::isfinite(limit)) return polygon;
+  const auto over = [&](const Clipped& p) { return above ? p.*at - limit : limit - p.*at; };
+  std::vector<Clipped> made;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Clipped &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    const double of_a = over(a), of_b = over(b);
+    if (of_a >= 0) made.push_back(a);
+    if ((of_a < 0) == (of_b < 0)) continue;
+    const double share = of_a / (of_a - of_b);
+    made.push_back(
+        {a.u + share * (b.u - a.u), a.v + share * (b.v - a.v), a.flat + share * (b.flat - a.flat)});
+  }
+  return made;
+}
+
+}  // namespace
+
+double Patches::farthest(const std::array<gp_Pnt2d, 3>& at, const std::array<gp_XYZ, 3>& flat,
+                         double enough) const {
+  const auto range = [](double a, double b, double c) {
+    return Range{std::min({a, b, c}), std::max({a, b, c})};
+  };
+  const std::vector<Cell> cells_u = cells(u_, range(at[0].X(), at[1].X(), at[2].X())),
+                          cells_v = cells(v_, range(at[0].Y(), at[1].Y(), at[2].Y()));
+  std::vector<Clipped> whole;
+  for (std::size_t k = 0; k < 3; ++k) whole.push_back({at[k].X(), at[k].Y(), flat[k]});
+  std::vector<TriangleNet> nets;
+  for (const Cell& u : cells_u) {
+    const std::vector<Clipped> strip =
+        clipped(clipped(whole, &Clipped::u, u.low, true), &Clipped::u, u.high, false);
+    for (const Cell& v : cells_v) {
+      const std::vector<Clipped> piece =
+          clipped(clipped(strip, &Clipped::v, v.low, true), &Clipped::v, v.high, false);
+      for (std::size_t k = 1; k + 1 < piece.size(); ++k) {
+        const Clipped &a = piece[0], &b = piece[k], &c = piece[k + 1];
+        const auto in_u = [&](const Clipped& p) { return (p.u - u.begin) / u.size; };
+        const auto in_v = [&](const Clipped& p) { return (p.v - v.begin) / v.size; };
+        nets.push_back(net_over(patch(u.span, v.span), columns(), {in_u(a), in_u(b), in_u(c)},
+                                {in_v(a), in_v(b), in_v(c)}, {a.flat, b.flat, c.flat}));
+      }
+    }
+  }
+  return step::farthest(std::move(nets), enough);
+}
+
+double Patches::farthest(const Fan& fan, bool swapped, double enough) const {
+  const Range along{std::min(fan.u_a, fan.u_b), std::max(fan.u_a, fan.u_b)},
+      out{std::min(fan.v_tip, fan.v_base), std::max(fan.v_tip, fan.v_base)};
+  // What is flat at a place of the box, which is linear each way.
+  const auto flat = [&](double u, double v) {
+    const double t = fan.u_a == fan.u_b ? 0 : (u - fan.u_a) / (fan.u_b - fan.u_a),
+                 s = fan.v_base == fan.v_tip ? 0 : (v - fan.v_tip) / (fan.v_base - fan.v_tip);
+    return fan.tip + s * ((1 - t) * fan.a + t * fan.b - fan.tip);
+  };
+  const Range of_u = swapped ? out : along, of_v = swapped ? along : out;
+  std::vector<BoxNet> nets;
+  for (const Cell& u : cells(u_, of_u))
+    for (const Cell& v : cells(v_, of_v)) {
+      const Range in_u{std::max(of_u.low, u.low), std::min(of_u.high, u.high)},
+          in_v{std::max(of_v.low, v.low), std::min(of_v.high, v.high)};
+      const auto piece = [](const Cell& cell, Range range) {
+        return Piece{cell.span, (range.low - cell.begin) / cell.size, (range.high - cell.begin) / cell.size,
+                     range.low, range.width()};
+      };
+      std::array<gp_XYZ, 4> corners;
+      for (std::size_t a = 0; a < 2; ++a)
+        for (std::size_t b = 0; b < 2; ++b) {
+          const double x = a == 0 ? in_u.low : in_u.high, y = b == 0 ? in_v.low : in_v.high;
+          corners[2 * a + b] = swapped ? flat(y, x) : flat(x, y);
         }
+      nets.push_back(net_over(cut(piece(u, in_u), piece(v, in_v)), columns(), corners));
     }
-  return made;
-}
-
-/// A polynomial with the value 0 at three corners is bounded by its second derivatives, and S - L is such a
-/// one divided by the weight.
-DerivativeBounds Patches::over(Range u, Range v, const Affine& flat) const {
-  const std::vector<Piece> pieces_u = pieces(u_, u), pieces_v = pieces(v_, v);
-  DerivativeBounds made;
-  double least = kInfinite;
-  for (const Piece& a : pieces_u)
-    for (const Piece& b : pieces_v) {
-      const Points net = cut(a, b);
-      for (const Point& p : net) least = std::min(least, p[3]);
-      made.hold(second(less(net, flat, a, b), columns() + 1, a.width, b.width));
-    }
-  if (!(least > 0)) return {0, 0, kInfinite, kInfinite, kInfinite, 0, 0, kInfinite};
-  made.uu /= least, made.uv /= least, made.vv /= least, made.value /= least;
-  Points reach;
-  for (const double x : {u.low, u.high})
-    for (const double y : {v.low, v.high}) reach.push_back(flat(x, y));
-  add_kinks(pieces_u, pieces_v, reach, made);
-  return made;
+  return step::farthest(std::move(nets), enough);
 }
 
 /// A kink counts where two pieces of the box meet in it; the patches beside it are taken whole across it.
-void Patches::add_kinks(const std::vector<Piece>& u, const std::vector<Piece>& v, const Points& reach,
+void Patches::add_kinks(const std::vector<Piece>& u, const std::vector<Piece>& v,
                         DerivativeBounds& made) const {
   const auto whole = [](const Axis& axis, std::size_t span) {
     return Piece{span, 0, 1, axis.knots[span], axis.knots[span + 1] - axis.knots[span]};
@@ -308,7 +377,7 @@ void Patches::add_kinks(const std::vector<Piece>& u, const std::vector<Piece>& v
     if (!u_.kinks[after]) continue;
     const Piece x = whole(u_, u[i].span), y = whole(u_, after);
     double most = 0;
-    for (const Piece& b : v) most = std::max(most, jump(cut(x, b), x.width, cut(y, b), y.width, true, reach));
+    for (const Piece& b : v) most = std::max(most, jump(cut(x, b), x.width, cut(y, b), y.width, true));
     made.kink_u += most;
   }
   for (std::size_t j = 0; j + 1 < v.size(); ++j) {
@@ -316,8 +385,7 @@ void Patches::add_kinks(const std::vector<Piece>& u, const std::vector<Piece>& v
     if (!v_.kinks[after]) continue;
     const Piece x = whole(v_, v[j].span), y = whole(v_, after);
     double most = 0;
-    for (const Piece& a : u)
-      most = std::max(most, jump(cut(a, x), x.width, cut(a, y), y.width, false, reach));
+    for (const Piece& a : u) most = std::max(most, jump(cut(a, x), x.width, cut(a, y), y.width, false));
     made.kink_v += most;
   }
 }

@@ -47,7 +47,7 @@ struct Box {
 /// Bounds of the first two derivatives of a curve: constants, or those of a spline.
 class CurveBound {
  public:
-  CurveBound(double first, double second) : constant_{first, 0, second, 0, 0, 0, 0, kInfinite} {}
+  CurveBound(double first, double second) : constant_{first, 0, second, 0, 0, 0, 0} {}
   explicit CurveBound(const Handle(Geom_BSplineCurve) & spline) : patches_(Patches(spline)) {}
   [[nodiscard]] DerivativeBounds over(Range t) const {
     return patches_ ? patches_->over(t, {0, 0}) : constant_;
@@ -104,40 +104,17 @@ double farthest_from_chord(const std::vector<gp_Pnt2d>& hull, const gp_Pnt2d& a,
                              from_chord(hull.back(), b, b, along_u, along_v));
 }
 
-/// The square of the radius of the smallest circle around a triangle, from the squares of its sides.
-double enclosing_square(double a, double b, double c) {
-  const double longest = std::max({a, b, c});
-  if (2 * longest >= a + b + c) return longest / 4;
-  return a * b * c / (2 * (a * b + b * c + c * a) - (a * a + b * b + c * c));
-}
-
 // ---- surfaces of which a triangle stands for the flat triangle of its parameters ------------------------
 
 class ParametricBound : public SurfaceBound {
  public:
-  explicit ParametricBound(const Handle(Geom_Surface) & surface) : surface_(surface) {}
+  using SurfaceBound::SurfaceBound;
 
-  [[nodiscard]] double of_triangle(const std::array<Corner, 3>& corners) const override {
+  /// The surface is curved along u alone.
+  [[nodiscard]] double of_triangle(const std::array<Corner, 3>& corners, double) const override {
     Box box;
-    double off = 0;
-    for (const Corner& corner : corners) {
-      box.hold(corner.at);
-      off = std::max(off, corner.place.Distance(surface_->Value(corner.at.X(), corner.at.Y())));
-    }
-    const DerivativeBounds d = beyond(corners, box);
-    // |D2 S [d, d]| <= uu du^2 + 2 uv |du dv| + vv dv^2, which a sum of squares bounds.
-    const double ratio = d.uu > 0 && d.vv > 0                     ? std::sqrt(d.vv / d.uu)
-                         : box.u.width() > 0 && box.v.width() > 0 ? box.v.width() / box.u.width()
-                                                                  : 1;
-    const double across_u = d.uu + (d.uv > 0 ? d.uv * ratio : 0),
-                 across_v = d.vv + (d.uv > 0 ? d.uv / ratio : 0);
-    const auto side = [&](std::size_t a, std::size_t b) {
-      const double u = corners[a].at.X() - corners[b].at.X(), v = corners[a].at.Y() - corners[b].at.Y();
-      return across_u * u * u + across_v * v * v;
-    };
-    const double bent = enclosing_square(side(0, 1), side(1, 2), side(2, 0)) / 2 +
-                        d.kink_u * box.u.width() / 4 + d.kink_v * box.v.width() / 4;
-    return std::min(bent, d.value) + off;
+    for (const Corner& corner : corners) box.hold(corner.at);
+    return sagitta(over(box.u, box.v), box.u.width()) + farthest_off(corners);
   }
 
   [[nodiscard]] double of_border(Corner from, Corner to, const std::vector<gp_Pnt2d>& hull) const override {
@@ -151,16 +128,15 @@ class ParametricBound : public SurfaceBound {
 
  protected:
   [[nodiscard]] virtual DerivativeBounds over(Range u, Range v) const = 0;
-  /// The second derivatives and the value, of the surface less the flat triangle.
-  [[nodiscard]] virtual DerivativeBounds beyond(const std::array<Corner, 3>&, const Box& box) const {
-    return over(box.u, box.v);
-  }
   /// |S_u du + S_v dv| is at most this times the root of the sum of both squares.
   [[nodiscard]] virtual double skew() const { return std::numbers::sqrt2; }
-  [[nodiscard]] const Handle(Geom_Surface) & surface() const { return surface_; }
 
- private:
-  Handle(Geom_Surface) surface_;
+  /// How far corners are from the points of the surface that they stand for.
+  [[nodiscard]] double farthest_off(const std::array<Corner, 3>& corners) const {
+    double off = 0;
+    for (const Corner& corner : corners) off = std::max(off, corner.place.Distance(value(corner.at)));
+    return off;
+  }
 };
 
 class PlaneBound final : public ParametricBound {
@@ -168,12 +144,11 @@ class PlaneBound final : public ParametricBound {
   using ParametricBound::ParametricBound;
 
  private:
-  [[nodiscard]] DerivativeBounds over(Range, Range) const override {
-    return {1, 1, 0, 0, 0, 0, 0, kInfinite};
-  }
+  [[nodiscard]] DerivativeBounds over(Range, Range) const override { return {1, 1, 0, 0, 0, 0, 0}; }
   [[nodiscard]] double skew() const override { return 1; }
 };
 
+/// Of curves that are no splines.
 class ExtrusionBound final : public ParametricBound {
  public:
   ExtrusionBound(const Handle(Geom_Surface) & surface, CurveBound curve)
@@ -199,14 +174,31 @@ class SplineBound final : public ParametricBound {
     for (const double u : {u0, u1})
       if (is_point(surface, 1, u)) points_u_.push_back(u);
   }
+  SplineBound(const Handle(Geom_SurfaceOfLinearExtrusion) & surface, const Handle(Geom_BSplineCurve) & curve)
+      : ParametricBound(surface), patches_(curve, surface->Direction()) {}
 
-  [[nodiscard]] double of_triangle(const std::array<Corner, 3>& corners) const override {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Corner &tip = corners[k], &a = corners[(k + 1) % 3], &b = corners[(k + 2) % 3];
-      if (is_at_point(tip.at.Y(), points_v_)) return of_fan(tip, a, b, false);
-      if (is_at_point(tip.at.X(), points_u_)) return of_fan(tip, a, b, true);
+  [[nodiscard]] Free free_at(const Corner& corner) const override {
+    if (is_at_point(corner.at.Y(), points_v_)) return Free::u;
+    return is_at_point(corner.at.X(), points_u_) ? Free::v : Free::none;
+  }
+
+  [[nodiscard]] double of_triangle(const std::array<Corner, 3>& corners, double enough) const override {
+    const double off = farthest_off(corners);
+    std::array<Free, 3> free{};
+    for (std::size_t k = 0; k < 3; ++k) free[k] = free_at(corners[k]);
+    const auto tips = 3 - std::count(free.begin(), free.end(), Free::none);
+    if (tips > 1) return kInfinite;
+    if (tips == 1) {
+      const auto tip = static_cast<std::size_t>(
+          std::find_if(free.begin(), free.end(), [](Free one) { return one != Free::none; }) - free.begin());
+      return of_fan(corners[tip], corners[(tip + 1) % 3], corners[(tip + 2) % 3], free[tip] == Free::v,
+                    enough - off) +
+             off + kOnAxis;
     }
-    return ParametricBound::of_triangle(corners);
+    std::array<gp_Pnt2d, 3> at;
+    std::array<gp_XYZ, 3> flat;
+    for (std::size_t k = 0; k < 3; ++k) at[k] = corners[k].at, flat[k] = value(at[k]).XYZ();
+    return patches_.farthest(at, flat, enough - off) + off;
   }
 
   [[nodiscard]] double of_border(Corner from, Corner to, const std::vector<gp_Pnt2d>& hull) const override {
@@ -227,23 +219,6 @@ class SplineBound final : public ParametricBound {
  private:
   [[nodiscard]] DerivativeBounds over(Range u, Range v) const override { return patches_.over(u, v); }
 
-  [[nodiscard]] DerivativeBounds beyond(const std::array<Corner, 3>& corners, const Box& box) const override {
-    const gp_Pnt2d a = corners[0].at, b = corners[1].at, c = corners[2].at;
-    const double bu = b.X() - a.X(), bv = b.Y() - a.Y(), cu = c.X() - a.X(), cv = c.Y() - a.Y();
-    const double area = bu * cv - cu * bv;
-    const auto place = [&](const gp_Pnt2d& at) { return surface()->Value(at.X(), at.Y()).XYZ(); };
-    const gp_XYZ p = place(a), to_b = place(b) - p, to_c = place(c) - p;
-    Affine flat{a.X(), a.Y(), {}, {}, {}};
-    if (area == 0) return over(box.u, box.v);
-    for (int axis = 1; axis <= 3; ++axis) {
-      const auto k = static_cast<std::size_t>(axis - 1);
-      flat.at[k] = p.Coord(axis);
-      flat.along_u[k] = (to_b.Coord(axis) * cv - to_c.Coord(axis) * bv) / area;
-      flat.along_v[k] = (to_c.Coord(axis) * bu - to_b.Coord(axis) * cu) / area;
-    }
-    return patches_.over(box.u, box.v, flat);
-  }
-
   /// Says whether a side of the patch is one point.
   static bool is_point(const Handle(Geom_BSplineSurface) & surface, int direction, double at) {
     const Handle(Geom_Curve) side = direction == 0 ? surface->VIso(at) : surface->UIso(at);
@@ -258,29 +233,24 @@ class SplineBound final : public ParametricBound {
                        [&](double point) { return std::abs(at - point) <= 1e-9 * (1 + std::abs(point)); });
   }
 
-  /// A triangle whose tip is a side of the patch that is one point stands for the parameters between that
-  /// side and its own opposite one, (u, v) = (u_a + t du, v_tip + s (v_a + t dv - v_tip)).
-  [[nodiscard]] double of_fan(const Corner& tip, const Corner& a, const Corner& b, bool swapped) const {
-    Box box;
-    for (const Corner* corner : {&a, &b}) box.hold(corner->at);
-    if (swapped) {
-      box.u = {std::min(box.u.low, tip.at.X()), std::max(box.u.high, tip.at.X())};
-    } else {
-      box.v = {std::min(box.v.low, tip.at.Y()), std::max(box.v.high, tip.at.Y())};
-    }
-    DerivativeBounds d = over(box.u, box.v);
-    double along = std::abs(b.at.X() - a.at.X()), aside = std::abs(b.at.Y() - a.at.Y());
-    double high = box.v.width();
-    if (swapped) {
-      std::swap(along, aside);
-      high = box.u.width();
-      std::swap(d.uu, d.vv), std::swap(d.kink_u, d.kink_v);
-    }
-    double off = kOnAxis;
-    for (const Corner* corner : {&tip, &a, &b})
-      off = std::max(off, corner->place.Distance(surface()->Value(corner->at.X(), corner->at.Y())) + kOnAxis);
-    return (d.uu * along * along + 2 * d.uv * along * aside + d.vv * aside * aside) / 8 +
-           d.vv * high * high / 8 + d.kink_u * along / 4 + d.kink_v * (aside + high) / 4 + off;
+  /// A triangle whose tip is a side of the patch that is one point. It stands for a fan, from the tip to the
+  /// nearer of the other corners, whose v is the same along its base, and for the triangle beyond the base.
+  [[nodiscard]] double of_fan(const Corner& tip, const Corner& a, const Corner& b, bool swapped,
+                              double enough) const {
+    const auto along = [&](const Corner& corner) { return swapped ? corner.at.Y() : corner.at.X(); };
+    const auto out = [&](const Corner& corner) { return swapped ? corner.at.X() : corner.at.Y(); };
+    const double high_a = out(a) - out(tip), high_b = out(b) - out(tip);
+    if (!(high_a * high_b > 0)) return kInfinite;
+    const bool a_is_nearer = std::abs(high_a) <= std::abs(high_b);
+    const Corner &near = a_is_nearer ? a : b, &far = a_is_nearer ? b : a;
+    const gp_XYZ p = value(tip.at).XYZ(), at_near = value(near.at).XYZ(), at_far = value(far.at).XYZ();
+    const double share = a_is_nearer ? high_a / high_b : high_b / high_a;
+    const gp_XYZ cut = p + share * (at_far - p);
+    const double of_fan = patches_.farthest(
+        Fan{along(near), along(far), out(tip), out(near), p, at_near, cut}, swapped, enough);
+    if (share == 1) return of_fan;
+    const gp_Pnt2d at_cut = swapped ? gp_Pnt2d(out(near), along(far)) : gp_Pnt2d(along(far), out(near));
+    return std::max(of_fan, patches_.farthest({near.at, far.at, at_cut}, {at_near, at_far, cut}, enough));
   }
 
   Patches patches_;
@@ -295,14 +265,18 @@ class RevolvedBound final : public SurfaceBound {
  public:
   RevolvedBound(const Handle(Geom_Surface) & surface, const gp_Pnt& origin, const gp_Dir& x, const gp_Dir& y,
                 CurveBound profile)
-      : surface_(surface),
+      : SurfaceBound(surface),
         origin_(origin),
         x_(x),
         y_(y),
         z_(gp_Vec(x) ^ gp_Vec(y)),
         profile_(std::move(profile)) {}
 
-  [[nodiscard]] double of_triangle(const std::array<Corner, 3>& corners) const override {
+  [[nodiscard]] Free free_at(const Corner& corner) const override {
+    return cylindrical(corner.place).radius <= kOnAxis ? Free::u : Free::none;
+  }
+
+  [[nodiscard]] double of_triangle(const std::array<Corner, 3>& corners, double) const override {
     Box angles, heights;
     std::array<Cylindrical, 3> places;
     double off = 0;
@@ -328,7 +302,7 @@ class RevolvedBound final : public SurfaceBound {
         return kInfinite;
       before = before || (!on_axis && !place.beyond), beyond = beyond || (!on_axis && place.beyond);
       bulge = std::max(bulge, place.radius * (1 - std::cos(is)));
-      const Cylindrical meant = cylindrical(surface_->Value(corners[k].at.X(), corners[k].at.Y()));
+      const Cylindrical meant = cylindrical(value(corners[k].at));
       off_corner = std::max(off_corner, std::hypot(place.radius - meant.radius, place.height - meant.height));
     }
     if (before && beyond) return kInfinite;
@@ -390,7 +364,6 @@ class RevolvedBound final : public SurfaceBound {
     return made;
   }
 
-  Handle(Geom_Surface) surface_;
   gp_Pnt origin_;
   gp_Dir x_, y_;
   gp_Vec z_;
@@ -443,6 +416,16 @@ std::unique_ptr<SurfaceBound> revolved(const Handle(Geom_SurfaceOfRevolution) & 
 
 }  // namespace
 
+gp_Pnt2d SurfaceBound::middle(const Corner& a, const Corner& b) const {
+  const Free of_a = free_at(a), of_b = free_at(b);
+  gp_Pnt2d made(0.5 * (a.at.X() + b.at.X()), 0.5 * (a.at.Y() + b.at.Y()));
+  if (of_a == of_b) return made;
+  const Free free = of_a == Free::none ? of_b : of_a;
+  const gp_Pnt2d& bound = of_a == Free::none ? a.at : b.at;
+  free == Free::u ? made.SetX(bound.X()) : made.SetY(bound.Y());
+  return made;
+}
+
 BoundedSurface bounded(Handle(Geom_Surface) surface) {
   while (true) {
     const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface);
@@ -464,7 +447,15 @@ BoundedSurface bounded(Handle(Geom_Surface) surface) {
   if (const auto s = Handle(Geom_BezierSurface)::DownCast(surface); !s.IsNull())
     return {std::make_unique<SplineBound>(GeomConvert::SurfaceToBSplineSurface(s)), "spline"};
   if (const auto s = Handle(Geom_SurfaceOfLinearExtrusion)::DownCast(surface); !s.IsNull()) {
-    auto curve = bounded(s->BasisCurve());
+    Handle(Geom_Curve) basis = s->BasisCurve();
+    while (true) {
+      const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(basis);
+      if (trimmed.IsNull()) break;
+      basis = trimmed->BasisCurve();
+    }
+    if (const auto spline = spline_of(basis); !spline.IsNull())
+      return {std::make_unique<SplineBound>(s, spline), "extrusion"};
+    auto curve = bounded(basis);
     if (!curve) return {nullptr, "extrusion of a curve that is neither line, circle, ellipse nor spline"};
     return {std::make_unique<ExtrusionBound>(s, *std::move(curve)), "extrusion"};
   }

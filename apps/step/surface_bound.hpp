@@ -22,12 +22,28 @@ struct Corner {
 /// for both triangles beside them; infinity says that nothing can be proved of a triangle so large.
 class SurfaceBound {
  public:
+  explicit SurfaceBound(const Handle(Geom_Surface) & surface) : surface_(surface) {}
   virtual ~SurfaceBound() = default;
-  /// No point of the triangle is farther than this from its point of the surface, mm.
-  [[nodiscard]] virtual double of_triangle(const std::array<Corner, 3>& corners) const = 0;
+  SurfaceBound(const SurfaceBound&) = delete;
+  SurfaceBound& operator=(const SurfaceBound&) = delete;
+
+  /// No point of the triangle is farther than this from its point of the surface, mm. No work is done once
+  /// it is not above `enough`.
+  [[nodiscard]] virtual double of_triangle(const std::array<Corner, 3>& corners, double enough) const = 0;
   /// Between a side of a triangle and the curve of parameters that it stands for, which the control points
   /// hull, no point of the surface is farther than this from either, mm.
   [[nodiscard]] virtual double of_border(Corner from, Corner to, const std::vector<gp_Pnt2d>& hull) const = 0;
+
+  /// The parameter that says nothing at a corner, for its line is one point, as at a pole of a sphere: a side
+  /// that begins there has the other corner's.
+  enum class Free : unsigned char { none, u, v };
+  [[nodiscard]] virtual Free free_at(const Corner&) const { return Free::none; }
+  /// The parameters in the middle of a side of a triangle.
+  [[nodiscard]] gp_Pnt2d middle(const Corner& a, const Corner& b) const;
+  [[nodiscard]] gp_Pnt value(const gp_Pnt2d& at) const { return surface_->Value(at.X(), at.Y()); }
+
+ private:
+  Handle(Geom_Surface) surface_;
 };
 
 /// Returns the bounds of a surface, or nothing where none is known, and what kind of surface it is.

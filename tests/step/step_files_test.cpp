@@ -163,7 +163,7 @@ TEST(StepFiles, EveryKindOfSurfaceIsWithinItsDeviation) {
       EXPECT_LE(found.proved, kAsked);
       // Not a bound that says nothing: of a round body some share of what is proved is found.
       if (found.proved > 1e-6) {
-        EXPECT_GE(found.farthest, found.proved / (as_splines ? 16 : 4)) << found.proved;
+        EXPECT_GE(found.farthest, found.proved / 4) << found.proved;
       }
     }
 }
