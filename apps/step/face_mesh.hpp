@@ -67,7 +67,7 @@ class FaceMesh {
     int same = 0;  ///< the first of the nodes that are one point of the surface, as at a pole
   };
   static constexpr double kUnknown = -1;
-  /// What dividing has brought so far: corners that are off stay off.
+  /// Dividing helps as long as the bounds of halves are less: corners that are off stay off.
   struct Progress {
     double before = kUnknown;  ///< the bound of the whole
     int in_vain = 0;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Of each count (a, b, c) of a degree, in the order of TriangleNet, the shares of the Bernstein polynomials:
+/// The shares of the Bernstein polynomials of each count (a, b, c) of a degree, in the order of TriangleNet:
 /// the coefficients of the product of ((1 - t) + t x) over a times t_0, b times t_1 and c times t_2.
 std::vector<std::vector<double>> blossoms(std::size_t degree, const std::array<double, 3>& t) {
   std::vector<std::vector<double>> made;

@@ -58,8 +58,8 @@ struct Longest {
 
 void DerivativeBounds::hold(const DerivativeBounds& other) noexcept {
   u = std::max(u, other.u), v = std::max(v, other.v);
-  uu = std::max(uu, other.uu), uv = std::max(uv, other.uv), vv = std::max(vv, other.vv);
-  kink_u += other.kink_u, kink_v += other.kink_v;
+  uu = std::max(uu, other.uu);
+  kink_u += other.kink_u;
 }
 
 Patches::Patches(const Handle(Geom_BSplineSurface) & surface) {
@@ -164,11 +164,11 @@ Patches::Points Patches::cut(const Piece& u, const Piece& v) const {
 }
 
 /// With S = N / w, taken from a point c in the middle so that |S - c| <= r: w S_u = N_u - (S - c) w_u, and so
-/// on for the second derivatives, where N is the numerator less c w.
+/// on for the second derivative along u, where N is the numerator less c w.
 DerivativeBounds Patches::bounds(const Points& net, double width_u, double width_v) const {
   Point low{kInfinite, kInfinite, kInfinite, kInfinite}, high{-kInfinite, -kInfinite, -kInfinite, -kInfinite};
   for (const Point& p : net) {
-    if (!(p[3] > 0)) return {kInfinite, kInfinite, kInfinite, kInfinite, kInfinite, 0, 0};
+    if (!(p[3] > 0)) return {kInfinite, kInfinite, kInfinite, 0};
     for (std::size_t axis = 0; axis < 4; ++axis) {
       const double x = axis < 3 ? p[axis] / p[3] : p[3];
       low[axis] = std::min(low[axis], x), high[axis] = std::max(high[axis], x);
@@ -182,36 +182,31 @@ DerivativeBounds Patches::bounds(const Points& net, double width_u, double width
   }
   const std::size_t n = columns(), rows = net.size() / n;
   const auto at = [&](std::size_t i, std::size_t j) -> const Point& { return moved[i * n + j]; };
-  Longest u, v, uu, uv, vv;
+  Longest u, v, uu;
   for (std::size_t i = 0; i < rows; ++i)
     for (std::size_t j = 0; j < n; ++j) {
       if (i + 1 < rows) u.hold(at(i + 1, j) - at(i, j));
       if (j + 1 < n) v.hold(at(i, j + 1) - at(i, j));
       if (i + 2 < rows) uu.hold((at(i + 2, j) - at(i + 1, j)) - (at(i + 1, j) - at(i, j)));
-      if (j + 2 < n) vv.hold((at(i, j + 2) - at(i, j + 1)) - (at(i, j + 1) - at(i, j)));
-      if (i + 1 < rows && j + 1 < n) uv.hold((at(i + 1, j + 1) - at(i, j + 1)) - (at(i + 1, j) - at(i, j)));
     }
   const double p = static_cast<double>(rows - 1), q = static_cast<double>(n - 1);
   u = u * (p / width_u), v = v * (q / width_v);
-  uu = uu * (p * (p - 1) / (width_u * width_u)), vv = vv * (q * (q - 1) / (width_v * width_v));
-  uv = uv * (p * q / (width_u * width_v));
+  uu = uu * (p * (p - 1) / (width_u * width_u));
   const double least = low[3];
   DerivativeBounds made;
   made.u = (u.vector + r * u.weight) / least;
   made.v = (v.vector + r * v.weight) / least;
   made.uu = (uu.vector + 2 * made.u * u.weight + r * uu.weight) / least;
-  made.vv = (vv.vector + 2 * made.v * v.weight + r * vv.weight) / least;
-  made.uv = (uv.vector + made.u * v.weight + made.v * u.weight + r * uv.weight) / least;
   return made;
 }
 
 /// Two patches meet along a line: so much the first derivative across it jumps there, at most. With equal
 /// N and w on the line, w [S_u] = [N_u] - (S - c) [w_u].
-double Patches::jump(const Points& before, double width_before, const Points& after, double width_after,
-                     bool along_u) const {
+double Patches::jump(const Points& before, double width_before, const Points& after,
+                     double width_after) const {
   const std::size_t n = columns(), rows = before.size() / n;
-  const std::size_t count = along_u ? n : rows, degree = (along_u ? rows : n) - 1;
-  const auto place = [&](std::size_t i, std::size_t k) { return along_u ? i * n + k : k * n + i; };
+  const std::size_t count = n, degree = rows - 1;
+  const auto place = [&](std::size_t i, std::size_t k) { return i * n + k; };
   Point middle = after[place(0, count / 2)];
   double r = 0, least = kInfinite;
   Longest jumps;
@@ -288,7 +283,7 @@ struct Clipped {
   gp_XYZ flat;
 };
 
-/// What of a convex polygon has a coordinate on one side of a limit.
+/// The part of a convex polygon whose points have a coordinate on one side of a limit.
 std::vector<Clipped> clipped(const std::vector<Clipped>& polygon, double Clipped::*at, double limit,
                              bool above) {
   if (!std::isfinite(limit)) return polygon;
@@ -339,7 +334,7 @@ double Patches::farthest(const std::array<gp_Pnt2d, 3>& at, const std::array<gp_
 double Patches::farthest(const Fan& fan, bool swapped, double enough) const {
   const Range along{std::min(fan.u_a, fan.u_b), std::max(fan.u_a, fan.u_b)},
       out{std::min(fan.v_tip, fan.v_base), std::max(fan.v_tip, fan.v_base)};
-  // What is flat at a place of the box, which is linear each way.
+  // The flat triangle at a place of the box, which is linear each way.
   const auto flat = [&](double u, double v) {
     const double t = fan.u_a == fan.u_b ? 0 : (u - fan.u_a) / (fan.u_b - fan.u_a),
                  s = fan.v_base == fan.v_tip ? 0 : (v - fan.v_tip) / (fan.v_base - fan.v_tip);
@@ -377,16 +372,8 @@ void Patches::add_kinks(const std::vector<Piece>& u, const std::vector<Piece>& v
     if (!u_.kinks[after]) continue;
     const Piece x = whole(u_, u[i].span), y = whole(u_, after);
     double most = 0;
-    for (const Piece& b : v) most = std::max(most, jump(cut(x, b), x.width, cut(y, b), y.width, true));
+    for (const Piece& b : v) most = std::max(most, jump(cut(x, b), x.width, cut(y, b), y.width));
     made.kink_u += most;
-  }
-  for (std::size_t j = 0; j + 1 < v.size(); ++j) {
-    const std::size_t after = v[j + 1].span;
-    if (!v_.kinks[after]) continue;
-    const Piece x = whole(v_, v[j].span), y = whole(v_, after);
-    double most = 0;
-    for (const Piece& a : u) most = std::max(most, jump(cut(a, x), x.width, cut(a, y), y.width, false));
-    made.kink_v += most;
   }
 }
 

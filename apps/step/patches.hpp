@@ -19,7 +19,7 @@ struct Range {
 /// Upper bounds of the lengths of a surface's derivatives over a box of parameters. A kink is a line across
 /// which the first derivative jumps by up to so much.
 struct DerivativeBounds {
-  double u = 0, v = 0, uu = 0, uv = 0, vv = 0, kink_u = 0, kink_v = 0;
+  double u = 0, v = 0, uu = 0, kink_u = 0;
   void hold(const DerivativeBounds& other) noexcept;
 };
 
@@ -84,7 +84,7 @@ class Patches {
   [[nodiscard]] DerivativeBounds bounds(const Points& net, double width_u, double width_v) const;
   void add_kinks(const std::vector<Piece>& u, const std::vector<Piece>& v, DerivativeBounds& made) const;
   [[nodiscard]] double jump(const Points& before, double width_before, const Points& after,
-                            double width_after, bool along_u) const;
+                            double width_after) const;
   [[nodiscard]] std::size_t columns() const noexcept { return static_cast<std::size_t>(v_.degree) + 1; }
 
   Axis u_, v_;

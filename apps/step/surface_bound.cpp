@@ -47,7 +47,7 @@ struct Box {
 /// Bounds of the first two derivatives of a curve: constants, or those of a spline.
 class CurveBound {
  public:
-  CurveBound(double first, double second) : constant_{first, 0, second, 0, 0, 0, 0} {}
+  CurveBound(double first, double second) : constant_{first, 0, second, 0} {}
   explicit CurveBound(const Handle(Geom_BSplineCurve) & spline) : patches_(Patches(spline)) {}
   [[nodiscard]] DerivativeBounds over(Range t) const {
     return patches_ ? patches_->over(t, {0, 0}) : constant_;
@@ -144,11 +144,11 @@ class PlaneBound final : public ParametricBound {
   using ParametricBound::ParametricBound;
 
  private:
-  [[nodiscard]] DerivativeBounds over(Range, Range) const override { return {1, 1, 0, 0, 0, 0, 0}; }
+  [[nodiscard]] DerivativeBounds over(Range, Range) const override { return {1, 1, 0, 0}; }
   [[nodiscard]] double skew() const override { return 1; }
 };
 
-/// Of curves that are no splines.
+/// Extrusions of curves that are no splines.
 class ExtrusionBound final : public ParametricBound {
  public:
   ExtrusionBound(const Handle(Geom_Surface) & surface, CurveBound curve)
