@@ -14,7 +14,7 @@ namespace {
 constexpr double kHalfDecimal = 5.1e-5;  // mm, of a diameter and of z
 constexpr double kLead = 1;              // mm
 
-std::optional<double> number(std::string_view word) {
+std::optional<double> decimal_of(std::string_view word) {
   const std::optional<Decimal> value = parse_decimal(word);
   if (!value) return {};
   return approximate(*value);
@@ -88,7 +88,7 @@ class TurningProgram {
 
   std::optional<std::string> take_word(std::string_view word, std::optional<double>& x,
                                        std::optional<double>& z, std::string& motion) {
-    const std::optional<double> value = word.size() > 1 ? number(word.substr(1)) : std::nullopt;
+    const std::optional<double> value = word.size() > 1 ? decimal_of(word.substr(1)) : std::nullopt;
     if (!value) return fmt::format("{} is no word", word);
     if (word[0] == 'X') {
       x = *value * (claim_.radius ? 2 : 1);
@@ -162,8 +162,8 @@ std::optional<std::string> fault_of_profile_table(std::string_view text,
   if (lines.empty() || lines[0] != "z_mm,diameter_mm") return "its first line is not z_mm,diameter_mm";
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const std::size_t comma = std::min(lines[i].find(','), lines[i].size());
-    const auto z = number(lines[i].substr(0, comma));
-    const auto diameter = comma < lines[i].size() ? number(lines[i].substr(comma + 1)) : std::nullopt;
+    const auto z = decimal_of(lines[i].substr(0, comma));
+    const auto diameter = comma < lines[i].size() ? decimal_of(lines[i].substr(comma + 1)) : std::nullopt;
     if (!z || !diameter) return fmt::format("line {} is not two numbers", i + 1);
     found.push_back({*z, *diameter});
   }
@@ -180,7 +180,7 @@ std::optional<std::string> fault_of_profile_drawing(std::string_view text,
     if (code == "0") entities.push_back(value);
     const bool vertex = !entities.empty() && entities.back() == "VERTEX";
     if (code == "10" || code == "20") {
-      const auto place = number(value);
+      const auto place = decimal_of(value);
       if (!vertex || !place) return fmt::format("line {} is no coordinate of a vertex", i + 2);
       if (code == "10")
         found.push_back({*place, NAN});
