@@ -93,7 +93,7 @@ void find_starts(std::uint64_t step) {
     double start = seconds();
     const auto found = locate::find_start({pair.part, pair.blank, anyhow(pair.part, random)}, {});
     const double took = seconds() - start;
-    const auto placed = locate::place_solid({pair.part, pair.blank, *found}, {});
+    const auto placed = locate::place_solid({pair.part, pair.blank, found->pose}, {});
     start = seconds();
     const std::uint32_t rotations = solid::symmetry(pair.part, 0.01).rotations;
     fmt::print(

@@ -70,12 +70,12 @@ ToTheEnd::ToTheEnd() {
   if (stop_flag.load(std::memory_order_relaxed)) listening_.emplace(nobody_);
 }
 
-ProgressLine::ProgressLine(std::string what, std::string note)
+ProgressLine::ProgressLine(std::string what, std::string note, bool quiet_at_first)
     : what_(std::move(what)),
       note_(std::move(note)),
       terminal_(isatty(STDERR_FILENO) == 1),
       start_(std::chrono::steady_clock::now()),
-      next_(start_ + kQuietTime) {}
+      next_(quiet_at_first ? start_ + kQuietTime : start_) {}
 
 ProgressLine::~ProgressLine() {
   if (shown_) std::fputs("\r\x1b[K", stderr);
@@ -99,7 +99,12 @@ void ProgressLine::show(const Progress& progress, const std::string& says) {
 
 jobs::PhaseListener progress_lines() {
   return [](const char* phase) -> ProgressListener {
-    const auto line = std::make_shared<ProgressLine>(phase, "Ctrl-C ends it, nothing is written");
+    // Who has asked for the stop is told at once what he waits for.
+    const bool stopped = stop_flag.load(std::memory_order_relaxed);
+    const auto line = std::make_shared<ProgressLine>(
+        phase,
+        stopped ? "another Ctrl-C ends it, and nothing is written" : "Ctrl-C ends it, nothing is written",
+        !stopped);
     return [line](const Progress& progress) { line->show(progress); };
   };
 }

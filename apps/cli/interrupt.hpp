@@ -37,11 +37,14 @@ class ToTheEnd {
   std::optional<Listening> listening_;
 };
 
-/// A line on stderr with the time left, for work of more than a second, where stderr is a terminal.
+/// A line on stderr with the time left, where stderr is a terminal: for work of more than a second, as a
+/// rule.
 class ProgressLine {
  public:
   /// \param note  ends the line: what a Ctrl-C does
-  explicit ProgressLine(std::string what, std::string note = "Ctrl-C stops with the best so far");
+  /// \param quiet_at_first  not shown in the first second
+  explicit ProgressLine(std::string what, std::string note = "Ctrl-C stops with the best so far",
+                        bool quiet_at_first = true);
   ~ProgressLine();  ///< wipes the line
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -17,8 +18,12 @@ class PointGrid {
     std::int32_t& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
   };
 
+  /// Hears how much of the cells' work is done, from 0 to 1.
+  using Listener = std::function<void(double)>;
+
   /// \param box  of the points; the body's lower end with a floor, which nothing passes
-  PointGrid(std::vector<Vector> points, const Box& box, double step, double ball, bool floor);
+  PointGrid(std::vector<Vector> points, const Box& box, double step, double ball, bool floor,
+            const Listener& told);
 
   [[nodiscard]] Place counts() const noexcept { return count_; }
   [[nodiscard]] bool has(Place c) const noexcept {
@@ -46,14 +51,14 @@ class PointGrid {
   [[nodiscard]] Vector middle(Place c) const noexcept;
   [[nodiscard]] Place cell_of(Vector p) const noexcept;
 
-  void occupy();
+  void occupy(const Listener& told);
   void flood();
-  void roll();
+  void roll(const Listener& told);
   /// Spreads the sources of cells to the cells around, each to those nearer than `reach` that have none
   /// nearer.
   template <class At, class May>
   void spread(std::vector<std::uint32_t>& sources, std::vector<std::uint32_t> front, double reach,
-              const At& at, const May& may);
+              const At& at, const May& may, const Listener& told);
 
   std::vector<Vector> points_;
   Vector low_;

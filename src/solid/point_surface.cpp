@@ -25,6 +25,8 @@ constexpr double kStepsOfBall = 3;
 constexpr double kCoarser = 4;
 /// A floor's cells away from its rim are joined to squares of twice so many cells.
 constexpr std::int32_t kFloorSquare = 8;
+/// The cells take this part of the time. Measured.
+constexpr double kCellsShare = 0.7;
 
 /// Guesses the area that the points lie on, by cells that have several each: a surface passes about one and a
 /// half for each square of their size.
@@ -57,11 +59,13 @@ double cells_of(const Box& box, double step, double ball) {
 /// The size of the cells: about the distance of the points, and small beside the ball.
 Result<double> step_for(const std::vector<Vector>& points, const Box& box,
                         const PointSurfaceOptions& options) {
-  const double area = area_of(points, box);
+  const auto as_fine_as_points = [&] {
+    const double area = area_of(points, box);
+    return std::max(1.2 * std::sqrt(area / static_cast<double>(points.size())),
+                    std::sqrt(2 * area / kTriangles));
+  };
   const double wanted =
-      std::min(options.step.value_or(std::max(1.2 * std::sqrt(area / static_cast<double>(points.size())),
-                                              std::sqrt(2 * area / kTriangles))),
-               options.ball / kStepsOfBall);
+      std::min(options.step ? *options.step : as_fine_as_points(), options.ball / kStepsOfBall);
   for (double step = wanted; step <= kCoarser * wanted && 1.5 * step <= options.ball; step *= 1.1)
     if (cells_of(box, step, options.ball) <= kMostCells) return step;
   const Vector size = box.high - box.low;
@@ -75,17 +79,23 @@ Result<double> step_for(const std::vector<Vector>& points, const Box& box,
 /// The side of the grid's cells, outside or not, becomes a surface through points.
 class Surface {
  public:
-  Surface(const PointGrid& grid, bool floor) : grid_(grid), floor_(floor) {}
+  Surface(const PointGrid& grid, bool floor, const PointGrid::Listener& told)
+      : grid_(grid), floor_(floor), told_(told) {}
 
   Mesh made() {
     if (floor_) find_squares();
+    told_(0.1);
     add_sides();
+    told_(0.5);
     std::erase_if(mesh_.triangles,
                   [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
     cancel_pairs();
+    told_(0.6);
     flip_edges(mesh_);
     return std::move(mesh_);
   }
+  /// Where the ball falls in between points on a grid, most triangles of the two sheets cancel each other.
+  [[nodiscard]] bool mostly_cancelled() const { return mostly_cancelled_; }
 
  private:
   using Place = PointGrid::Place;
@@ -229,6 +239,7 @@ class Surface {
       k = end;
     }
     std::ranges::sort(kept);
+    mostly_cancelled_ = 2 * kept.size() < mesh_.triangles.size();
     std::vector<Triangle> triangles;
     triangles.reserve(kept.size());
     for (const std::uint32_t k : kept) triangles.push_back(mesh_.triangles[k]);
@@ -239,6 +250,8 @@ class Surface {
 
   const PointGrid& grid_;
   bool floor_;
+  const PointGrid::Listener& told_;
+  bool mostly_cancelled_ = false;
   std::int32_t width_ = 0;
   std::vector<std::uint8_t> inner_, square_;
   Mesh mesh_;
@@ -281,7 +294,8 @@ Result<void> check(const std::vector<Vector>& points, const PointSurfaceOptions&
 
 }  // namespace
 
-Result<PointSurface> surface_through(const std::vector<Vector>& points, const PointSurfaceOptions& options) {
+Result<PointSurface> surface_through(const std::vector<Vector>& points, const PointSurfaceOptions& options,
+                                     const ProgressListener& progress) {
   LEKALO_CHECK(check(points, options));
   std::vector<Vector> used;
   used.reserve(points.size());
@@ -296,9 +310,19 @@ Result<PointSurface> surface_through(const std::vector<Vector>& points, const Po
     return failure(ErrorCode::bad_input, "all points are at one place, so they give no surface");
   LEKALO_TRY(const double step, step_for(used, box, options));
   const std::size_t below = points.size() - used.size();
-  const PointGrid grid(std::move(used), box, step, options.ball, options.floor.has_value());
-  PointSurface made{Surface(grid, options.floor.has_value()).made(), step, below};
-  made.encloses = encloses_something(made.mesh);
+  const auto part_of_whole = [&](double from, double to) -> PointGrid::Listener {
+    return [&progress, from, to](double share) {
+      const double fraction = std::lerp(from, to, share);
+      if (progress) progress({static_cast<std::uint64_t>(100 * fraction), fraction});
+    };
+  };
+  const PointGrid::Listener of_cells = part_of_whole(0, kCellsShare),
+                            of_surface = part_of_whole(kCellsShare, 1);
+  const PointGrid grid(std::move(used), box, step, options.ball, options.floor.has_value(), of_cells);
+  Surface surface(grid, options.floor.has_value(), of_surface);
+  PointSurface made{surface.made(), step, below};
+  made.encloses = !surface.mostly_cancelled() && encloses_something(made.mesh);
+  of_surface(1);
   return made;
 }
 

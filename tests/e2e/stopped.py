@@ -13,6 +13,7 @@ import math
 import os
 import random
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -79,11 +80,22 @@ def big_program(count):
     return "\n".join(lines + ["G0 Z5", "M2", ""])
 
 
+def above_box(x, y, z):
+    """What a scanner sees of a box from above, 1 mm apart."""
+    return "".join(f"{i} {j} {k}\n" for i in range(x + 1) for j in range(y + 1) for k in range(z + 1)
+                   if k == z or i in (0, x) or j in (0, y))
+
+
 def prepare(folder, source):
     examples = os.path.join(source, "examples")
-    for name in ["regions", "orders", "pockets", "layouts", "localisation"]:
+    for name in ["regions", "orders", "pockets", "layouts", "localisation", "solid"]:
         for file in os.listdir(os.path.join(examples, name)):
-            write(folder, file, open(os.path.join(examples, name, file)).read())
+            path = os.path.join(examples, name, file)
+            if file.endswith(".stl"):
+                shutil.copy(path, folder)
+            else:
+                write(folder, file, open(path).read())
+    write(folder, "above.xyz", above_box(250, 200, 100))
     write(folder, "big.json", big_layout(60, 50))
     write(folder, "order.json", big_order(2000))
     write(folder, "big.dxf", big_dxf(4000))
@@ -117,6 +129,10 @@ LINES = [
     "locate --part part.json --blank scan.csv --uncertainty 0.01 -o o.json",
     "locate --part big.dxf --blank big.dxf -o o.json",
     "locate --part example-1-part.csv --blank example-1-blank.csv --nc big.nc --nc-out o.nc -o o.json",
+    "locate --part part.stl --blank casting.stl -o o.json --picture o.png",
+    "locate --part part.stl --blank above.xyz --uncertainty 0.01 --min-radius 3 --mesh o.ply -o o.json",
+    "locate --part part.stl --blank touches.xyz --nominal-blank casting.stl --form 0.1 --ball 3 --uncertainty 0.005 "
+    "--mesh o.ply -o o.json",
     "verify convex.json",
     "verify found.json",
     "verify demands.json --json",
@@ -223,6 +239,24 @@ def gives_up(lekalo, folder):
             yield f"lekalo {line} --work 400: not the same twice, or something was written"
 
 
+def ended_twice(lekalo, folder):
+    """A second Ctrl-C ends what is done to the end after the first, and nothing is written."""
+    before = contents(folder)
+    line = "locate --part part.stl --blank casting.stl -o o.json --picture o.png --report o.pdf --gap 0.0001"
+    process = subprocess.Popen([lekalo] + line.split(), cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while process.poll() is None and not (catches(process.pid) and cpu_of(process.pid) >= 0.2):
+        time.sleep(0.002)
+    process.send_signal(signal.SIGINT)
+    while process.poll() is None and catches(process.pid):
+        time.sleep(0.0005)
+    process.send_signal(signal.SIGINT)
+    code = process.wait()
+    if code == -signal.SIGINT and contents(folder) != before:
+        yield "a second Ctrl-C left files behind"
+    if code not in (-signal.SIGINT, 0, 1):
+        yield f"a second Ctrl-C: status {code}"
+
+
 def main():
     lekalo, source = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
     cases = min(max(len(LINES), int(os.environ.get("LEKALO_CASES", "0"))), 10 * len(LINES))
@@ -233,6 +267,9 @@ def main():
         for line in BEFORE:
             subprocess.run([lekalo] + line.split(), cwd=folder, capture_output=True)
         for trouble in gives_up(lekalo, folder) if not only else []:
+            failures += 1
+            print(trouble, flush=True)
+        for trouble in ended_twice(lekalo, folder) if not only else []:
             failures += 1
             print(trouble, flush=True)
         lines = [line for line in LINES if re.search(only, line)]

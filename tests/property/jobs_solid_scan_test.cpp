@@ -1,11 +1,19 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdint>
+#include <ctime>
+#include <functional>
+#include <string>
+#include <vector>
 
+#include "lekalo/base/stop.hpp"
 #include "lekalo/jobs/locate_solid.hpp"
 #include "support/cases.hpp"
 #include "support/scanned_blanks.hpp"
+#include "support/solid_cases.hpp"
 #include "support/solid_files.hpp"
+#include "support/stopwatch.hpp"
 
 // Placements in scanned blanks as they are handed out: the checker, which makes the widths anew, confirms
 // each of them, also the certificate, and the placed part has its clearance in the true blank.
@@ -54,6 +62,83 @@ TEST(SolidScan, EveryPlacementIsConfirmedAndHoldsInTheTrueBlank) {
   }
   EXPECT_GE(8 * of_points, cases::case_count(4)) << "few points were placed in, so little was tested";
   EXPECT_GE(3 * placed, cases::case_count(4)) << "few parts were placed, so little was tested";
+}
+
+/// The sides and the top of a box as a scanner sees them, 2 mm apart, and nothing of its underside.
+std::vector<Vector> seen_from_above(int x, int y, int z) {
+  std::vector<Vector> points;
+  for (int i = 0; i <= x; i += 2)
+    for (int j = 0; j <= y; j += 2)
+      for (int k = 0; k <= z; k += 2)
+        if (k == z || i == 0 || j == 0 || i == x || j == y)
+          points.push_back({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+  return points;
+}
+
+SolidLocateJob without_underside() {
+  SolidLocateJob job;
+  job.part = {"part.stl", solid_files::stl_binary(cases::block({10, 10, 10}, {50, 40, 25}))};
+  job.blank = {"scan.xyz", solid_files::points(seen_from_above(60, 50, 30))};
+  job.outputs.mesh = "mesh.ply";
+  job.options.scan = SolidScanOptions{0.01, 2, 5, {}, {}, {}, {}};
+  job.options.method = SolidMethod::climb;
+  return job;
+}
+
+/// Hears of phases, and counts what it is told.
+struct Heard {
+  std::vector<std::string> phases;
+  std::vector<double> last;  ///< fraction of each phase
+  std::size_t calls = 0;
+  std::function<void()> each = [] {};
+
+  [[nodiscard]] PhaseListener listener() {
+    return [this](const char* phase) -> ProgressListener {
+      phases.emplace_back(phase);
+      last.push_back(0);
+      return [this](const Progress& progress) {
+        EXPECT_GE(progress.fraction, last.back());
+        EXPECT_LE(progress.fraction, 1);
+        last.back() = progress.fraction;
+        ++calls;
+        each();
+      };
+    };
+  }
+};
+
+TEST(SolidScan, MeshingIsTold) {
+  const SolidLocateJob job = without_underside();
+  Heard heard;
+  const auto located = locate_solid(job, {}, {}, heard.listener());
+  ASSERT_TRUE(located.has_value()) << located.error().message;
+  EXPECT_FALSE(located->document.scan->proved());
+  ASSERT_GE(heard.phases.size(), 4U);
+  for (std::size_t k = 0; k + 1 < heard.phases.size(); ++k) {
+    EXPECT_EQ(heard.phases[k], k % 2 == 0 ? "meshing the points" : "looking for gaps between the points");
+    EXPECT_GT(heard.last[k], 0.5) << k;
+  }
+  EXPECT_EQ(heard.phases.back(), "checking what was found");
+  EXPECT_GT(heard.calls, 30U);
+}
+
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+TEST(SolidScan, MeshingHearsAStop) {
+  const SolidLocateJob job = without_underside();
+  for (const std::size_t when : {1U, 12U, 20U, 30U}) {
+    std::atomic<bool> stop = false;
+    double at = 0;
+    Heard heard;
+    heard.each = [&] {
+      if (heard.calls == when) stop = true, at = processor_seconds();
+    };
+    RunControl run;
+    run.stop = &stop;
+    const auto done = stoppable(run, [&] { return locate_solid(job, run, {}, heard.listener()); });
+    EXPECT_FALSE(done.has_value()) << when;
+    EXPECT_LE(processor_seconds() - at, 0.25 * cases::kSlowdown) << when;
+  }
 }
 
 }  // namespace

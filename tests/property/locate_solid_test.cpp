@@ -180,7 +180,7 @@ TEST(LocateSolid, AllRotationsHaveTheBestOneAmongThem) {
     problem.start.shift = problem.start.shift + Vector{1000, -500, 200};
     const auto start = locate::find_start(problem, {});
     ASSERT_TRUE(start) << start.error().message;
-    const auto placed = locate::place_solid({pair.part, pair.blank, *start}, {});
+    const auto placed = locate::place_solid({pair.part, pair.blank, start->pose}, {});
     ASSERT_TRUE(placed && placed->inside);
     EXPECT_GE(placed->clearance, pair.optimum - 0.05);
   }

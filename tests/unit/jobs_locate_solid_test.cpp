@@ -326,6 +326,22 @@ TEST(JobsLocateSolid, AStartIsFoundFromAllOver) {
   EXPECT_EQ(made(job).result, located.result);
 }
 
+TEST(JobsLocateSolid, TheClimbsThatFindAStartAreWork) {
+  SolidLocateJob job = far_job();
+  job.options.method = SolidMethod::climb;
+  const std::uint64_t climb = made(job).document.work;
+  job.options.find_start = true;
+  const std::uint64_t whole = made(job).document.work;
+  // Some 280 rotations are compared before anything climbs.
+  EXPECT_GT(whole, climb + 280);
+  RunControl run;
+  run.work_limit = 100;
+  const auto soon = locate_solid(job, run);
+  ASSERT_TRUE(soon.has_value()) << soon.error().message;
+  EXPECT_GE(soon->document.work, run.work_limit);
+  EXPECT_LT(soon->document.work, whole);
+}
+
 TEST(JobsLocateSolid, AllTurnsAboutZAreLookedAt) {
   SolidLocateJob job = convex_job();
   Random random(6);

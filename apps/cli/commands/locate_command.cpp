@@ -111,7 +111,10 @@ Result<int> locate_outline(const LocateOptions& o, jobs::File part, jobs::File b
 
 Result<int> locate_solid(const LocateOptions& o, jobs::File part, jobs::File blank) {
   LEKALO_TRY(const jobs::SolidLocateJob job, read_solids(o, std::move(part), std::move(blank)));
-  LEKALO_TRY(const jobs::LocatedSolid made, searched(job, o, jobs::locate_solid));
+  const auto located = [](const auto& solids, const RunControl& run, const jobs::Stopwatch& stopwatch) {
+    return jobs::locate_solid(solids, run, stopwatch, progress_lines());
+  };
+  LEKALO_TRY(const jobs::LocatedSolid made, searched(job, o, located));
   const ToTheEnd to_the_end;
   std::vector<Output> documents{
       {&o.output, &made.result},         {&o.outputs.certificate, &made.certificate},

@@ -10,6 +10,7 @@
 #include "lekalo/io/locate/solid_result_json.hpp"
 #include "lekalo/jobs/file.hpp"
 #include "lekalo/jobs/locate.hpp"
+#include "lekalo/jobs/phases.hpp"
 #include "lekalo/jobs/picture_form.hpp"
 #include "lekalo/nc/rewrite.hpp"
 #include "lekalo/nc/work_offset.hpp"
@@ -152,7 +153,8 @@ struct LocatedSolid {
 /// very bytes of the result are put before the checker of verify/verify.hpp, as in locate().
 ///
 /// Deterministic: only SolidDocument::seconds and ::threads are not functions of the job. `run` is for the
-/// search: its unit of work is a box bounded, a program solved or a pose measured.
+/// search: its unit of work is a box bounded, a program solved or a pose measured. `phases` hears how points
+/// are meshed before that, and when the check begins after it.
 ///
 /// Errors: bad_input as of io::parse_solid, solid::closed_mesh and solid::surface_through, for points that
 /// nobody says how to mesh or that contradict what is said of them, for a start that is no result for solids,
@@ -160,6 +162,7 @@ struct LocatedSolid {
 /// usage as of locate::locate_solid and locate::guaranteed_solid; environment where a drawing library fails;
 /// refuted where the checker does not confirm the result, which is a mistake of ours.
 [[nodiscard]] Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& run = {},
-                                                const Stopwatch& stopwatch = {});
+                                                const Stopwatch& stopwatch = {},
+                                                const PhaseListener& phases = {});
 
 }  // namespace lekalo::jobs

@@ -130,9 +130,10 @@ struct SolidResult {
 };
 
 /// A start for a part that may lie anywhere: the best place that climbs from rotations all over find, which
-/// are those that the freedom has, counted from the start of the problem; its window does not matter. Refuses
-/// what place_solid refuses. Deterministic; single-threaded.
-[[nodiscard]] Result<SolidPose> find_start(const SolidProblem& problem, const SolidOptions& options);
+/// are those that the freedom has, counted from the start of the problem; its window does not matter. From
+/// the work limit on no further climb begins. Refuses what place_solid refuses. Deterministic;
+/// single-threaded.
+[[nodiscard]] Result<SolidPlacement> find_start(const SolidProblem& problem, const SolidOptions& options);
 
 /// A quick placement without a bound: climbs from the start to a place that no small motion makes better, and
 /// where the window has all turns from other rotations, too. It need not be the best one of the window.

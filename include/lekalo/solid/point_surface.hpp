@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lekalo/base/error.hpp"
+#include "lekalo/base/run_control.hpp"
 #include "lekalo/solid/mesh.hpp"
 
 namespace lekalo::solid {
@@ -38,8 +39,10 @@ struct PointSurface {
 /// Fails with bad_input for less than four points and where they are spread too far for the cells; with usage
 /// for numbers out of range. Cost: O(n log n) for n points, and the cells of a grid, at most 40 million of 9
 /// bytes.
+/// \param progress  in units of a hundredth of the whole; may be empty
 [[nodiscard]] Result<PointSurface> surface_through(const std::vector<Vector>& points,
-                                                   const PointSurfaceOptions& options);
+                                                   const PointSurfaceOptions& options,
+                                                   const ProgressListener& progress = {});
 
 /// The points, by their numbers, that have no other within a distance, mm. Cost: O(n log n) where no place
 /// has very many points.

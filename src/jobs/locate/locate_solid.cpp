@@ -225,8 +225,8 @@ Result<void> self_check(const SolidLocateJob& job, const SolidInputs& in, Locate
 }
 
 /// Its progress is told as a small part of the whole.
-Result<locate::SolidPose> found_start(const SolidInputs& in, const SolidLocateOptions& o,
-                                      const RunControl& run) {
+Result<locate::SolidPlacement> found_start(const SolidInputs& in, const SolidLocateOptions& o,
+                                           const RunControl& run) {
   constexpr double kShare = 0.001;
   RunControl finding = run;
   if (run.progress)
@@ -242,12 +242,17 @@ Result<Found> searched(const SolidLocateOptions& o, const RunControl& run, const
   const double start = now();
   const RunControl nobody;
   std::optional<Listening> to_the_end;
+  RunControl searching = run;
+  std::uint64_t before = 0;
   if (o.find_start) {
-    LEKALO_TRY(in.problem.start, found_start(in, o, run));
+    LEKALO_TRY(const locate::SolidPlacement begin, found_start(in, o, run));
+    in.problem.start = begin.pose, before = begin.work;
+    searching.work_limit -= std::min(before, searching.work_limit);
     to_the_end.emplace(nobody);
   }
   set_window(o, in);
-  Result<Found> found = found_by_method(in, o, run);
+  LEKALO_TRY(Found found, found_by_method(in, o, searching));
+  found.best.work += before;
   seconds = now() - start;
   return found;
 }
@@ -316,8 +321,8 @@ const char* name_of(SolidMethod method) noexcept {
 }
 
 Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& run,
-                                  const Stopwatch& stopwatch) {
-  LEKALO_TRY(SolidInputs in, read_inputs(job));
+                                  const Stopwatch& stopwatch, const PhaseListener& phases) {
+  LEKALO_TRY(SolidInputs in, read_inputs(job, phases));
   double seconds = 0;
   LEKALO_TRY(Found found, searched(job.options, run, stopwatch, in, seconds));
   // The findings are told to the end, whoever has asked for the stop.
@@ -340,6 +345,9 @@ Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& r
   LEKALO_CHECK(add_program(job, made));
   add_offset(job, words, made);
   LEKALO_CHECK(add_pictures(job, in, made));
+  // Somebody who has asked for the stop may wait for it or not; what is not checked is not handed out.
+  const ProgressListener checking = begin_phase(phases, "checking what was found");
+  if (checking) checking({});
   LEKALO_CHECK(self_check(job, in, made));
   if (in.meshed) made.mesh = std::move(in.meshed->mesh.bytes);
   return made;

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -23,27 +25,40 @@ tl::unexpected<Error> bad(const File& file, const std::string& sentence) {
 /// the assumption to cover.
 constexpr double kBall = 0.8;
 
-/// Looks, in coarse cells, for a larger ball that does not fall in between the points.
-bool widen(const std::vector<Vector>& points, solid::PointSurfaceOptions& how) {
+/// Looks, in coarse cells, for a larger ball that does not fall in between the points, while the next smaller
+/// one does. The surface that it leaves shows where points are missing, so that its cells need not be finer
+/// than the ball asks for: a large one beside small cells takes time with the square of its radius.
+bool widen(const std::vector<Vector>& points, bool step_is_said, solid::PointSurfaceOptions& how,
+           const ProgressListener& progress) {
   // The first ball is not smaller than a share of the whole, so that no trial has many cells.
-  constexpr double kWider = 1.15, kCells = 6, kSafety = 1.1, kSmallest = 1.0 / 24;
+  constexpr double kWider = 1.15, kCells = 6, kSafety = 1.1, kSmallest = 1.0 / 24, kFinalCells = 24;
   const solid::Box box = solid::box_of(points);
   const Vector size = box.high - box.low;
   const double largest = std::max({size.x, size.y, size.z});
-  solid::PointSurfaceOptions trial = how;
-  for (trial.ball = std::max(how.ball, kSmallest * largest); trial.ball < largest; trial.ball *= kWider) {
-    trial.step = trial.ball / kCells;
+  std::vector<double> balls;
+  for (double ball = std::max(how.ball, kSmallest * largest); ball < largest; ball *= kWider)
+    balls.push_back(ball);
+  const int trials = static_cast<int>(std::bit_width(balls.size()));
+  int tried = 0;
+  const auto falls_in = [&](double ball) {
+    solid::PointSurfaceOptions trial = how;
+    trial.ball = ball, trial.step = ball / kCells;
     const Result<solid::PointSurface> made = solid::surface_through(points, trial);
-    if (!made || !made->encloses) continue;
-    how.ball = kSafety * trial.ball;
-    return true;
-  }
-  return false;
+    ++tried;
+    if (progress) progress({static_cast<std::uint64_t>(tried), std::min(1.0, tried / double(trials))});
+    return !made || !made->encloses;
+  };
+  const auto first = std::partition_point(balls.begin(), balls.end(), falls_in);
+  if (first == balls.end()) return false;
+  how.ball = kSafety * *first;
+  if (!step_is_said) how.step = std::max(how.step.value_or(0), how.ball / kFinalCells);
+  return true;
 }
 
 }  // namespace
 
-Result<void> mesh_points(const SolidLocateJob& job, const io::SolidFile& file, SolidInputs& in) {
+Result<void> mesh_points(const SolidLocateJob& job, const io::SolidFile& file, const PhaseListener& phases,
+                         SolidInputs& in) {
   const std::optional<SolidScanOptions>& scan = job.options.scan;
   if (job.outputs.mesh.empty() || !scan || !scan->min_radius)
     return bad(
@@ -81,8 +96,17 @@ Result<void> mesh_points(const SolidLocateJob& job, const io::SolidFile& file, S
   how.step = scan->step;
   if (scan->underside) how.floor = scan->underside->z;
   const double first = how.ball;
-  Result<solid::PointSurface> made = solid::surface_through(points, how);
-  while (made && !made->encloses && widen(points, how)) made = solid::surface_through(points, how);
+  const auto meshed = [&] {
+    return solid::surface_through(points, how, begin_phase(phases, "meshing the points"));
+  };
+  Result<solid::PointSurface> made = meshed();
+  while (made && !made->encloses) {
+    if (!scan->step) how.step = made->step;
+    if (!widen(points, scan->step.has_value(), how,
+               begin_phase(phases, "looking for gaps between the points")))
+      break;
+    made = meshed();
+  }
   if (!made) return failure(made.error().code, fmt::format("{}: {}", job.blank.name, made.error().message));
   if (!made->encloses)
     return bad(

@@ -62,7 +62,7 @@ Result<void> close_solid(const File& file, io::SolidFile parsed, solid::Mesh& me
 
 /// A blank of points is meshed first, or a nominal mesh moved to them; so is one whose mesh does not close,
 /// from its corners, if that has a name.
-Result<void> read_blank(const SolidLocateJob& job, SolidInputs& in) {
+Result<void> read_blank(const SolidLocateJob& job, const PhaseListener& phases, SolidInputs& in) {
   if (job.nominal) return move_nominal(job, in);
   LEKALO_TRY(io::SolidFile parsed, io::parse_solid(job.blank.bytes, job.blank.name, {job.options.units}));
   in.notices.insert(in.notices.end(), parsed.notices.begin(), parsed.notices.end());
@@ -81,7 +81,12 @@ Result<void> read_blank(const SolidLocateJob& job, SolidInputs& in) {
     in.notices.push_back(fmt::format("{}; it is meshed anew from its corners", closed.error().message));
     parsed = std::move(kept);
   }
-  LEKALO_CHECK(mesh_points(job, parsed, in));
+  if (!parsed.directions.empty())
+    in.notices.push_back(
+        fmt::format("{}: the last three of six numbers on each line, directions or colours, are "
+                    "not used",
+                    job.blank.name));
+  LEKALO_CHECK(mesh_points(job, parsed, phases, in));
   LEKALO_TRY(io::SolidFile meshed,
              io::parse_solid(in.meshed->mesh.bytes, in.meshed->mesh.name, {io::SolidUnit::millimetre}));
   // Nobody can mend its surface where points of two sides lie close.
@@ -245,10 +250,10 @@ double SolidInputs::least_scale() const noexcept {
   return least;
 }
 
-Result<SolidInputs> read_inputs(const SolidLocateJob& job) {
+Result<SolidInputs> read_inputs(const SolidLocateJob& job, const PhaseListener& phases) {
   SolidInputs in;
   LEKALO_CHECK(read_part(job, in));
-  LEKALO_CHECK(read_blank(job, in));
+  LEKALO_CHECK(read_blank(job, phases, in));
   if (job.options.scan && !job.nominal) LEKALO_CHECK(read_scan(*job.options.scan, in));
   if (in.meshed && !job.nominal) LEKALO_CHECK(hold_against_points(job, in));
   LEKALO_CHECK(read_start(job.start, in.problem.start));

@@ -7,6 +7,7 @@
 
 #include "lekalo/jobs/file.hpp"
 #include "lekalo/jobs/locate_solid.hpp"
+#include "lekalo/jobs/phases.hpp"
 
 namespace lekalo::jobs {
 
@@ -53,7 +54,7 @@ struct SolidInputs {
 };
 
 /// Reads each file once and closes the meshes. The window is still to be set.
-[[nodiscard]] Result<SolidInputs> read_inputs(const SolidLocateJob& job);
+[[nodiscard]] Result<SolidInputs> read_inputs(const SolidLocateJob& job, const PhaseListener& phases);
 
 /// Sets the window about the start, which is turned to the middle of the turns looked at.
 void set_window(const SolidLocateOptions& options, SolidInputs& in);

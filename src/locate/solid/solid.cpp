@@ -178,7 +178,7 @@ Result<SolidPlacement> place_solid(const SolidProblem& problem, const SolidOptio
   return made;
 }
 
-Result<SolidPose> find_start(const SolidProblem& problem, const SolidOptions& options) {
+Result<SolidPlacement> find_start(const SolidProblem& problem, const SolidOptions& options) {
   LEKALO_CHECK(check(problem, options));
   SolidFrame frame = frame_of(problem);
   set_turns(frame, problem.freedom, SolidProblem::kAllTurns);
@@ -190,7 +190,9 @@ Result<SolidPose> find_start(const SolidProblem& problem, const SolidOptions& op
   const MeasuredSolid best = first_climb(meter, frame.reach, options.gap, options.run, work);
   const RunControl nobody;
   const Listening to_the_end(nobody);
-  return placement(meter, best.pose).pose;
+  SolidPlacement made = placement(meter, best.pose);
+  made.work = work;
+  return made;
 }
 
 Result<std::optional<SolidPlacement>> solid_at(const SolidProblem& problem, const SolidPose& pose,

@@ -127,7 +127,7 @@ MeasuredSolid first_climb(const SolidMeter& meter, double trust, double enough, 
   const RunControl nobody;
   std::optional<Listening> to_the_end;
   for (std::size_t k = 0; k < begin.size(); ++k) {
-    if (best && run.stop_requested()) break;
+    if (best && (run.stop_requested() || work >= run.work_limit)) break;
     if (run.progress) run.progress({work, static_cast<double>(k) / static_cast<double>(begin.size())});
     const MeasuredSolid climbed = climb(meter, begin[k], trust, enough, quiet, work);
     if (!best || climbed.better_than(*best)) best = climbed;
