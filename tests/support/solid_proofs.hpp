@@ -58,6 +58,19 @@ inline Face face_of(const solid::Mesh& mesh, solid::Vector n) {
   return face;
 }
 
+/// How far within a triangle's edges a place of its plane lies, negative beside it.
+inline double within(const solid::Mesh& mesh, std::uint32_t triangle, solid::Vector place) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const std::array<solid::Vector, 3> at{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
+  const solid::Vector normal = cross(at[1] - at[0], at[2] - at[0]);
+  double least = 1e9;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const solid::Vector inwards = cross(normal, at[(k + 1) % 3] - at[k]);
+    least = std::min(least, dot(inwards, place - at[k]) / norm(inwards));
+  }
+  return least;
+}
+
 /// Splits along the axes in turn, halves each, and puts the leaf below all.
 inline void divide(Json& nodes, const Json& leaf, std::array<std::array<double, 2>, 6> box,
                    const std::vector<std::size_t>& axes, std::size_t depth) {
@@ -169,10 +182,18 @@ inline SolidProof solid_proof(Random& random, TermKind kinds, const std::string&
   for (const HalfSpace& h : planes) {
     const Face inner = face_of(at_place, h.n), wall = face_of(blank, h.n);
     if (inner.area < 1) continue;
-    const TermKind kind = kinds == TermKind::any ? static_cast<TermKind>(random.below(4)) : kinds;
+    TermKind kind = kinds == TermKind::any ? static_cast<TermKind>(random.below(4)) : kinds;
+    // No foot leaves a triangle that it lies so far within; a foot of a wall has to lie in the part's face,
+    // too.
+    constexpr double kMoves = 1.2;
+    solid::Vector foot = kind == TermKind::face ? wall.middle - stock * h.n : inner.middle;
+    const bool in_part = std::ranges::all_of(
+        planes, [&](const HalfSpace& p) { return &p == &h || dot(p.n, foot) < p.most - 0.1; });
+    if ((kind == TermKind::face && !(in_part && within(blank, wall.triangle, wall.middle) > kMoves)) ||
+        (kind == TermKind::part_face && !(within(at_place, inner.triangle, inner.middle) > kMoves)))
+      kind = TermKind::plane, foot = inner.middle;
     // A little inside of the part, and beside the blank.
     const double off = 1e-3, far = kind == TermKind::ball ? 500 : 3;
-    const solid::Vector foot = kind == TermKind::face ? wall.middle - stock * h.n : inner.middle;
     const auto share = inner.area / 1000;
     if (kind != TermKind::part_face)
       part_balls.push_back(row(there.back(foot - off * h.n), random.below(2) == 0 ? 0 : 0.5 * off));
