@@ -184,6 +184,21 @@ LinearBound<6> PoseForm::tangent(const CellView& cell) const {
   return {{by_t.x, by_t.y, by_t.z, g.x, g.y, g.z}, lift};
 }
 
+Steps PoseForm::effects(const CellView& cell) const {
+  const Vector x = cell.middle.x;
+  const Quadratic q = at_shift(*this, {});
+  const double scale = 1 + dot(x, x), value = value_at(q, x) / scale;
+  const LinearBound<6> slopes = tangent(cell);
+  const double bends[] = {square, square, square, q.squares.x, q.squares.y, q.squares.z};
+  Steps made{};
+  for (std::size_t k = 0; k < 6; ++k) {
+    const double step = k < 3 ? cell.half[k] : 0.5 / cell.reach * cell.half[k],
+                 bend = k < 3 ? bends[k] : (bends[k] - value) / scale;
+    made[k] = std::abs(slopes.slope[k]) * cell.half[k] + std::abs(bend) * step * step;
+  }
+  return made;
+}
+
 PoseForm height(Vector n, Vector p, double least, const CellView& cell) {
   PoseForm made;
   made.constant = dot(n, cell.middle.at) - least;

@@ -64,6 +64,9 @@ struct PoseForm {
   /// The tangent of what the term bounds the clearance by at the middle of the box, lifted to where it is
   /// above the coefficients.
   [[nodiscard]] LinearBound<6> tangent(const CellView& cell) const;
+  /// How far a step along each freedom alone, from the middle of the box to its side, may take the term: by
+  /// its slope and by its bend. About, mm.
+  [[nodiscard]] Steps effects(const CellView& cell) const;
 };
 
 /// n . (R p + t) - least, for an n of length 1 or less.

@@ -30,6 +30,8 @@ constexpr std::size_t kMostKnown = 64;
 constexpr double kWorthKnowing = 1.0 / 64;
 /// A climb goes on while it gains this part of the gap.
 constexpr double kWorthClimbing = 1e-3;
+/// The width of a side counts so much beside what it does to the terms of a bound.
+constexpr double kWidthMatters = 1.0 / 16;
 /// The trees over the meshes are told as this part of the whole, and with the first climb as that. How long
 /// boxes take is not known before one is closed, so that more would promise an end.
 constexpr double kTreesShare = 0.001, kClimbShare = 0.01;
@@ -240,16 +242,27 @@ void SolidSearch::learn(Node& node, Found& found) {
   if (climbed.better_than(best_)) best_ = climbed;
 }
 
-/// Halves a box along its widest side.
-std::array<SolidSearch::Node, 2> SolidSearch::halves(const Node& node) {
-  const double reach = 2 * meter_.frame().reach;
-  const FramedPose wide = node.cell.half();
-  std::size_t widest = 0;
-  double most = -1;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (wide.at.*kAxes[k] > most) most = wide.at.*kAxes[k], widest = k;
-    if (reach * wide.x.*kAxes[k] > most) most = reach * wide.x.*kAxes[k], widest = 3 + k;
+/// Adds what each side does to the terms of a box's bound, beside which its width is a small part.
+void SolidSearch::add_effects(const Node& node, const CellView& view, Steps& matters) const {
+  for (double& one : matters) one *= kWidthMatters;
+  double all = 0;
+  for (const Term& term : node.terms) all += term.multiplier;
+  for (const Term& term : node.terms) {
+    const auto made = bounds_.form(known_[term.known], term.choice, view);
+    if (!made) continue;
+    const Steps effects = made->form.effects(view);
+    for (std::size_t k = 0; k < 6; ++k) matters[k] += term.multiplier / all * effects[k];
   }
+}
+
+/// Halves a box along its widest side; or, while no pose has what is demanded, along the one that changes the
+/// terms of its bound most. Wide windows have few sides that matter.
+std::array<SolidSearch::Node, 2> SolidSearch::halves(const Node& node) {
+  const CellView view(meter_, node.cell);
+  Steps matters = view.half;
+  if (best_.value < options_.min_allowance) add_effects(node, view, matters);
+  const auto widest =
+      static_cast<std::size_t>(std::max_element(matters.begin(), matters.end()) - matters.begin());
   std::array<Node, 2> half{node, node};
   const auto along = [&](FramedPose& pose) -> double& {
     return widest < 3 ? pose.at.*kAxes[widest] : pose.x.*kAxes[widest - 3];

@@ -54,6 +54,7 @@ class SolidSearch {
   [[nodiscard]] Node first_box(std::uint8_t chart);
   void bound(Node& node, Found& found) const;
   void learn(Node& node, Found& found);
+  void add_effects(const Node& node, const CellView& view, Steps& matters) const;
   [[nodiscard]] std::array<Node, 2> halves(const Node& node);
   void keep(const Node& node);
   [[nodiscard]] double size(const SolidCell& cell) const;
