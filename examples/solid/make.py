@@ -1,5 +1,5 @@
-"""Writes part.stl, casting.stl and touches.xyz beside itself: a housing with a blind bore, the casting that it is cut
-from, and where a probe's ball touched that casting when it lay a little elsewhere.
+"""Writes part.stl, casting.stl, touches.xyz and touches-directions.xyz beside itself: a housing with a blind bore, the
+casting that it is cut from, and where a probe's ball touched that casting when it lay a little elsewhere.
 
 The casting has 1.6 to 3.5 mm of stock, its core is moved and tilted, and it lies turned by 3.5 degrees, as castings do
 on a table. Where the part is in it is what `lekalo locate` finds.
@@ -49,15 +49,19 @@ def turned(triangles, axis, degrees, shift):
 
 
 def touched(triangles, radius):
-    """The ball's centre at the middle of every third triangle; the surface is up to 0.08 mm off."""
-    lines = []
+    """The ball's centre at the middle of every third triangle; the surface is up to 0.08 mm off. The second file has
+    the directions, too."""
+    lines, directions = [], []
     for a, b, c in triangles[::3]:
         u, v = ([q[k] - a[k] for k in range(3)] for q in (b, c))
         n = [u[k - 2] * v[k - 1] - u[k - 1] * v[k - 2] for k in range(3)]
         middle, length = [sum(p) / 3 for p in zip(a, b, c)], math.hypot(*n)
         high = radius + 0.08 * math.sin(middle[0] / 20) * math.cos(middle[1] / 15)
         lines.append(" ".join(f"{middle[k] + high * n[k] / length:.3f}" for k in range(3)))
-    (pathlib.Path(__file__).parent / "touches.xyz").write_text("\n".join(lines) + "\n")
+        directions.append(" ".join(f"{c / length:.4f}" for c in n))
+    folder = pathlib.Path(__file__).parent
+    (folder / "touches.xyz").write_text("\n".join(lines) + "\n")
+    (folder / "touches-directions.xyz").write_text("".join(f"{p} {n}\n" for p, n in zip(lines, directions)))
 
 
 def write(name, triangles):

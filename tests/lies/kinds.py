@@ -170,8 +170,9 @@ def measured_box(x, y, z):
                    if c == z or a in (0, x) or b in (0, y))
 
 
-def touched_box(x, y, z):
-    """The centres of a ball of a radius of 1 that touches a box at four places of each side."""
+def touched_box(x, y, z, directions=False):
+    """The centres of a ball of a radius of 1 that touches a box at four places of each side, maybe with the
+    directions in which it has left the box."""
     made = []
     for axis, length in enumerate((x, y, z)):
         for at in (-1, length + 1):
@@ -179,7 +180,10 @@ def touched_box(x, y, z):
             for a, b in itertools.product(*others):
                 place = [a, b]
                 place.insert(axis, at)
-                made.append("{:g} {:g} {:g}\n".format(*place))
+                made.append("{:g} {:g} {:g}".format(*place))
+                if directions:
+                    made[-1] += "".join(" {}".format((-2 if at < 0 else 2) * (k == axis)) for k in range(3))
+                made[-1] += "\n"
     return "".join(made)
 
 
@@ -225,6 +229,11 @@ def of_solids():
          "--form", "0.1", "--ball", "2", "--uncertainty", "0.01", "--drop-outliers", "0.5", "--nominal-window", "0.3",
          "0.3", "--method", "climb", "-o", "r.json"]], written=touched, inputs=list(touched) + ["mesh.ply"], base=1,
         unproved=True)
+    along = dict(touched, **{"touches.xyz": touched_box(20, 16, 12, True)})
+    yield placed("placement, solids, touches with directions", [], [
+        ["locate", "--part", "part.obj", "--blank", "touches.xyz", "--nominal-blank", "rough.obj", "--mesh", "mesh.ply",
+         "--form", "0.2", "--ball", "2", "--uncertainty", "0.01", "--nominal-window", "0.3", "0.3", "--method", "climb",
+         "-o", "r.json"]], written=along, inputs=list(along) + ["mesh.ply"], base=1, unproved=True)
     boxes = {"part.obj": box((0, 0, 0), (1, 0.75, 0.5)),
              "blank.obj": box((-0.0625, -0.0625, -0.03125), (1.125, 0.875, 0.625))}
     inches = [["locate", "--part", "part.obj", "--blank", "blank.obj", "--units", "inch", "--shift", "1", "--tilt", "1",

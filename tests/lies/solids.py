@@ -230,8 +230,8 @@ class Scan:
     def __init__(self, scan, blank, touched=None):
         self.scan, self.side = scan, scan["underside"]
         if touched:
-            nominal, points = touched
-            self.unknown, self.of = [], touches.Touches(scan, nominal, points).widths(nominal, blank)
+            nominal, points, directions = touched
+            self.unknown, self.of = [], touches.Touches(scan, nominal, points, directions).widths(nominal, blank)
             return
         guard, reach, dip = scan["guard"], scan["min_radius"], scan["max_dip"]
         if guard < 0 or (reach is None and dip is None) or (dip is not None and dip < 0) or \
@@ -272,7 +272,15 @@ class Scan:
 
 
 def points_of(text, unit):
-    return [[F(word) * UNITS[unit] for word in line.split()] for line in text.splitlines() if line.strip()]
+    return [[F(word) * UNITS[unit] for word in line.split()[:3]] for line in text.splitlines() if line.strip()]
+
+
+def directions_of(text):
+    """The last three numbers of each line, where there are six of them."""
+    rows = [[F(word) for word in line.split()[3:]] for line in text.splitlines() if line.strip()]
+    if {len(row) for row in rows} - {0} and {len(row) for row in rows} != {3}:
+        raise ValueError("some touches have a direction")
+    return rows if any(rows) else []
 
 
 def nothing_measured_is_material(points, blank, scan):
@@ -412,11 +420,12 @@ class Solids:
             raise ValueError("a nominal mesh, or touches, alone")
         if "nominal" not in roles:
             return None
-        entry, points = roles["nominal"], points_of(self.files[roles["points"]["path"]], roles["points"]["units"])
+        entry, text = roles["nominal"], self.files[roles["points"]["path"]]
+        points = points_of(text, roles["points"]["units"])
         nominal = self.mesh(entry["path"], entry["units"])
         if entry["triangles"] != len(nominal.all) or roles["points"]["points"] != len(points):
             raise ValueError("other numbers of triangles, or of touches")
-        return nominal, points
+        return nominal, points, directions_of(text)
 
     def is_measured(self, entry, blank, scan):
         if "touches" in scan.scan:

@@ -13,6 +13,15 @@ def decimal_root(square):
     return (exact.D(square.numerator) / exact.D(square.denominator)).sqrt()
 
 
+def met(centre, direction, radius):
+    """Where a ball met the blank, within 2^-100 of its radius."""
+    if not any(direction):
+        raise ValueError("a direction that leads nowhere")
+    square = dot(direction, direction)
+    root = F(math.isqrt((square.numerator * square.denominator) << 256), square.denominator << 128)
+    return sub(centre, times(direction, radius / root))
+
+
 def is_number_below(k, count):
     return k == int(k) and 0 <= k < count
 
@@ -22,11 +31,15 @@ class Touches:
 
     proved = {}
 
-    def __init__(self, scan, nominal, points):
+    def __init__(self, scan, nominal, points, directions):
         said = self.said = scan["touches"]
-        self.points, self.left_out = points, set(scan["left_out"])
+        self.left_out = set(scan["left_out"])
         ball, form, guard = said["ball"] / 2, said["form"], scan["guard"]
-        off = form + guard
+        self.require(ball >= 0, said["directions"] is bool(directions))
+        self.points, spare = [met(*row, ball) for row in zip(points, directions)] or points, 0
+        if directions:
+            ball, spare = F(0), ball / 2 ** 100
+        off = form + guard + spare
         self.low, self.high = said["around"]
         corners = [p for t in nominal.kept for p in t]
         self.require(ball >= 0, form > 0, guard >= 0, not ball or ball > guard,

@@ -35,7 +35,9 @@ Touched touched_case(Random& random) {
   if (!(0.5 * stated.ball > stated.guard)) stated.ball = 0;
   TouchedCasting casting(solids.blank, cases::small_motion(random, 0.01, 3),
                          random.uniform(0.5, 0.999) * stated.form, random);
-  const auto touches = cases::touches_of(casting, 200, 0.5 * stated.ball, stated.guard, random);
+  const bool along = random.below(2) == 0;
+  const auto touches = cases::touches_of(casting, 200, 0.5 * stated.ball, stated.guard, random,
+                                         along ? &stated.directions : nullptr);
   Result<TouchedSolid> found = touched_solid(casting.nominal(), touches, stated);
   EXPECT_TRUE(found.has_value()) << found.error().message;
   return {std::move(solids), std::move(casting), stated, found ? *std::move(found) : TouchedSolid{}};

@@ -39,7 +39,8 @@ class TouchedCasting {
 
   /// The centre of a ball that touches the casting somewhere, from outside and where there is room; with a
   /// radius of 0 a point of the surface.
-  [[nodiscard]] solid::Vector touch(double radius, Random& random) const {
+  /// \param direction  becomes that out of the casting, of some length
+  [[nodiscard]] solid::Vector touch(double radius, Random& random, solid::Vector& direction) const {
     for (;;) {
       const auto& t = nominal_.triangles[random.below(nominal_.triangles.size())];
       const solid::Vector a = nominal_.vertices[t[0]], b = nominal_.vertices[t[1]] - a,
@@ -58,6 +59,7 @@ class TouchedCasting {
         (middle > bump(p) ? high : low) = middle;
       }
       const solid::Vector on = at + low * n, out = n - slope(on);
+      direction = there_.turned(random.uniform(0.5, 2) * out);
       return there_(on + radius / norm(out) * out);
     }
   }
@@ -101,12 +103,16 @@ inline SolidCase large_cored_block(Random& random) {
 }
 
 /// So many touches, each off by less than `off`.
+/// \param directions  those of all, if it is not null
 inline std::vector<solid::Vector> touches_of(const TouchedCasting& casting, std::size_t count, double radius,
-                                             double off, Random& random) {
+                                             double off, Random& random,
+                                             std::vector<solid::Vector>* directions = nullptr) {
   std::vector<solid::Vector> made;
   while (made.size() < count) {
-    const solid::Vector at = casting.touch(radius, random);
+    solid::Vector out;
+    const solid::Vector at = casting.touch(radius, random, out);
     made.push_back(at + random.uniform(0, 0.99) * off * direction(random));
+    if (directions != nullptr) directions->push_back(out);
   }
   return made;
 }

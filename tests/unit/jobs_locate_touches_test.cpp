@@ -135,6 +135,61 @@ TEST(JobsLocateTouches, WhatTheFilesOrTheStatementsAreChangedToIsRefuted) {
   EXPECT_EQ(verdict(other, located.result, located.mesh), verify::Verdict::refuted);
 }
 
+/// Touches with the directions in which the ball left the casting.
+std::string with_directions(const std::vector<Vector>& touches, const std::vector<Vector>& directions) {
+  std::string text;
+  for (std::size_t k = 0; k < touches.size(); ++k) {
+    std::string line = solid_files::points({touches[k], directions[k]});
+    line[line.find('\n')] = ' ';
+    text += line;
+  }
+  return text;
+}
+
+TEST(JobsLocateTouches, DirectionsSayWhereTheBallMetTheCasting) {
+  Random random(6);
+  Touched t = touched();
+  std::vector<Vector> directions;
+  const std::vector<Vector> touches = cases::touches_of(t.casting, 60, 1, 0.02, random, &directions);
+  t.job.blank.bytes = with_directions(touches, directions);
+  const LocatedSolid located = made(t.job);
+  ASSERT_TRUE(located.holds());
+  EXPECT_GT(*located.document.clearance, 4.2);
+  EXPECT_FALSE(says(warnings(located), "direction")) << warnings(located);
+  const Json json = Json::parse(located.result);
+  EXPECT_EQ(json["scan"]["touches"]["directions"], true);
+  EXPECT_EQ(json["scan"]["touches"]["ball"], 2);
+  EXPECT_EQ(json["scan"]["assumptions"][2],
+            "each touch is the centre of a ball of 2 mm that met the blank, to within 0.02 mm, against the "
+            "direction beside it");
+  EXPECT_EQ(verdict(t.job, located.result, located.mesh), verify::Verdict::unproved);
+  // The directions are among what is checked: the ball met the casting elsewhere, or they are not said.
+  Json other = json;
+  other["scan"]["touches"]["directions"] = false;
+  EXPECT_EQ(verdict(t.job, other.dump(), located.mesh), verify::Verdict::refuted);
+  SolidLocateJob asked = t.job;
+  asked.blank.bytes = solid_files::points(touches);
+  EXPECT_EQ(verdict(asked, located.result, located.mesh), verify::Verdict::refuted);
+  for (Vector& n : directions) n = -n;
+  asked.blank.bytes = with_directions(touches, directions);
+  EXPECT_EQ(verdict(asked, located.result, located.mesh), verify::Verdict::refuted);
+  EXPECT_TRUE(says(refusal(asked),
+                   "touches.xyz: 60 of 60 directions lead into the nominal mesh where it fits "
+                   "the touches best; a direction has to lead out of the blank"));
+  // A single one is told, and where it contradicts the others nothing is given.
+  for (Vector& n : directions) n = -n;
+  directions[7] = -directions[7];
+  asked.blank.bytes = with_directions(touches, directions);
+  EXPECT_TRUE(says(refusal(asked), "the worst, touch 8 at ("));
+  asked.options.touch->ball = 0, asked.options.touch->form = 1.3;
+  const LocatedSolid of_points = made(asked);
+  EXPECT_TRUE(says(warnings(of_points), "the directions say nothing of points of the surface"));
+  EXPECT_TRUE(says(warnings(of_points),
+                   "1 directions lie more than 45 degrees off that of the nominal surface, the first that of "
+                   "touch 8"))
+      << warnings(of_points);
+}
+
 TEST(JobsLocateTouches, ATouchThatNoMotionAllowsRefutesTheForm) {
   Touched t = touched();
   t.touches[9] = t.touches[9] + Vector{1, 1, 1};
@@ -218,6 +273,8 @@ TEST(JobsLocateTouches, NumbersOutOfRangeAreRefused) {
     EXPECT_TRUE(says(told([&](auto& s) { s.turn = wrong; }), "an eighth of a turn")) << wrong;
   }
   EXPECT_TRUE(says(told([](auto& s) { s.turn = 0.786; }), "an eighth of a turn"));
+  EXPECT_TRUE(says(told([](auto& s) { s.directions.resize(59); }), "there are 59 directions for 60 touches"));
+  EXPECT_TRUE(says(told([](auto& s) { s.directions.resize(60); }), "(0, 0, 0) is no direction"));
   EXPECT_TRUE(says(told([](auto& s) { s.ball = 0.04; }), "must have a radius above 0.02 mm"));
   EXPECT_EQ(told([](auto&) {}, 0), "there are no touches");
   EXPECT_TRUE(says(told([](auto&) {}, 5001), "these are 5001 touches, and 5000 are the most"));

@@ -34,6 +34,7 @@ SolidResultFiles touched() {
   const Json none{0, 0};
   Json touches{{"ball", 0},
                {"form", 0.3},
+               {"directions", false},
                {"pivot", {0, 0, 0}},
                {"quaternion", {1, 0, 0, 0}},
                {"x", none},
@@ -108,6 +109,31 @@ TEST(SolidTouches, TouchesCutOffWhatTheyDoNotAllow) {
     t["cuts"][1]["terms"][0][0] = 0;
   });
   EXPECT_EQ(other, "refuted; scan.touches.cuts[1]: its terms do not prove that no motion is below x -0.41");
+}
+
+TEST(SolidTouches, DirectionsTakeABallToWhereItMetTheBlank) {
+  // Balls of 2 mm whose centres lie 3 mm off the faces met them with that direction of any length.
+  const auto met = [](const char* points, bool said = true, double at = 0.41) {
+    return told(
+        [&](Json& t) {
+          cut_both(t, at);
+          t["ball"] = 6, t["directions"] = said;
+        },
+        [&](SolidResultFiles& files) {
+          fit(files, 0.3 + at);
+          files.points = points;
+        });
+  };
+  EXPECT_EQ(met("9 0 0 0.1 0 0\n-9 0 0 -7e3 0 0\n"), "unproved");
+  EXPECT_TRUE(says(met("9 0 0 1 0 0\n-9 0 0 -1 0 0\n", true, 0.4), "cuts[0]: its terms do not prove"));
+  EXPECT_TRUE(says(met("9 0 0 1 0 0\n-9 0 0 1 0 0\n"), "cuts[1]: its terms do not prove"));
+  // A direction askew takes the place where it met along the face, and off it by its cosine.
+  EXPECT_TRUE(says(met("9 0 0 1 0.5 0\n-9 0 0 -1 0 0\n"), "cuts[0]: its terms do not prove"));
+  EXPECT_TRUE(says(met("9 0 0\n-9 0 0\n"), "scan.touches.directions is true, but the touches have none"));
+  EXPECT_TRUE(says(met("9 0 0 1 0 0\n-9 0 0 -1 0 0\n", false),
+                   "scan.touches.directions is false, but the touches have some"));
+  EXPECT_TRUE(says(met("9 0 0 1 0 0\n-9 0 0 0 0 0\n"), "the direction of touch 1 is 0"));
+  EXPECT_FALSE(says(met("9 0 0 1 0 0\n-9 0 0\n"), "unproved"));
 }
 
 TEST(SolidTouches, WhatIsCutLiesInWhatIsLeft) {

@@ -26,12 +26,16 @@ struct TouchStatement {
   double form = 0;   ///< mm, > 0
   double guard = 0;  ///< mm, >= 0
   /// The box about the motion that fits the touches: the place of their middle by so much along each axis,
-  /// mm, and each part of tan(angle / 2) times the axis up to tan(turn / 2), rad, at most an eighth of a turn.
+  /// mm, and each part of tan(angle / 2) times the axis up to tan(turn / 2), rad, at most an eighth of a
+  /// turn.
   double shift = 5, turn = 0.034906585039886593;
   /// Touches that the fit leaves farther off the surface are left out, mm, > 0.
   std::optional<double> drop_outliers;
   /// Every coordinate of mesh and touches may differ from that of its file by up to this, mm.
   double coordinate_error = 0;
+  /// Out of the blank, of any length but 0, one for each touch, or none at all. With them it is stated that
+  /// the ball met the blank, within `guard`, half of its diameter from its centre against the direction.
+  std::vector<solid::Vector> directions = {};
 };
 
 /// A touch and a ball of the nominal mesh that has nothing of its surface inside: how far the two stay apart.
@@ -90,10 +94,10 @@ struct TouchedSolid {
 
 /// Fits the mesh to the touches, from where it is, and encloses what they allow. Deterministic. Fails with
 /// bad_input where no motion of the box lets all touches be, with the place of the worst, and where there are
-/// none or more than 5,000; with usage for numbers out of range.
-/// \param nominal  closed (solid::closed_mesh)
+/// none or more than 5,000, or where most directions lead into the nominal mesh; with usage for numbers out
+/// of range. \param nominal  closed (solid::closed_mesh) \param centres  of the ball at each touch
 [[nodiscard]] Result<TouchedSolid> touched_solid(const solid::Mesh& nominal,
-                                                 const std::vector<solid::Vector>& touches,
+                                                 const std::vector<solid::Vector>& centres,
                                                  const TouchStatement& stated);
 
 }  // namespace lekalo::locate

@@ -22,7 +22,8 @@ void write_terms(JsonWriter& json, const TouchProof& proof, std::uint32_t first,
 
 void write_touches(JsonWriter& json, const SolidTouchRecord& touches) {
   const TouchProof& proof = touches.proof;
-  json.begin_object().fields({{"ball", touches.ball}, {"form", touches.form}});
+  json.begin_object().fields(
+      {{"ball", touches.ball}, {"form", touches.form}, {"directions", touches.directions}});
   json.key("pivot").list({proof.pivot.x, proof.pivot.y, proof.pivot.z});
   json.key("quaternion").list(proof.quaternion);
   for (std::size_t k = 0; k < kSolidAxes.size(); ++k)

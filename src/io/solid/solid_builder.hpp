@@ -32,6 +32,8 @@ class SolidBuilder {
   void reserve(std::size_t vertices, std::size_t triangles);
   /// \param error  of each coordinate, mm
   void add_vertex(solid::Vector p, double error);
+  /// Adds the direction of the last vertex.
+  void add_direction(solid::Vector n) { file_.directions.push_back(n); }
   /// The name of the triangles that follow.
   void begin_group(std::string_view name);
   /// The triangles from `first` on are of a face of a STEP file.

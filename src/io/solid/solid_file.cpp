@@ -111,7 +111,7 @@ bool is_points(std::string_view bytes) {
         numbers += end > 0 ? 1 : 0;
         row.remove_prefix(std::min(end + 1, row.size()));
       }
-      return numbers == 3;
+      return numbers >= 3;
     }
     if (!words.next_line()) return false;
   }
@@ -121,10 +121,24 @@ bool is_points(std::string_view bytes) {
 Result<void> read_points(std::string_view bytes, SolidBuilder& made) {
   if (const std::string fault = wrong_characters(bytes); !fault.empty()) return refuse(made.name(), fault);
   if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+  std::size_t count = 0;  // of the numbers on the lines before
   const auto take = [&](const TextRow& row) -> Result<void> {
     if (made.vertices() == kMostSolidVertices) return refuse_line(made.name(), row.line, too_many_vertices());
-    made.add_vertex({row.numbers[0].value, row.numbers[1].value, row.numbers[2].value},
-                    std::max({row.numbers[0].error, row.numbers[1].error, row.numbers[2].error}));
+    if (count > 0 && row.count != count)
+      return refuse_line(
+          made.name(), row.line,
+          fmt::format("{} numbers where the lines before have {}: give all touches a direction, "
+                      "or none",
+                      row.count, count));
+    count = row.count;
+    const auto vector = [&](std::size_t from) {
+      return solid::Vector{row.numbers[from].value, row.numbers[from + 1].value, row.numbers[from + 2].value};
+    };
+    made.add_vertex(vector(0), std::max({row.numbers[0].error, row.numbers[1].error, row.numbers[2].error}));
+    if (count < 6) return {};
+    if (!(norm(vector(3)) > 0))
+      return refuse_line(made.name(), row.line, "the direction 0 0 0 has no length, so it leads nowhere");
+    made.add_direction(vector(3));
     return {};
   };
   LEKALO_CHECK(read_text_rows(bytes, made.name(), made.unit(), take, made.notices(), true));

@@ -137,7 +137,8 @@ class TextReader {
           return field.find_first_of(kBlanks) != std::string_view::npos ||
                  field.find(',') != std::string_view::npos;
         });
-    if (mixed || fields_.size() > 3) {
+    const bool with_direction = in_space_ && fields_.size() == 6;
+    if (mixed || (fields_.size() > 3 && !with_direction)) {
       if (looks_like_decimal_commas(line) || (separator == ',' && fields_.size() == 4)) {
         return refuse_here(
             fmt::format("{} looks like decimal commas; write a decimal point, as in 12.5", excerpt(line)));
@@ -147,9 +148,14 @@ class TextReader {
       return refuse_here(
           fmt::format("{} numbers where {} are wanted: {}", fields_.size(), wanted(), excerpt(line)));
     }
+    if (with_direction && separator == ',' && line.find('.') == std::string_view::npos)
+      return refuse_here(
+          fmt::format("{} may have decimal commas; put semicolons between the numbers, and decimal points in "
+                      "them, as in 12.5",
+                      excerpt(line)));
     for (std::size_t i = 0; i < fields_.size(); ++i) {
       if (fields_[i].empty()) return refuse_here(fmt::format("a number is missing in {}", excerpt(line)));
-      const auto number = read_millimetres(fields_[i], unit_);
+      const auto number = read_millimetres(fields_[i], i < 3 ? unit_ : DecimalFactor{});
       if (!number) return refuse_here(number_sentence(number.error(), fields_[i]));
       row_.numbers[i] = *number;
     }
@@ -163,7 +169,9 @@ class TextReader {
     return taken;
   }
 
-  [[nodiscard]] const char* wanted() const { return in_space_ ? "x, y and z" : "x and y"; }
+  [[nodiscard]] const char* wanted() const {
+    return in_space_ ? "x, y and z (or those and a direction nx, ny, nz)" : "x and y";
+  }
 
   const std::string& name_;
   DecimalFactor unit_;

@@ -21,9 +21,10 @@ Result<io::SolidFile> read(const File& file, const SolidLocateJob& job, bool tou
   return failure(
       ErrorCode::bad_input,
       fmt::format("{}: {}", file.name,
-                  touches
-                      ? "this is a mesh, and --nominal-blank goes with a file of touches: x y z on each line"
-                      : "these are points; --nominal-blank is the mesh of the blank as it should be"));
+                  touches ? "this is a mesh, and --nominal-blank goes with a file of touches: x y z on each "
+                            "line, or x y z "
+                            "and a direction nx ny nz"
+                          : "these are points; --nominal-blank is the mesh of the blank as it should be"));
 }
 
 /// The triangles as their file turns them, for who reads the mesh counts corners there.
@@ -61,6 +62,12 @@ Result<void> move_nominal(const SolidLocateJob& job, SolidInputs& in) {
   stated.shift = touch.shift, stated.turn = touch.turn_deg * kDegree;
   stated.drop_outliers = scan.drop_outliers;
   stated.coordinate_error = std::max(nominal_error, touches.coordinate_error);
+  stated.directions = touches.directions;
+  if (!touches.directions.empty() && touch.ball == 0)
+    in.notices.push_back(
+        fmt::format("{}: the directions say nothing of points of the surface, as touches are "
+                    "without --ball MM",
+                    job.blank.name));
   Result<locate::TouchedSolid> made = locate::touched_solid(closed->mesh, touches.mesh.vertices, stated);
   if (!made) return named(job.blank, made.error());
   for (const std::string& notice : made->notices) in.notices.push_back(job.blank.name + ": " + notice);
@@ -92,7 +99,8 @@ Result<void> move_nominal(const SolidLocateJob& job, SolidInputs& in) {
   p.blank_widths = std::move(made->widths), p.blank_width_error = made->width_error;
   io::SolidScanRecord& record = in.scan.emplace();
   record.guard = stated.guard, record.widest = made->widest;
-  record.touches = io::SolidTouchRecord{touch.ball, touch.form, std::move(made->proof)};
+  record.touches =
+      io::SolidTouchRecord{touch.ball, touch.form, !touches.directions.empty(), std::move(made->proof)};
   record.left_out = std::move(made->left_out), record.assumptions = std::move(made->assumptions);
   return {};
 }

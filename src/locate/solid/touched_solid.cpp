@@ -63,7 +63,7 @@ struct Apart {
   double least = 0;  ///< how far the centres are apart, at least
 };
 
-Result<void> check(const TouchStatement& stated) {
+Result<void> check(const TouchStatement& stated, std::size_t touches) {
   const auto number = [](double value, bool positive) {
     return value <= limits::kLargestCoordinate && (positive ? value > 0 : value >= 0);
   };
@@ -79,11 +79,54 @@ Result<void> check(const TouchStatement& stated) {
   if (!(stated.turn >= 0 && stated.turn <= 0.25 * kPi))
     return failure(ErrorCode::usage,
                    "the window of the nominal mesh must have turns from 0 to an eighth of a turn");
-  if (stated.ball > 0 && !(0.5 * stated.ball > stated.guard))
+  if (!stated.directions.empty() && stated.directions.size() != touches)
+    return failure(ErrorCode::usage,
+                   fmt::format("there are {} directions for {} touches", stated.directions.size(), touches));
+  for (const Vector n : stated.directions)
+    if (const double length = norm(n); !(length > 0) || !std::isfinite(length))
+      return failure(ErrorCode::usage, fmt::format("({}, {}, {}) is no direction", n.x, n.y, n.z));
+  // Touches with a direction are points of the surface.
+  if (stated.directions.empty() && stated.ball > 0 && !(0.5 * stated.ball > stated.guard))
     return failure(ErrorCode::usage,
                    fmt::format("a ball of {} mm must have a radius above {:.6g} mm, what the touches are "
                                "uncertain by",
                                stated.ball, stated.guard));
+  return {};
+}
+
+/// The places where the ball met the blank, as the directions say.
+std::vector<Vector> met(std::vector<Vector> centres, const TouchStatement& stated) {
+  for (std::size_t k = 0; k < stated.directions.size(); ++k) {
+    const Vector n = stated.directions[k];
+    centres[k] = centres[k] - 0.5 * stated.ball / norm(n) * n;
+  }
+  return centres;
+}
+
+/// Holds the directions against the outward normals of the mesh where it fits the touches.
+Result<void> check_directions(const TriangleTree& nominal, const Motion& motion,
+                              const std::vector<Vector>& touches, const std::vector<Vector>& directions,
+                              std::vector<std::string>& notices) {
+  constexpr double kAskew = 0.7;  // the cosine of 45 degrees, about
+  std::size_t inwards = 0, askew = 0, first = 0;
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    ask();
+    const Vector normal = motion.turned(touched_place(nominal, motion.back(touches[k])).normal);
+    const double along = dot(normal, directions[k]) / norm(directions[k]);
+    if (along < 0) ++inwards;
+    if (along < kAskew && askew++ == 0) first = k;
+  }
+  if (2 * inwards > directions.size())
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format("{} of {} directions lead into the nominal mesh where it fits the touches best; a "
+                    "direction has to lead out of the blank, towards the probe",
+                    inwards, directions.size()));
+  if (askew > 0)
+    notices.push_back(
+        fmt::format("{} directions lie more than 45 degrees off that of the nominal surface, the "
+                    "first that of touch {}",
+                    askew, first + 1));
   return {};
 }
 
@@ -392,11 +435,16 @@ std::vector<std::string> assumptions_of(const TouchStatement& stated, const Touc
                   "along each axis and {:.6g} degrees about it",
                   q[0], q[1], q[2], q[3], p.x, p.y, p.z, at.x, at.y, at.z, stated.shift,
                   stated.turn * kDegreesPerRadian),
-      stated.ball > 0
+      !(stated.ball > 0)
+          ? fmt::format("each touch lies within {:.6g} mm of the blank's surface", stated.guard)
+      : stated.directions.empty()
           ? fmt::format("each touch is the centre of a ball of {} mm that met the blank from outside, to "
                         "within {:.6g} mm",
                         stated.ball, stated.guard)
-          : fmt::format("each touch lies within {:.6g} mm of the blank's surface", stated.guard)};
+          : fmt::format(
+                "each touch is the centre of a ball of {} mm that met the blank, to within {:.6g} mm, "
+                "against the direction beside it",
+                stated.ball, stated.guard)};
   if (left_out > 0)
     said.push_back(fmt::format("the {} touches that are left out are none of the surface", left_out));
   return said;
@@ -411,9 +459,17 @@ std::array<std::array<double, 2>, 6> TouchProof::left() const {
   return box;
 }
 
-Result<TouchedSolid> touched_solid(const solid::Mesh& nominal, const std::vector<Vector>& touches,
-                                   const TouchStatement& stated) {
-  LEKALO_CHECK(check(stated));
+Result<TouchedSolid> touched_solid(const solid::Mesh& nominal, const std::vector<Vector>& centres,
+                                   const TouchStatement& as_stated) {
+  LEKALO_CHECK(check(as_stated, centres.size()));
+  const std::vector<Vector> touches = met(centres, as_stated);
+  TouchStatement stated = as_stated;
+  if (!stated.directions.empty()) {
+    // From here on touches are points of the surface, which rounding takes a little off.
+    double far = stated.ball;
+    for (const Vector p : centres) far = std::max(far, norm(p));
+    stated.ball = 0, stated.coordinate_error += kWidthRounding * far;
+  }
   if (touches.empty()) return failure(ErrorCode::bad_input, "there are no touches");
   if (touches.size() > kMostTouches)
     return failure(
@@ -442,6 +498,7 @@ Result<TouchedSolid> touched_solid(const solid::Mesh& nominal, const std::vector
   }
   if (kept.empty()) return failure(ErrorCode::bad_input, "all touches are left out");
   if (!made.left_out.empty()) pose = fitted(tree, frame, kept, radius);
+  LEKALO_CHECK(check_directions(tree, frame.motion(pose), touches, stated.directions, made.notices));
 
   // From here on motions are counted from the fit, and from the middle of the touches.
   const Motion fit = frame.motion(pose);
@@ -478,8 +535,8 @@ Result<TouchedSolid> touched_solid(const solid::Mesh& nominal, const std::vector
   enclosure.place();
   made.proof = enclosure.take();
   widen(nominal, stated, made);
-  made.notices = loose_ways(made.proof, frame.reach, most);
-  made.assumptions = assumptions_of(stated, made.proof, middle, made.left_out.size());
+  for (std::string& way : loose_ways(made.proof, frame.reach, most)) made.notices.push_back(std::move(way));
+  made.assumptions = assumptions_of(as_stated, made.proof, middle, made.left_out.size());
   return made;
 }
 

@@ -132,6 +132,7 @@ constexpr Known kTouchWays[] = {{"corner"}, {"axis"}, {"above"}, {"at"}, {"multi
 constexpr Known kTouchPose[] = {{"quaternion"}, {"x"}, {"y"}, {"z"}};
 constexpr Known kTouches[] = {{"ball"},
                               {"form"},
+                              {"directions"},
                               {"pivot"},
                               {"quaternion"},
                               {"x"},

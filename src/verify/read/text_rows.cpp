@@ -81,7 +81,8 @@ std::optional<std::string_view> Lines::next() {
   return trimmed(line);
 }
 
-Result<void> read_text_rows(const Document& document, const std::function<Result<void>(TextRow&&)>& take) {
+Result<void> read_text_rows(const Document& document, const std::function<Result<void>(TextRow&&)>& take,
+                            bool in_space) {
   bool header_allowed = true, gap = false;
   Lines lines(document.bytes);
   while (const auto whole = lines.next()) {
@@ -90,7 +91,7 @@ Result<void> read_text_rows(const Document& document, const std::function<Result
     const std::string_view line = trimmed(whole->substr(0, whole->find('#')));
     if (std::exchange(header_allowed, false) && !begins_with_number(line) && may_be_header(line)) continue;
     const std::vector<std::string_view> fields = fields_of(line);
-    if (fields.size() != 2 && fields.size() != 3)
+    if (fields.size() != 2 && fields.size() != 3 && !(in_space && fields.size() == 6))
       return bad_line(document, lines.number(),
                       fmt::format("{} fields where a point needs x and y: {}", fields.size(), excerpt(line)));
     TextRow row;
@@ -100,7 +101,7 @@ Result<void> read_text_rows(const Document& document, const std::function<Result
       if (!number)
         return bad_line(document, lines.number(),
                         fmt::format("\"{}\" is not {}", excerpt(fields[i]), decimal_rule()));
-      row.numbers[i] = *std::move(number);
+      (i < 3 ? row.numbers[i] : row.direction[i - 3]) = *std::move(number);
     }
     LEKALO_CHECK(take(std::move(row)));
   }

@@ -32,9 +32,9 @@ class Lines {
 [[nodiscard]] tl::unexpected<Error> bad_line(const Document& document, std::size_t line,
                                              const std::string& sentence);
 
-/// A line of a text of points: two numbers, or three.
+/// A line of a text of points: two numbers, or three; in space six, too, of which the last are a direction.
 struct TextRow {
-  std::array<Decimal, 3> numbers;
+  std::array<Decimal, 3> numbers, direction;
   std::size_t count = 2;
   std::size_t line = 0;
   /// True if an empty line stands between the row before and this one.
@@ -43,6 +43,7 @@ struct TextRow {
 
 /// Calls `take` for each point of a text (docs/formats.md); bad_input names the line.
 [[nodiscard]] Result<void> read_text_rows(const Document& document,
-                                          const std::function<Result<void>(TextRow&&)>& take);
+                                          const std::function<Result<void>(TextRow&&)>& take,
+                                          bool in_space = false);
 
 }  // namespace lekalo::verify

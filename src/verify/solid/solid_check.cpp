@@ -282,7 +282,7 @@ Result<std::optional<ScanWidths>> SolidCheck::widths_by_touches(const SolidMesh&
     find("the nominal mesh is said to have {} triangles, but {} has {}", d_.nominal->triangles,
          inputs_.nominal->name, nominal.mesh.triangles.size());
   LEKALO_TRY(const SolidMesh mesh, closed(std::move(nominal.mesh), inputs_.nominal->name));
-  return touch_widths(mesh, blank, touches.mesh, *d_.scan, report_.findings);
+  return touch_widths(mesh, blank, touches, *d_.scan, report_.findings);
 }
 
 /// Gives the blank its widths, and holds what the result says of them against them. False where the blank is

@@ -260,6 +260,7 @@ class Reader {
     touches.form = length(fields, "form");
     if (sgn(touches.ball.digits) < 0 || sgn(touches.form.digits) <= 0)
       fields.complain("scan.touches has a ball below 0, or a form that is not above 0");
+    touches.directions = truth(fields, "directions");
     touches.pivot = numbers<3>(fields, "pivot");
     touches.quaternion = numbers<4>(fields, "quaternion");
     for (std::size_t k = 0; k < 6; ++k) touches.box[k] = numbers<2>(fields, kAxes[k]);

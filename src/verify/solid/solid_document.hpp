@@ -61,6 +61,7 @@ struct WrittenTouches {
     Cut cut;
   };
   Decimal ball, form;
+  bool directions = false;
   std::array<Decimal, 3> pivot;
   std::array<Decimal, 4> quaternion;
   std::array<std::array<Decimal, 2>, 6> box;

@@ -371,13 +371,20 @@ Result<SolidReading> read_measured_points(const Document& document, SolidUnit un
   SolidMaker made(document, unit);
   LEKALO_TRY(const bool known, read_by_content(made));
   if (known) return made.take();
-  LEKALO_CHECK(read_text_rows(document, [&](TextRow&& row) -> Result<void> {
+  std::vector<std::array<Decimal, 3>> directions;
+  const auto take = [&](TextRow&& row) -> Result<void> {
     if (row.count < 3) return bad_line(document, row.line, "no z on this line");
     if (const auto fault = made.add_vertex(std::move(row.numbers)))
       return bad_line(document, row.line, *fault);
+    if (row.count == 6) directions.push_back(std::move(row.direction));
+    if (!directions.empty() && directions.size() != made.vertices())
+      return bad_line(document, row.line, "this point has no direction, or alone has one");
     return {};
-  }));
-  return made.take();
+  };
+  LEKALO_CHECK(read_text_rows(document, take, true));
+  SolidReading reading = made.take();
+  reading.directions = std::move(directions);
+  return reading;
 }
 
 }  // namespace lekalo::verify

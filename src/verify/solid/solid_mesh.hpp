@@ -56,6 +56,8 @@ struct SolidReading {
   /// empty where there are none.
   std::vector<std::string> groups;
   std::vector<std::uint32_t> group_of;
+  /// The direction beside each point of a text; empty where there are none.
+  std::vector<std::array<Decimal, 3>> directions;
   /// A mesh by lekalo-step says how far the body may be from the triangles at most, mm.
   std::optional<Decimal> deviation;
   /// The faces of its STEP file, of each triangle; else empty.

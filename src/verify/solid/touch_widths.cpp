@@ -25,20 +25,26 @@ Both3 point(const std::array<Decimal, 3>& p) { return {both(p[0]), both(p[1]), b
 
 class TouchCheck {
  public:
-  TouchCheck(const SolidMesh& nominal, const SolidMesh& touches, const WrittenSolidScan& scan,
+  TouchCheck(const SolidMesh& nominal, const SolidReading& touches, const WrittenSolidScan& scan,
              std::vector<std::string>& findings)
       : nominal_(nominal),
-        points_(touches),
+        points_(touches.mesh),
+        directions_(touches.directions),
         scan_(scan),
         said_(*scan.touches),
         findings_(findings),
         moved_(said_.moved),
         frame_{nominal, nominal, SolidMotion({said_.quaternion, {}}), point(said_.pivot), {}},
-        is_out_(touches.near.size(), 0) {}
+        is_out_(touches.mesh.near.size(), 0) {}
 
   /// Says whether all of the proof holds.
   bool run() {
     const std::size_t before = findings_.size();
+    if (said_.directions == directions_.empty())
+      find("scan.touches.directions is {}, but the touches have {}", said_.directions,
+           directions_.empty() ? "none" : "some");
+    else
+      place_touches();
     check_left_out();
     check_around();
     check_balls();
@@ -93,9 +99,36 @@ class TouchCheck {
     }
   }
 
+  /// The places that stand for the touches: with directions those where the ball met the blank, to within a
+  /// part of the ball by which other balls then have to stay nearer.
+  void place_touches() {
+    constexpr unsigned long kPlaces = 128, kRoom = 120;
+    const Fraction off = to_fraction(said_.form) + to_fraction(scan_.guard),
+                   ball = to_fraction(said_.ball) / 2;
+    for (std::uint32_t k = 0; k < points_.near.size(); ++k) {
+      ask();
+      Ball& touch = touches_.emplace_back();
+      touch.radius = as_both(off);
+      Exact3 at{points_.exact(k, 0), points_.exact(k, 1), points_.exact(k, 2)};
+      if (said_.directions) {
+        Exact3 n;
+        for (std::size_t axis = 0; axis < 3; ++axis) n[axis] = to_fraction(directions_[k][axis]);
+        const Fraction squared = dot(n, n);
+        if (sgn(squared) == 0) return find("the direction of touch {} is 0", k);
+        // The root of p / q is that of p q, over q.
+        const Integer root = whole_root((squared.get_num() * squared.get_den()) << (2 * kPlaces));
+        Fraction inverse(squared.get_den() << kPlaces, root);
+        inverse.canonicalize();
+        at = at - n * Fraction(ball * inverse);
+        touch.radius = as_both(off - ball / Fraction(Integer(1) << kRoom));
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis) touch.centre[axis] = as_both(at[axis]);
+    }
+  }
+
   void check_balls() {
     const PlacedSolid body(nominal_);
-    const Fraction ball = to_fraction(said_.ball) / 2,
+    const Fraction ball = said_.directions ? Fraction(0) : Fraction(to_fraction(said_.ball) / 2),
                    off = to_fraction(said_.form) + to_fraction(scan_.guard);
     if (sgn(ball) > 0 && ball <= to_fraction(scan_.guard))
       find("scan.touches.ball is not larger than twice what touches are uncertain by");
@@ -113,11 +146,6 @@ class TouchCheck {
         least += ball;
       one.radius = as_both(std::move(least));
       balls_.push_back(std::move(one));
-    }
-    for (std::uint32_t k = 0; k < points_.near.size(); ++k) {
-      Ball& touch = touches_.emplace_back();
-      touch.radius = as_both(off);
-      for (std::size_t axis = 0; axis < 3; ++axis) touch.centre[axis] = as_both(points_.exact(k, axis));
     }
   }
 
@@ -193,6 +221,7 @@ class TouchCheck {
   }
 
   const SolidMesh &nominal_, &points_;
+  const std::vector<std::array<Decimal, 3>>& directions_;
   const WrittenSolidScan& scan_;
   const WrittenTouches& said_;
   std::vector<std::string>& findings_;
@@ -208,7 +237,7 @@ class TouchCheck {
 }  // namespace
 
 std::optional<ScanWidths> touch_widths(const SolidMesh& nominal, const SolidMesh& blank,
-                                       const SolidMesh& touches, const WrittenSolidScan& scan,
+                                       const SolidReading& touches, const WrittenSolidScan& scan,
                                        std::vector<std::string>& findings) {
   if (nominal.triangles.size() != blank.triangles.size()) {
     findings.push_back(fmt::format("the blank has {} triangles, and the nominal mesh {}",

@@ -16,10 +16,12 @@ namespace lekalo::verify {
 /// surface of that mesh inside. With d = form + guard the surface is farther than ball / 2 - d from c, and
 /// nearer than ball / 2 + d. So |M a - c| is above r - ball / 2 - d. If a is in the material, it is above
 /// r - d: c does not lie deeper than that. And above r + ball / 2 - d where ball / 2 is above 2 d, because c
-/// is then outside. \param nominal  closed; its triangles are those of the blank, in their order \pre the
-/// scan has touches
+/// is then outside. Where the touches have directions, the place half a ball from each, against its
+/// direction, stands for c, and there is no ball. \param nominal  closed; its triangles are those of the
+/// blank, in their order \pre the scan has touches
 [[nodiscard]] std::optional<ScanWidths> touch_widths(const SolidMesh& nominal, const SolidMesh& blank,
-                                                     const SolidMesh& touches, const WrittenSolidScan& scan,
+                                                     const SolidReading& touches,
+                                                     const WrittenSolidScan& scan,
                                                      std::vector<std::string>& findings);
 
 }  // namespace lekalo::verify

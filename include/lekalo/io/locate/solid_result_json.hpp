@@ -39,6 +39,7 @@ struct SolidWindow {
 /// The statements about a blank that is its nominal mesh, moved to touches, and why they hold it there.
 struct SolidTouchRecord {
   double ball = 0, form = 0;  ///< mm
+  bool directions = false;    ///< each touch has one
   locate::TouchProof proof;
 };
 

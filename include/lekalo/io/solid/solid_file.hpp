@@ -36,6 +36,9 @@ struct SolidFile {
   std::string_view format;  ///< "STL", "OBJ", "PLY", "3MF" or "points"
   SolidUnit unit = SolidUnit::millimetre;
   solid::Mesh mesh;  ///< no triangles: the file holds points
+  /// The direction beside each point, of any length but 0 and without a unit; empty where the file gives
+  /// none.
+  std::vector<solid::Vector> directions;
   /// The names that the file gives to parts of the surface, each once, and which of them each triangle has;
   /// both empty where it gives none. A triangle before the first name has the name "".
   std::vector<std::string> groups;
@@ -60,9 +63,9 @@ struct SolidFile {
 /// points may also be measured outlines.
 [[nodiscard]] bool is_only_solid(std::string_view bytes, const std::string& name);
 
-/// Reads STL (text and binary), OBJ, PLY (text and binary, either order), 3MF and text of points "x y z"
-/// (docs/formats.md), told apart by their content. The ending of the name says what was meant where the
-/// content fits none.
+/// Reads STL (text and binary), OBJ, PLY (text and binary, either order), 3MF and text of points "x y z",
+/// maybe with a direction "nx ny nz" (docs/formats.md), told apart by their content. The ending of the name
+/// says what was meant where the content fits none.
 ///
 /// Fails with bad_input and one sentence that names file, line, triangle or row, what stands there and the
 /// way out. Cost: O(bytes), and for faces with dents the square of their corners, 2,000 at most. Memory: at
