@@ -94,7 +94,7 @@ class Surface {
     flip_edges(mesh_);
     return std::move(mesh_);
   }
-  /// Where the ball falls in between points on a grid, most triangles of the two sheets cancel each other.
+  /// Two sheets, between points on a grid that the ball falls through, have most triangles in pairs.
   [[nodiscard]] bool mostly_cancelled() const { return mostly_cancelled_; }
 
  private:
