@@ -129,7 +129,7 @@ LINES = [
     "locate --part part.json --blank scan.csv --uncertainty 0.01 -o o.json",
     "locate --part big.dxf --blank big.dxf -o o.json",
     "locate --part example-1-part.csv --blank example-1-blank.csv --nc big.nc --nc-out o.nc -o o.json",
-    "locate --part part.stl --blank casting.stl -o o.json --picture o.png",
+    "locate --part part.stl --blank casting.stl -o o.json",
     "locate --part part.stl --blank above.xyz --uncertainty 0.01 --min-radius 3 --mesh o.ply -o o.json",
     "locate --part part.stl --blank touches.xyz --nominal-blank casting.stl --form 0.1 --ball 3 --uncertainty 0.005 "
     "--mesh o.ply -o o.json",
