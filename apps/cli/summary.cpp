@@ -189,13 +189,26 @@ std::string program_lines(const std::optional<io::NcRecord>& nc) {
   return text;
 }
 
-bool has_datums(const io::SolidDocument& d) { return d.demands && !d.demands->datums.empty(); }
+bool has_maxima(const io::SolidDocument& d) {
+  return d.demands && std::any_of(d.demands->features.begin(), d.demands->features.end(),
+                                  [](const io::SolidFeature& one) { return one.maximum.has_value(); });
+}
+
+/// Names what of the place of the part a placement has to keep, beside what is demanded; nothing if there is
+/// nothing.
+std::string kept_of(const io::SolidDocument& d) {
+  const bool datums = d.demands && !d.demands->datums.empty(), maxima = has_maxima(d);
+  return datums && maxima ? "the datums and maxima" : datums ? "the datums" : maxima ? "the maxima" : "";
+}
+std::string kept_with(const char* words, const io::SolidDocument& d) {
+  const std::string kept = kept_of(d);
+  return kept.empty() ? "" : words + kept;
+}
 
 std::string headline(const io::SolidDocument& d) {
   if (d.status == "infeasible" && d.demands)
     return fmt::format("No placement in the window meets the demands{}; this is proved.{}",
-                       has_datums(d) ? " and keeps the datums" : "",
-                       d.inside() ? " The one that misses least:" : "");
+                       kept_with(" and keeps ", d), d.inside() ? " The one that misses least:" : "");
   if (d.status == "infeasible")
     return d.min_allowance > 0
                ? fmt::format(
@@ -205,7 +218,7 @@ std::string headline(const io::SolidDocument& d) {
                : "No placement in the window has the part inside the blank; this is proved.";
   if (!d.inside())
     return fmt::format("No placement was found that has the part inside the blank{}.",
-                       has_datums(d) ? " and keeps the datums" : "");
+                       kept_with(" and keeps ", d));
   if (d.scan && !d.scan->proved())
     return "A placement was found, but parts of the blank are unknown, so it is not proved to hold.";
   if (d.status == "optimal") return "The best placement was found and proved.";
@@ -213,9 +226,13 @@ std::string headline(const io::SolidDocument& d) {
   return fmt::format("The placement that --method {} found; it proves nothing about others.", d.method);
 }
 
-bool all_kept(const io::SolidDocument& d) {
-  return !d.demands || std::all_of(d.demands->datums.begin(), d.demands->datums.end(),
-                                   [](const io::SolidDatumRecord& one) { return one.kept(); });
+/// Says why no pose of such a part counts as inside.
+const char* why_not_inside(const io::SolidDocument& d) {
+  if (d.demands && !std::all_of(d.demands->datums.begin(), d.demands->datums.end(),
+                                [](const io::SolidDatumRecord& one) { return one.kept(); }))
+    return "a datum is not kept";
+  return d.demands && !d.demands->keeps_maxima() ? "a maximum is not kept"
+                                                 : "the part is not inside the blank";
 }
 
 /// The rotation as people turn things: by an angle about an axis.
@@ -232,10 +249,7 @@ std::string pose_lines(const io::SolidDocument& d) {
   const solid::Vector at = d.pose.shift;
   return fmt::format("  the part lies at   x = {:.6f} mm, y = {:.6f} mm, z = {:.6f} mm\n", at.x, at.y, at.z) +
          turn_line(d.pose.quaternion) + "  minimum allowance  " +
-         (d.clearance ? mm_down(*d.clearance)
-                      : fmt::format("none: {}", all_kept(d) ? "the part is not inside the blank"
-                                                            : "a datum is not kept")) +
-         "\n";
+         (d.clearance ? mm_down(*d.clearance) : fmt::format("none: {}", why_not_inside(d))) + "\n";
 }
 
 std::string datum_lines(const io::SolidDocument& d) {
@@ -244,6 +258,19 @@ std::string datum_lines(const io::SolidDocument& d) {
     for (const io::SolidDatumRecord& one : d.demands->datums)
       text += fmt::format("  datum              \"{}\" is {} within {} mm: the part is off it by up to {}\n",
                           one.name, one.kept() ? "kept" : "not kept", one.within, mm_up(one.off));
+  return text;
+}
+
+std::string maximum_lines(const io::SolidDocument& d) {
+  std::string text;
+  if (d.demands)
+    for (std::size_t k = 0; k < d.demands->features.size(); ++k) {
+      const io::SolidFeature& one = d.demands->features[k];
+      const double largest = d.demands->largest[k];
+      if (one.maximum)
+        text += fmt::format("  maximum            \"{}\" {} {} mm: its largest allowance is {}\n", one.name,
+                            largest <= *one.maximum ? "keeps" : "is above", *one.maximum, mm_up(largest));
+    }
   return text;
 }
 
@@ -316,11 +343,11 @@ std::string missing_place(const io::SolidDocument& d) {
 
 std::string demands_line(const io::SolidDocument& d) {
   const io::SolidDemandRecord& r = *d.demands;
-  const std::string bound =
-      !r.margin_bound ? ""
-                      : fmt::format("; no placement {}{} has a margin above {}", window_text(d),
-                                    has_datums(d) ? " that keeps the datums" : "", mm_up(*r.margin_bound));
-  if (!r.margin && r.margin_bound && *r.margin_bound < 0 && !has_datums(d))
+  const std::string bound = !r.margin_bound
+                                ? ""
+                                : fmt::format("; no placement {}{} has a margin above {}", window_text(d),
+                                              kept_with(" that keeps ", d), mm_up(*r.margin_bound));
+  if (!r.margin && r.margin_bound && *r.margin_bound < 0 && kept_of(d).empty())
     return fmt::format("  demands            at least {} are missing, wherever in the window the part lies\n",
                        mm_down(-*r.margin_bound));
   if (!r.margin) return fmt::format("  demands            not met{}\n", bound);
@@ -331,7 +358,7 @@ std::string demands_line(const io::SolidDocument& d) {
 }
 
 std::string demand_line(const io::SolidDocument& d) {
-  const std::string demands = d.demands ? datum_lines(d) + demands_line(d) : "";
+  const std::string demands = d.demands ? datum_lines(d) + maximum_lines(d) + demands_line(d) : "";
   if (!d.inside())
     return demands +
            fmt::format(

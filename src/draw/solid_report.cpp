@@ -184,16 +184,16 @@ class SolidReportPage {
     return scene_.placement.inside ? std::optional(scene_.placement.clearance) : std::nullopt;
   }
   [[nodiscard]] std::string none_has() const {
-    return fmt::format("no placement moved {}{} leaves more than {} mm {}", window_text(report_),
-                       scene_.margin && scene_.margin->datums ? ", of those that keep the datums," : "",
-                       decimal(*bound(), look_.decimals, Rounding::up),
-                       scene_.margin ? "over the demands" : "everywhere");
+    return fmt::format(
+        "no placement moved {}{} leaves more than {} mm {}", window_text(report_),
+        scene_.margin && scene_.margin->of_place ? ", of those that keep datums and maxima," : "",
+        decimal(*bound(), look_.decimals, Rounding::up), scene_.margin ? "over the demands" : "everywhere");
   }
   [[nodiscard]] std::string this_has() const {
     const std::optional<double> is = reached();
     if (!is)
-      return scene_.margin && scene_.margin->datums
-                 ? "the best found is not inside the blank, or does not keep a datum"
+      return scene_.margin && scene_.margin->of_place
+                 ? "the best found is not inside the blank, or does not keep a datum or a maximum"
                  : "the best found is not inside the blank";
     return fmt::format("this one leaves at least {} mm{}", decimal(*is, look_.decimals, Rounding::down),
                        scene_.margin ? " over them" : "");

@@ -174,6 +174,27 @@ SolidResultFiles with_datum(Random& random) {
   return files;
 }
 
+/// The cube in the cube, whose top may lie no deeper than is kept where it lies higher; a body below that.
+SolidResultFiles with_maximum(Random& random) {
+  const double most = random.uniform(0.55, 0.95), up = 1 - most;
+  const Json features{
+      {"minimum", 0},
+      {"features", Json::array({Json{{"name", "top"}, {"triangles", {2, 3}}, {"maximum", most}}})}};
+  Json certificate = cases::one_leaf(Json::array({{"point_plane", 0, 0, 1}, {"near", 0, 5, 1}}),
+                                     Json::array(), Json::array(), Json::array({{0, 0, -1, -6}}));
+  certificate["part_points"] = Json::array({{2, 0.25, 0.5}});
+  const double wide = random.uniform(4, 5), lean = random.uniform(0, 0.2);
+  certificate["bodies"] = Json::array(
+      {{-wide, -wide, 0, 2 * wide, 0, 0, 0, 2 * wide, 0, lean, -lean, 6 - most - 1e-9, most * (1 + 1e-15)}});
+  Json of_result = cases::demand_of_result("top", 2, 0, 1);
+  of_result["maximum"] = most, of_result["largest"] = most;
+  SolidResultFiles files =
+      cases::with_demands(features, Json::array({of_result}), certificate, most - 1e-6, most + 1e-6);
+  files.result["clearance"] = most - 1e-6, files.result["contacts"] = Json::array();
+  files.result["z"] = up + 1e-7;
+  return files;
+}
+
 TEST(SolidCertificate, AStrangerSaysTheSame) {
   Random random(8);
   std::vector<SolidResultFiles> all;
@@ -207,14 +228,17 @@ TEST(SolidCertificate, AStrangerSaysTheSame) {
     }
   }
   for (std::uint64_t k = 0; k < cases::case_count(12); ++k) {
-    const SolidResultFiles honest = k % 3 == 2 ? with_datum(random) : with_demands(random);
+    const SolidResultFiles honest = k % 4 == 3   ? with_maximum(random)
+                                    : k % 3 == 2 ? with_datum(random)
+                                                 : with_demands(random);
     EXPECT_EQ(honest.told(), "confirmed") << *honest.features;
     all.push_back(honest);
     SolidResultFiles other = honest;
     Json& certificate = other.result["certificate"];
-    const char* const tables[]{"part_points", "blank_balls", "planes", "datum_points", "directions"};
-    const std::size_t which = random.below(6);
-    if (which < 5 && !certificate[tables[which]].empty())
+    const char* const tables[]{"part_points",  "blank_balls", "planes",
+                               "datum_points", "directions",  "bodies"};
+    const std::size_t which = random.below(7);
+    if (which < 6 && !certificate[tables[which]].empty())
       certificate[tables[which]] = changed(certificate[tables[which]], random);
     else
       certificate["trees"][0]["nodes"] = changed(certificate["trees"][0]["nodes"], random);

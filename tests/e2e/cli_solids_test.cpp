@@ -241,6 +241,28 @@ TEST_F(Solids, DatumsAreKeptAndTold) {
   EXPECT_EQ(verify("r.json").status, 0);
 }
 
+TEST_F(Solids, MaximaAreKeptAndTold) {
+  const fs::path solids = fs::path(cases::source_dir()) / "examples" / "solid";
+  const auto placed = [&](const fs::path& features) {
+    return run(folder_.path(), {"locate", "--part", solids / "part.stl", "--blank", solids / "casting.stl",
+                                "--features", features, "--work", "40", "-o", "r.json", "--json"});
+  };
+  const Ran ran = placed(solids / "maxima.json");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  for (const char* words : {"maximum            \"top\" keeps 3.5 mm: its largest allowance is",
+                            "maximum            \"underside\" keeps 3.2 mm", "that keeps the maxima has"})
+    EXPECT_NE(ran.err.find(words), std::string::npos) << ran.err;
+  EXPECT_EQ(verify("r.json").status, 0);
+  // Top and underside have 6.1 mm together.
+  std::string less = read_bytes(solids / "maxima.json");
+  less.replace(less.find("3.5"), 3, "2.5");
+  write_bytes(folder_ / "less.json", less);
+  const Ran none = placed("less.json");
+  EXPECT_EQ(none.status, 1) << none.err;
+  EXPECT_NE(none.err.find("none: a maximum is not kept"), std::string::npos) << none.err;
+  EXPECT_EQ(verify("r.json").status, 0);
+}
+
 TEST_F(Solids, ADemandThatIsMissedIsExitStatusOne) {
   const Ran ran = locate({"--min-allowance", "3", "--method", "climb", "-o", "r.json"});
   EXPECT_EQ(ran.status, 1);

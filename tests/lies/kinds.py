@@ -187,6 +187,12 @@ def touched_box(x, y, z, directions=False):
     return "".join(made)
 
 
+# The top is held to less than lies over it where the part is in the middle.
+MAXIMA = """{"units": "mm", "minimum": 0.5, "features": [
+  {"name": "top", "plane": {"normal": [0, 0, 1], "at": 9, "within": 0.001}, "minimum": 0.25, "maximum": 1.5}]}
+"""
+
+
 def of_solids():
     meshes = ["examples/solid/part.stl", "examples/solid/casting.stl"]
     climb = ["locate", "--part", "part.stl", "--blank", "casting.stl", "--method", "climb"]
@@ -246,6 +252,12 @@ def of_solids():
     demanded = functools.partial(placed, files=meshes + ["examples/solid/datums.json"], commands=[start, asked])
     yield demanded("placement, solids, demands", inputs=stl + ["datums.json"])
     yield demanded("features of solids", target="datums.json", oracle=solids.features, report_of="r.json")
+    deep = {"part.obj": box((2, 2, 2), (18, 14, 9)), "blank.obj": box((0, 0, 0), (20, 16, 12)), "f.json": MAXIMA}
+    shallow = functools.partial(placed, files=[], written=deep, commands=[
+        ["locate", "--part", "part.obj", "--blank", "blank.obj", "--freedom", "c-xyz", "--window", "-1", "1", "--shift", "2",
+         "--features", "f.json", "--gap", "0.05", "-o", "r.json"]])
+    yield shallow("placement, solids, maxima", inputs=list(deep))
+    yield shallow("maxima of solids", target="f.json", oracle=solids.features, report_of="r.json")
     for role, file in (("part", "part.stl"), ("blank", "casting.stl")):
         yield Kind(f"placement, solids, another {role}", meshes, [start, turned + ["--gap", "0.1"]], file, of_r,
                    solids.mesh(role), form="stl", report_of="r.json")

@@ -3,8 +3,36 @@
 What the file of features demands says tests/support/solid_demands.py, which was written from docs/formats.md alone.
 """
 
+import heapq
+import math
+
 import solid_demands as asked
-from exact_solids import F, dot, normal, sub
+from exact_solids import F, dot, normal, squared_distance, sub
+
+
+def farthest(triangles, surface, within):
+    """Bounds of how far the farthest point of some triangles is from a surface, in doubles."""
+    def of(t):
+        middle = [sum(c) / 3 for c in zip(*t)]
+        far = [squared_distance(middle, s) for s in surface]
+        near = surface[far.index(min(far))]
+        way = max(math.dist(middle, p) for p in t)
+        high = min(max(math.sqrt(squared_distance(p, near)) for p in t), math.sqrt(min(far)) + way)
+        return -high, math.sqrt(min(far)), t
+    open_ = [of(t) for t in triangles]
+    heapq.heapify(open_)
+    low = max(one[1] for one in open_)
+    while -open_[0][0] > low + within:
+        if len(open_) > 5000:
+            raise ValueError("too many pieces to tell")
+        _, _, t = heapq.heappop(open_)
+        k = max(range(3), key=lambda k: math.dist(t[k - 1], t[k]))
+        a, b, c = t[k - 1], t[k], t[k - 2]
+        m = [(x + y) / 2 for x, y in zip(a, b)]
+        for half in (of([a, m, c]), of([m, b, c])):
+            low = max(low, half[1])
+            heapq.heappush(open_, half)
+    return low, -open_[0][0]
 
 
 class Faces:
@@ -12,15 +40,17 @@ class Faces:
 
     def __init__(self, file, part, least):
         self.unit, self.part = asked.UNITS[file.get("units", "mm")], part
+        self.file = {one["name"]: one for one in file.get("features", [])}
         self.features = [self.feature(one) for one in file.get("features", [])]
         self.of = asked.demands(file, part.all, least)
-        self.datums = asked.datums(file, part.all)
+        self.datums, self.within = asked.datums(file, part.all), asked.maxima(file, part.all)
         self.names = [one["name"] for one in file.get("datums", [])]
         self.minimum = None if file.get("as_cast") else max(float(self.unit) * float(file.get("minimum", 0)), float(least))
 
     def feature(self, one):
-        rough = one.get("as_cast", False)
-        return {"name": one["name"], "triangles": len(asked.triangles_of(one, self.unit, self.part.all)),
+        rough, most = one.get("as_cast", False), one.get("maximum")
+        more = {} if most is None else {"maximum": float(self.unit) * float(most)}
+        return more | {"name": one["name"], "triangles": len(asked.triangles_of(one, self.unit, self.part.all)),
                 "minimum": None if rough else float(self.unit) * float(one.get("minimum", 0)),
                 "scale": None if rough else float(one.get("scale", 1)), "as_cast": rough}
 
@@ -30,8 +60,11 @@ class Faces:
                 value == other[key] if isinstance(value, (str, bool)) or None in (value, other[key])
                 else float(value) == float(other[key]) for key, value in one.items())
         datums = [(datum["name"], float(datum["within"])) for datum in said["datums"]]
+        if any(("largest" in one) != ("maximum" in one) for one in said["features"]):
+            return False
+        features = [{key: value for key, value in one.items() if key != "largest"} for one in said["features"]]
         return (same({"minimum": self.minimum}, {"minimum": said["minimum"]}) and len(said["features"]) == len(self.features) and
-                all(map(same, self.features, said["features"])) and
+                all(map(same, self.features, features)) and
                 datums == [(name, float(datum["within"])) for name, datum in zip(self.names, self.datums)])
 
     def are_off(self, document, place, slack):
@@ -44,7 +77,22 @@ class Faces:
         return not document["inside"] or self.are_kept(document)
 
     def are_kept(self, document):
-        return all(said["off"] <= datum["within"] for said, datum in zip(document["demands"]["datums"], self.datums))
+        said = document["demands"]
+        return all(one["off"] <= datum["within"] for one, datum in zip(said["datums"], self.datums)) and all(
+            one["largest"] <= F(one["maximum"]) for one in said["features"] if "maximum" in one)
+
+    def are_far(self, document, place, surface):
+        """The points of each feature with a maximum are as far from the blank's surface as is said."""
+        for said, feature in zip(document["demands"]["features"], self.features):
+            if "maximum" not in feature:
+                continue
+            most, allowed = float(said["largest"]), feature["maximum"]
+            low, high = farthest([[list(map(float, place(document, p))) for p in self.part.all[f]]
+                                  for f in asked.triangles_of(self.file[said["name"]], self.unit, self.part.all)],
+                                 [[list(map(float, p)) for p in t] for t in surface], max(allowed * 1e-4, 1e-9))
+            if most < low * (1 - 1e-12) or most > high + allowed / 32:
+                return False
+        return not document["inside"] or self.are_kept(document)
 
     def demanded(self):
         """The triangles of each demand."""

@@ -19,10 +19,12 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
 import check_solid_certificate as proof
 import nc_reader
 import exact
+import exact_bodies
 import exact_solids as space
 import solid_faces
 import touches
 import truth
+from exact_bodies import of_segments
 from exact_solids import cross, dot, plus, sub, times
 
 INFORMATION = [r"/(seed|work|version|method|run|warnings|start|symmetry)(/.*)?$", r"/inputs/\d+/path$",
@@ -30,7 +32,7 @@ INFORMATION = [r"/(seed|work|version|method|run|warnings|start|symmetry)(/.*)?$"
                r"/contacts/\d+/multiplier$", r"/scan/assumptions/\d+$", r"/nc/(motions|scan_frame|notes)(/.*)?$",
                r"/(nc|offset)/output/path$"]
 # Items that each say something for themselves; a term, a ball or a node is missed where it is needed.
-MAY_GO = r"/(contacts|inputs)/\d+$|/certificate/(part_balls|part_points|datum_points|directions|blank_balls|planes)/\d+$|" \
+MAY_GO = r"/(contacts|inputs)/\d+$|/certificate/(part_balls|part_points|datum_points|directions|bodies|blank_balls|planes)/\d+$|" \
          r"/certificate/trees/\d+/nodes/\d+(/\d+)?$|/scan/touches/(balls|cuts|ways)/\d+(/terms/\d+)?$"
 UNITS = {"mm": F(1), "inch": F(254, 10), "m": F(1000)}
 SLACK = F(4, 10 ** 15)  # of numbers of poses that were computed in doubles
@@ -121,24 +123,6 @@ def components(triangles):
 
 
 # Distances. ----------------------------------------------------------------------------------------------------
-
-def of_segments(a, b, c, d):
-    """The least squared distance of the segments a b and c d; exact of fractions."""
-    u, v, w = sub(b, a), sub(d, c), sub(a, c)
-    uu, uv, vv, uw, vw = dot(u, u), dot(u, v), dot(v, v), dot(u, w), dot(v, w)
-    found = []
-    det = uu * vv - uv * uv
-    if det > 0:
-        s, t = (uv * vw - vv * uw) / det, (uu * vw - uv * uw) / det
-        if 0 <= s <= 1 and 0 <= t <= 1:
-            found.append(plus(w, sub(times(u, s), times(v, t))))
-    # Else the nearest points are at an end of one of them.
-    for p, e, way in ((sub(a, c), v, 1), (sub(b, c), v, 1), (sub(c, a), u, 1), (sub(d, a), u, 1)):
-        square = dot(e, e)
-        t = min(max(dot(p, e) / square, 0), 1) if square else 0
-        found.append(sub(p, times(e, t)))
-    return min(dot(x, x) for x in found)
-
 
 def pierces(a, b, t, slack):
     """A segment may pass through a triangle, or come as near to it as a share `slack` of its size."""
@@ -366,7 +350,7 @@ class Solids:
     """What a placement of solids claims. Meshes, clearances and leaves that were looked at before are kept, also from
     one kind to the next, many of which are of the same meshes and proof."""
 
-    meshes, clearances, leaves, measured, margins = {}, {}, {}, {}, {}
+    meshes, clearances, leaves, measured, margins, bodies = {}, {}, {}, {}, {}, {}
 
     def __init__(self, files):
         self.files = files
@@ -405,6 +389,7 @@ class Solids:
             file = fractions_of(self.files[roles["features"]["path"]])
             faces = solid_faces.Faces(file, part, document["min_allowance"])
             if not (faces.are_told(document["demands"]) and faces.are_off(document, place, reading_slack(blank)) and
+                    faces.are_far(document, place, blank.kept) and
                     solid_faces.derived(document, certificate) and self.margin_holds(document, part, blank, faces)):
                 return False
         elif not (derived(document, certificate) and self.clearance_holds(document, part, blank, scan)):
@@ -413,6 +398,12 @@ class Solids:
                 program_holds(document, self.files) and offset_holds(document, self.files) and
                 all(contact_holds(document, contact, part, blank, scan) for contact in document["contacts"]) and
                 self.is_proved(document, certificate, part, blank, faces))
+
+    def fault_of_body(self, row, surface):
+        key = tuple(row), len(surface), str(surface[0])
+        if key not in self.bodies:
+            self.bodies[key] = exact_bodies.fault_of_body(row, surface)
+        return self.bodies[key]
 
     def touched(self, document, roles):
         """The nominal mesh and the touches, where there are some."""
@@ -489,7 +480,7 @@ class Solids:
         if certificate["pivot"] != document["window"]["pivot"]:
             return False
         rows = [(len(row), width) for table, width in (("part_balls", 4), ("blank_balls", 4), ("planes", 4), ("part_points", 3),
-                                                       ("datum_points", 2), ("directions", 3))
+                                                       ("datum_points", 2), ("directions", 3), ("bodies", 13))
                 for row in certificate.get(table, [])]
         if any(length != width for length, width in rows) or any(
                 ball[3] < 0 for table in ("part_balls", "blank_balls") for ball in certificate[table]):
@@ -524,9 +515,10 @@ class Solids:
             return [(t[k], t[k - 2]) for t in mesh.all for k in range(3)]
         points = certificate.get("part_points", [])
         first = {"part_face": part.all, "edges": edges(part), "datum": certificate.get("datum_points", []),
-                 "point": points, "point_plane": points, "point_face": points}
+                 "point": points, "point_plane": points, "point_face": points, "near": points}
+        sides = [(body, side) for body in certificate.get("bodies", []) for side in range(6)]
         second = {"face": blank.all, "plane": certificate["planes"], "edges": edges(blank), "point_face": blank.all,
-                  "point_plane": certificate["planes"], "datum": certificate.get("directions", [])}
+                  "point_plane": certificate["planes"], "datum": certificate.get("directions", []), "near": sides}
         used = []
         for kind, i, j, m in leaf:
             one, other = first.get(kind, certificate["part_balls"]), second.get(kind, certificate["blank_balls"])
@@ -534,12 +526,13 @@ class Solids:
                     k != int(k) or not 0 <= k < len(rows) for k, rows in ((i, one), (j, other))):
                 return False
             used.append((kind, str(one[int(i)]), str(other[int(j)]), m))
-        asked = str((faces.of, faces.datums)) if faces else ""
+        asked = str((faces.of, faces.datums, faces.within)) if faces else ""
         key = part, blank, str(used), str(cell), str(tree["quaternion"]), str(certificate["pivot"]), bound, asked
         if key not in self.leaves:
             self.leaves[key] = any(m > 0 for *_, m in leaf) and proof.wrong_with(
                 leaf, cell, tree["quaternion"], certificate, faces.bounds(bound) if faces else [bound] * len(part.all),
-                part.all, blank.all, faces.datums if faces else [], holds=lambda ball, _, wanted: (part if wanted else blank).ball_holds(ball, wanted)) is None
+                part.all, blank.all, faces.datums if faces else [], faces and faces.within, fault=self.fault_of_body,
+                holds=lambda ball, _, wanted: (part if wanted else blank).ball_holds(ball, wanted)) is None
         return self.leaves[key]
 
 

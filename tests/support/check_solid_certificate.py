@@ -3,33 +3,15 @@
     check_solid_certificate.py LIST     with five names a line: PART BLANK RESULT CERTIFICATE_FILE FEATURES (or -)
 Prints for each "proved", or what does not hold. Fractions throughout: every answer is exact, and slow."""
 import json, math, sys
+from exact_bodies import fault_of_body, sides
+from exact_forms import form, height, largest
 from exact_solids import F, ball_holds, cross, dot, normal, plus, root, stl, sub, times, turned
-from solid_demands import datums, demands, straight_off
+from solid_demands import datums, demands, maxima, straight_off
 
 def read(path): return json.load(open(path), parse_float=F, parse_int=F)
 AXES = ("x", "y", "z", "turn_x", "turn_y", "turn_z")
-# m (1 + xx) (level + slope.t + bend uu + (R(x) p).u), where u = at + turn t + around x t.
-def form(m, p, at, turn=F(0), level=F(0), slope=[F(0)] * 3, bend=F(0), around=[F(0)] * 3):
-    return m, p, at, turn, level, slope, bend, around
-def height(m, p, n, more): return form(m, p, n, level=more, slope=n)  # m (n.(R(x) p + t) + more)
 
-def largest(forms, cell):  # the largest Bernstein coefficient of their sum
-    values, ends = [], [([lo, (lo + hi) / 2, hi], [lo * lo, lo * hi, hi * hi]) for lo, hi in cell[3:]]
-    for t in ([cell[k][n >> k & 1] for k in range(3)] for n in range(8)):
-        c, linear, square, mixed = F(0), [F(0)] * 3, [F(0)] * 3, [F(0)] * 3
-        for m, p, at, turn, level, slope, bend, around in forms:
-            u = plus(plus(at, times(t, turn)), cross(around, t))
-            h, along = level + dot(slope, t) + bend * dot(u, u), dot(p, u)
-            c += m * (h + along)
-            linear = plus(linear, times(cross(p, u), 2 * m))
-            square = plus(square, [m * (h - along + 2 * p[k] * u[k]) for k in range(3)])
-            mixed = plus(mixed, [2 * m * (p[k - 2] * u[k - 1] + p[k - 1] * u[k - 2]) for k in range(3)])
-        for n in range(27):
-            x, xx = [[ends[k][one][n // 3 ** k % 3] for k in range(3)] for one in (0, 1)]
-            values.append(c + dot(linear, x) + dot(square, xx) + dot(mixed, [x[k - 2] * x[k - 1] for k in range(3)]))
-    return max(values)
-
-def wrong_with(leaf, cell, q, c, bounds, part, blank, held=(), holds=ball_holds):  # with a bound for each triangle of the part
+def wrong_with(leaf, cell, q, c, bounds, part, blank, held=(), within=None, holds=ball_holds, fault=fault_of_body):  # with a bound for each triangle of the part
     forms, middle = [], [(lo + hi) / 2 for lo, hi in cell]
     def from_pivot(v): return turned(q, sub(v, c["pivot"]))
     def turn_there(v): return turned([F(1)] + middle[3:], turned(q, v))
@@ -49,11 +31,18 @@ def wrong_with(leaf, cell, q, c, bounds, part, blank, held=(), holds=ball_holds)
         if a and not holds(a, part, True): return f"part ball {i}"
         if b and not holds(b, blank, False): return f"blank ball {j}"
         f = {"part_face": i, "edges": i // 3}.get(kind)
-        if kind.startswith("point"):
+        if kind.startswith("point") or kind == "near":
             f, x, y = c["part_points"][i]
             if f != int(f) or not 0 <= f < len(part) or x < 0 or y < 0 or x + y > 1: return f"part point {i}"
             t = part[int(f)]
             a = plus(t[0], plus(times(sub(t[1], t[0]), x), times(sub(t[2], t[0]), y))) + [F(0)]
+        if kind == "near":
+            body, most = c["bodies"][j // 6], within and within[int(f)]
+            if most is None or body[12] < most or fault(body, blank): return f"body {j // 6}"
+            out = [height(m, from_pivot(a[:3]), times(n, -1), least) for n, least in sides(body)]
+            forms.append(out.pop(j % 6))
+            if any(largest([one], cell) >= 0 for one in out): return "a body that it may leave"
+            continue
         if None in (bounds if f is None else [bounds[int(f)]]): return "something that is as cast"
         beta = min(bounds) if f is None else bounds[int(f)]
         kind = kind.removeprefix("point_")
@@ -94,15 +83,16 @@ def wrong_with(leaf, cell, q, c, bounds, part, blank, held=(), holds=ball_holds)
             forms.append(over(n, -dot(n, t[0]) - ball[3] - beta, m))
             conditions = [over(times(n, -1), dot(n, t[0]) - ball[3])] + [over(times(e, -1), dot(e, v)) for e, v in feet]
             if any(largest([one], cell) > 0 for one in conditions): return "a face that it may leave"
-    most = largest(forms, cell)  # terms of datums are not below 0, and all others are above 0
-    return None if most < 0 or most == 0 and any(t[0] != "datum" for t in terms) else "a leaf proves too little"
+    most = largest(forms, cell)  # terms of datums and bodies are not below 0, and all others are above 0
+    return None if most < 0 or most == 0 and any(t[0] not in ("datum", "near") for t in terms) else "a leaf proves too little"
 
 def check(part, blank, result, certificate, features):
     part, blank, r = stl(part), stl(blank), read(result)
     c = r["certificate"] or read(certificate)["certificate"]
-    bounds, held = [r["upper_bound"]] * len(part), []
+    bounds, held, within = [r["upper_bound"]] * len(part), [], None
     if r.get("demands"):
         held, of = datums(read(features), part), demands(read(features), part, r["min_allowance"])
+        within = maxima(read(features), part)
         bounds = [one and one[0] + one[1] * r["demands"]["margin_bound"] for one in of]
     for tree in c["trees"]:
         open_ = [[tree[k] for k in AXES]]
@@ -112,7 +102,7 @@ def check(part, blank, result, certificate, features):
                 k = AXES.index(node[0])
                 if not cell[k][0] <= node[1] <= cell[k][1]: return "a split beside its box"
                 open_ += [cell[:k] + [half] + cell[k + 1:] for half in ([node[1], cell[k][1]], [cell[k][0], node[1]])]
-            elif wrong := wrong_with(node, cell, tree["quaternion"], c, bounds, part, blank, held): return wrong
+            elif wrong := wrong_with(node, cell, tree["quaternion"], c, bounds, part, blank, held, within): return wrong
         if open_: return "the tree ends early"
     return "proved"
 

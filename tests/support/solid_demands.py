@@ -40,6 +40,14 @@ def demands(file, mesh, least):
         for f in triangles_of(feature, unit, mesh): of[f] = one
     return of
 
+def maxima(file, mesh):
+    """Of each triangle how far its points may be from the blank's surface, the double nearest to it, or None."""
+    unit, of = UNITS[file.get("units", "mm")], [None] * len(mesh)
+    for feature in file.get("features", []):
+        if feature.get("maximum") is not None:
+            for f in triangles_of(feature, unit, mesh): of[f] = F(float(unit) * float(feature["maximum"]))
+    return of
+
 def datums(file, mesh):
     """Of each datum what it lies on, the double nearest to its tolerance, and its points by their numbers."""
     unit, made = UNITS[file.get("units", "mm")], []

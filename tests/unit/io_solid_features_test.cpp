@@ -69,7 +69,7 @@ TEST(SolidFeatures, APatchEndsWhereTheSurfaceBends) {
 TEST(SolidFeatures, DemandsAndUnits) {
   const auto all = found(
       R"({"units": "inch", "minimum": 0.1, "features": [
-        {"name": "a", "triangles": [0], "minimum": 2, "scale": 0.5},
+        {"name": "a", "triangles": [0], "minimum": 2, "maximum": 3, "scale": 0.5},
         {"name": "b", "box": [[-1, -1, 0.39370], [2, 1, 0.39371]]},
         {"name": "c", "triangles": [4], "as_cast": true}]})",
       block());
@@ -77,6 +77,8 @@ TEST(SolidFeatures, DemandsAndUnits) {
   ASSERT_EQ(all->size(), 3u);
   EXPECT_DOUBLE_EQ((*all)[0].demand->minimum, 50.8);
   EXPECT_EQ((*all)[0].demand->scale, 0.5);
+  EXPECT_NEAR((*all)[0].maximum.value_or(0), 76.2, 1e-12);
+  EXPECT_FALSE((*all)[1].maximum);
   EXPECT_EQ((*all)[1].triangles, (Numbers{2, 3}));
   EXPECT_EQ((*all)[1].demand, locate::SolidDemand{});
   EXPECT_FALSE((*all)[2].demand);

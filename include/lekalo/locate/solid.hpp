@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -55,6 +56,15 @@ struct SolidDatum {
   std::vector<Point> points;
 };
 
+/// A demand on the place of triangles of the part: no point of them is farther from the blank's surface, as
+/// its mesh has it, than `within`. So a face has no more allowance than that.
+struct SolidNear {
+  std::vector<std::uint32_t> triangles;
+  double within = 0;  ///< mm, > 0
+  /// Measurements may say this much more than is there; poses are looked for that leave four times that, mm.
+  [[nodiscard]] double slack() const noexcept { return std::min(0x1p-12 * within, 0x1p-10); }
+};
+
 struct SolidProblem {
   solid::Mesh part, blank;  ///< closed (solid::closed_mesh)
   SolidPose start;
@@ -78,6 +88,8 @@ struct SolidProblem {
   std::vector<std::optional<SolidDemand>> demands = {};
   /// Poses that do not keep these count for nothing.
   std::vector<SolidDatum> datums = {};
+  /// So do poses that do not keep these.
+  std::vector<SolidNear> nears = {};
 };
 
 struct SolidOptions {
@@ -103,8 +115,8 @@ struct SolidTouch {
 struct SolidPlacement {
   SolidPose pose;
   /// True if the part lies inside the blank there; else there is no clearance. With demands it is true if the
-  /// triangles that have one do so, and no surface of the blank lies in the part as a whole; and with datums
-  /// if all of them are kept, too.
+  /// triangles that have one do so, and no surface of the blank lies in the part as a whole; and if all
+  /// datums and distances are kept, too.
   bool inside = false;
   /// The least allowance at that very pose, of triangles that have a demand, mm, never above the exact one;
   /// above 0 where it is inside.
@@ -115,14 +127,17 @@ struct SolidPlacement {
   double margin = 0;
   /// No point of each datum is farther off there, mm.
   std::vector<double> off = {};
+  /// No point of the triangles of each SolidNear is farther from the blank's surface there, mm; above it by
+  /// no more than a few times its slack, unless the meshes are very fine.
+  std::vector<double> far = {};
 };
 
 struct SolidResult {
   /// It is `stopped`, too, where no pose was found inside and none has more than the gap.
   Status status = Status::stopped;
   SolidPlacement best;
-  /// No placement of the window that keeps the datums has more margin, which is the clearance without
-  /// demands; rounded up. Where none keeps them it is below all margins of poses inside.
+  /// No placement of the window that keeps datums and distances has more margin, which is the clearance
+  /// without demands; rounded up. Where none keeps them it is below all margins of poses inside.
   double upper_bound = 0;
   /// The reason why, also of a search that was stopped. Triangles are numbered as in the problem.
   SolidProof proof;

@@ -10,9 +10,8 @@ namespace lekalo::locate {
 
 /// The reason why no pose of a window has more clearance than a bound: a subdivision of the window into
 /// boxes, each with terms whose weighted sum is not above 0 anywhere in it, though each of them would be
-/// where the clearance, or with demands the margin, is above the bound. Those of datums would not be below 0
-/// where the datums are kept. docs/formats.md ("Certificate of
-/// solids") has the terms.
+/// where the clearance, or with demands the margin, is above the bound. Those of datums and distances would
+/// not be below 0 where these are kept. docs/formats.md ("Certificate of solids") has the terms.
 
 /// A ball in the part's material (part coordinates), or one whose inside has none of the blank's (blank
 /// coordinates).
@@ -38,6 +37,14 @@ struct SolidDatumPoint {
   std::uint32_t datum = 0, point = 0;
 };
 
+/// The points at + x a + y b + z c with x, y, z from 0 to 1, none of which is nearer to the blank's surface
+/// than a distance; blank coordinates.
+struct SolidBody {
+  solid::Vector at, a, b, c;
+  double apart = 0;  ///< mm
+  friend bool operator==(const SolidBody&, const SolidBody&) = default;
+};
+
 struct SolidTerm {
   enum class Kind : std::uint8_t {
     ball,         ///< a part ball and a blank ball
@@ -48,11 +55,13 @@ struct SolidTerm {
     point,        ///< a point of the part and a blank ball
     point_plane,  ///< a point of the part and a plane
     point_face,   ///< a point of the part over a triangle of the blank
-    datum         ///< a point of a datum and a direction
+    datum,        ///< a point of a datum and a direction
+    near          ///< a point of the part that is near the blank's surface, and a side of a body
   };
   Kind kind = Kind::ball;
   /// The numbers of what the term is made of, in the tables of the proof or among the triangles of a mesh.
-  /// Edge 3 f + k leads from corner k of triangle f to its next one.
+  /// Edge 3 f + k leads from corner k of triangle f to its next one; side 6 k + s of body k is x >= 0, x <=
+  /// 1, y >= 0, y <= 1, z >= 0, z <= 1.
   std::uint32_t part = 0, blank = 0;
   std::uint32_t multiplier = 0;  ///< of any scale
 };
@@ -84,6 +93,7 @@ struct SolidProof {
   std::vector<SolidDatumPoint> datum_points;
   std::vector<solid::Vector> directions;  ///< blank coordinates, of length 1 within rounding
   std::vector<SolidPlane> planes;
+  std::vector<SolidBody> bodies;
   /// They cover the window. Empty when nothing is proved.
   std::vector<SolidTree> trees;
 };

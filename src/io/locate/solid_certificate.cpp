@@ -29,6 +29,8 @@ const char* name_of(SolidTerm::Kind kind) {
       return "point_face";
     case SolidTerm::Kind::datum:
       return "datum";
+    case SolidTerm::Kind::near:
+      return "near";
     case SolidTerm::Kind::part_face:
       break;
   }
@@ -102,6 +104,11 @@ void write_solid_certificate(JsonWriter& json, const locate::SolidProof& proof, 
   balls("blank_balls", proof.blank_balls);
   json.key("planes").list_of_lines(proof.planes, 4, 2,
                                    [&](const locate::SolidPlane& p) { write(json, p.normal, p.least); });
+  if (!proof.bodies.empty())
+    json.key("bodies").list_of_lines(proof.bodies, 4, 2, [&](const locate::SolidBody& body) {
+      const auto& [at, a, b, c, apart] = body;
+      json.list({at.x, at.y, at.z, a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, apart});
+    });
   json.key("trees").list(proof.trees, [&](const SolidTree& tree) { write(json, tree, numbers); });
   json.end();
 }

@@ -62,9 +62,9 @@ class SpecReader {
 
   Result<SolidFeatureSpec> read(JsonValue json, std::size_t index) {
     where_ = fmt::format("{}, feature {}", name_, index);
-    LEKALO_CHECK(detail::expect_object(
-        json, where_,
-        {"name", "triangles", "label", "faces", "patch", "box", "plane", "minimum", "scale", "as_cast"}));
+    LEKALO_CHECK(detail::expect_object(json, where_,
+                                       {"name", "triangles", "label", "faces", "patch", "box", "plane",
+                                        "minimum", "maximum", "scale", "as_cast"}));
     SolidFeatureSpec spec;
     const auto name = json.find("name");
     if (!name || !is_word(*name)) return refuse(where_, "\"name\" must be a text");
@@ -76,10 +76,14 @@ class SpecReader {
     LEKALO_CHECK(detail::take_scale(json, where_, [&](double v) { demand.scale = v; }));
     LEKALO_TRY(const bool as_cast, take_as_cast(json, where_));
     if (!as_cast) {
+      LEKALO_CHECK(detail::take_length(json, "maximum", scale_, where_, [&](double v) { spec.maximum = v; }));
+      if (spec.maximum && !(*spec.maximum > demand.minimum))
+        return refuse(where_, fmt::format("\"maximum\" is {} mm; it must be above the minimum, {} mm",
+                                          *spec.maximum, demand.minimum));
       spec.demand = demand;
       return spec;
     }
-    for (const char* other : {"minimum", "scale"})
+    for (const char* other : {"minimum", "maximum", "scale"})
       if (json.find(other))
         return refuse(where_, fmt::format("a feature that is as cast has no \"{}\"", other));
     return spec;
@@ -507,7 +511,7 @@ Result<std::vector<SolidFeature>> find_solid_features(const SolidFeatureFile& fi
                                          features[owner[t]].name));
       owner[t] = number;
     }
-    features.push_back({spec.name, std::move(triangles), spec.demand});
+    features.push_back({spec.name, std::move(triangles), spec.demand, spec.maximum});
   }
   return features;
 }

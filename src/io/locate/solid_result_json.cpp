@@ -79,14 +79,17 @@ void write(JsonWriter& json, const SolidScanRecord& scan) {
   json.end();
 }
 
-void write(JsonWriter& json, const SolidFeature& feature) {
+void write(JsonWriter& json, const SolidFeature& feature, double largest) {
   std::optional<double> minimum, scale;
   if (feature.demand) minimum = feature.demand->minimum, scale = feature.demand->scale;
-  json.object({{"name", feature.name},
-               {"triangles", feature.triangles.size()},
-               {"minimum", minimum},
-               {"scale", scale},
-               {"as_cast", !feature.demand}});
+  json.begin_object().fields({{"name", feature.name},
+                              {"triangles", feature.triangles.size()},
+                              {"minimum", minimum},
+                              {"scale", scale},
+                              {"as_cast", !feature.demand}});
+  // Others have none, and not the words either.
+  if (feature.maximum) json.fields({{"maximum", *feature.maximum}, {"largest", largest}});
+  json.end();
 }
 
 void write(JsonWriter& json, const SolidDemandRecord& demands) {
@@ -94,7 +97,9 @@ void write(JsonWriter& json, const SolidDemandRecord& demands) {
   if (demands.margin && demands.margin_bound)
     gap = difference_rounded_up(*demands.margin_bound, *demands.margin);
   json.begin_object().field("minimum", demands.minimum);
-  list_of_lines(json.key("features"), demands.features, [&](const SolidFeature& one) { write(json, one); });
+  list_of_lines(json.key("features"), demands.features, [&](const SolidFeature& one) {
+    write(json, one, demands.largest[static_cast<std::size_t>(&one - demands.features.data())]);
+  });
   list_of_lines(json.key("datums"), demands.datums, [&](const SolidDatumRecord& one) {
     json.object({{"name", one.name}, {"within", one.within}, {"off", one.off}});
   });
@@ -166,6 +171,12 @@ void write_proof(JsonWriter& json, const SolidDocument& d) {
 }
 
 }  // namespace
+
+bool SolidDemandRecord::keeps_maxima() const noexcept {
+  for (std::size_t k = 0; k < features.size(); ++k)
+    if (features[k].maximum && largest[k] > *features[k].maximum) return false;
+  return true;
+}
 
 std::optional<double> SolidDocument::shortfall() const noexcept {
   if (!clearance) return std::nullopt;

@@ -102,6 +102,15 @@ void tell_datums(const locate::SolidPlacement& found, const SolidInputs& in, dou
     datums[k].off = difference_rounded_up(found.off[k], -decimals_lose(found, in, share));
 }
 
+/// How far points with a maximum are from the blank's surface at most; a checker that cuts triangles as
+/// coarsely sees as much.
+void tell_largest(const locate::SolidPlacement& found, const SolidInputs& in, double share,
+                  io::SolidDemandRecord& demands) {
+  for (std::size_t k = 0; k < in.near_features.size(); ++k)
+    demands.largest[in.near_features[k]] =
+        difference_rounded_up(found.far[k], -(decimals_lose(found, in, share) + in.problem.nears[k].slack()));
+}
+
 std::optional<double> safe_clearance(const locate::SolidPlacement& found, const SolidInputs& in,
                                      double share) {
   if (!found.inside) return std::nullopt;
@@ -281,6 +290,8 @@ io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&
     tell_datums(found.best, in, share, datums);
     for (const io::SolidDatumRecord& datum : datums)
       if (!datum.kept()) d.clearance.reset();
+    tell_largest(found.best, in, share, *d.demands);
+    if (!d.demands->keeps_maxima()) d.clearance.reset();
     d.demands->margin_bound = found.upper_bound;
     if (d.inside()) d.demands->margin = safe_margin(found.best, in, share);
   } else {

@@ -96,7 +96,8 @@ draw::SolidScene scene_of(const SolidLocateJob& job, const SolidInputs& in, cons
   scene.unknown_area = d.scan ? d.scan->unknown_area : 0;
   scene.upper_bound = d.upper_bound;
   if (d.demands) {
-    scene.margin = {d.demands->margin, d.demands->margin_bound, !d.demands->datums.empty()};
+    scene.margin = {d.demands->margin, d.demands->margin_bound,
+                    !d.demands->datums.empty() || !in.problem.nears.empty()};
     count_from_demands(in, part.numbers, scene);
   }
   scene.min_allowance = d.min_allowance, scene.shortfall = d.shortfall().value_or(0);

@@ -106,10 +106,28 @@ Result<void> read_features(const SolidLocateJob& job, const io::SolidFile& part,
   demands.minimum.reset();
   if (!file.as_cast) demands.minimum = std::max(job.options.min_allowance, file.minimum.value_or(0));
   LEKALO_TRY(demands.features, io::find_solid_features(file, part));
+  demands.largest.resize(demands.features.size());
   LEKALO_TRY(in.problem.datums, io::find_solid_datums(file, demands.features, part));
   for (const io::SolidDatumSpec& datum : file.datums)
     demands.datums.push_back({datum.name, datum.datum.within, 0});
   return {};
+}
+
+/// Tells which triangles that were placed have a maximum.
+void set_nears(SolidInputs& in) {
+  const auto& features = in.demands->features;
+  std::vector<std::optional<std::size_t>> feature_of(in.part.triangles);
+  for (std::size_t k = 0; k < features.size(); ++k)
+    if (features[k].maximum)
+      for (const std::uint32_t t : features[k].triangles) feature_of[t] = k;
+  std::vector<std::vector<std::uint32_t>> triangles(features.size());
+  for (std::uint32_t t = 0; t < in.part.numbers.size(); ++t)
+    if (const auto feature = feature_of[in.part.numbers[t]]) triangles[*feature].push_back(t);
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    if (triangles[k].empty()) continue;
+    in.problem.nears.push_back({std::move(triangles[k]), *features[k].maximum});
+    in.near_features.push_back(k);
+  }
 }
 
 /// Gives the triangles that were placed the demands of their features.
@@ -121,6 +139,7 @@ Result<void> set_demands(const SolidLocateJob& job, SolidInputs& in) {
   for (const io::SolidFeature& feature : in.demands->features)
     for (const std::uint32_t t : feature.triangles) of_file[t] = feature.demand;
   for (const std::uint32_t number : in.part.numbers) in.problem.demands.push_back(of_file[number]);
+  set_nears(in);
   const auto& demands = in.problem.demands;
   if (std::any_of(demands.begin(), demands.end(), [](const auto& one) { return one.has_value(); })) return {};
   return failure(ErrorCode::bad_input,

@@ -45,6 +45,8 @@ struct SolidInputs {
   std::vector<std::uint32_t> unknown;  ///< triangles of the scan that no assumption covers
   /// The demands of a file of features, without what comes of them.
   std::optional<io::SolidDemandRecord> demands;
+  /// The features of problem.nears, by their places.
+  std::vector<std::size_t> near_features;
   /// The bodies that the meshes stand for differ from them by no more than this together, mm: it is taken off
   /// clearances and added to bounds.
   [[nodiscard]] double deviation() const noexcept;

@@ -74,6 +74,21 @@ Result<void> check_datums(const std::vector<SolidDatum>& datums) {
   return {};
 }
 
+Result<void> check_nears(const SolidProblem& problem) {
+  const std::size_t triangles = problem.part.triangles.size();
+  for (const SolidNear& near : problem.nears)
+    if (near.triangles.empty() || !(near.within > 0) || !(near.within <= limits::kLargestCoordinate) ||
+        std::any_of(near.triangles.begin(), near.triangles.end(),
+                    [&](std::uint32_t t) { return t >= triangles; }))
+      return failure(
+          ErrorCode::usage,
+          fmt::format(
+              "{} triangles of the part's {} that are to be within {} mm of the blank's surface make no "
+              "sense: there must be some, all of the part, and the distance above 0 up to {:g} mm",
+              near.triangles.size(), triangles, near.within, limits::kLargestCoordinate));
+  return {};
+}
+
 }  // namespace
 
 Result<void> check(const SolidProblem& problem, const SolidOptions& options) {
@@ -112,6 +127,7 @@ Result<void> check(const SolidProblem& problem, const SolidOptions& options) {
                                problem.blank_width_error, limits::kLargestCoordinate));
   if (!problem.demands.empty()) LEKALO_CHECK(check_demands(problem));
   LEKALO_CHECK(check_datums(problem.datums));
+  LEKALO_CHECK(check_nears(problem));
   double square = 0;
   for (const double q : problem.start.quaternion) square += q * q;
   if (!(square > 1e-6) || !(square < 1e6) || !finite(problem.start.shift) ||
@@ -135,11 +151,16 @@ SolidFrame frame_of(const SolidProblem& problem) {
 
 /// Measures what the part has at its pose.
 void measure_at_pose(const SolidMeter& meter, SolidPlacement& made) {
-  const MeasuredPose there = meter.measure(motion_of(made.pose));
+  const Motion motion = motion_of(made.pose);
+  const MeasuredPose there = meter.measure(motion);
   made.inside = there.inside;
-  made.clearance = there.inside ? there.clearance : 0;
-  made.margin = there.inside ? there.margin : 0;
-  for (const SolidDatum& datum : meter.datums()) made.off.push_back(meter.off(datum, motion_of(made.pose)));
+  for (const SolidDatum& datum : meter.datums()) made.off.push_back(meter.off(datum, motion));
+  for (const NearFace& face : meter.nears()) {
+    made.far.push_back(meter.far(face, motion));
+    made.inside = made.inside && made.far.back() <= face.demand().within;
+  }
+  made.clearance = made.inside ? there.clearance : 0;
+  made.margin = made.inside ? there.margin : 0;
 }
 
 SolidPlacement placement(const SolidMeter& meter, const FramedPose& found) {

@@ -305,10 +305,53 @@ void SolidBounds::set_plane(Vector normal, KnownSolid& made) const {
   made.plane = {normal, least - blank_.error - 4 * kRounding * (blank_.tree.largest() + std::abs(least))};
 }
 
+/// A point that is to be near the blank's surface, and a body in which it is not.
+std::optional<KnownSolid> SolidBounds::away(const SolidContact& contact, const Motion& start,
+                                            const Motion& motion) const {
+  const FarPoint point =
+      NearFace::point_at(meter_.clearance().blank(), motion, contact.part, contact.demanded_triangle);
+  const double error = meter_.blank_error() + kRounding * (meter_.far() + scale_);
+  // The distance of the body is written as a decimal, which may be a little less.
+  const double apart = meter_.nears()[contact.near].demand().within * (1 + 0x1p-50);
+  const auto body = body_beside(meter_.bare_clearance(), meter_.blank_points(), point, apart, error, scale_);
+  if (!body) return std::nullopt;
+  KnownSolid made;
+  set_point(contact, start, made);
+  made.away = SolidAway{made.point->seen, made.point->loss, *body, sides_of(*body)};
+  made.point.reset();
+  return made;
+}
+
+/// The side of the body on which the point may be outside of it somewhere in the box: the only one, or that
+/// on which it is the least inside. None where there are several.
+std::optional<std::uint16_t> SolidBounds::side_in_doubt(const SolidAway& away, const CellView& cell) const {
+  std::optional<std::uint16_t> doubtful;
+  std::uint16_t lowest = 0;
+  double least = kInfinity;
+  const Vector there = cell.turned.turned(away.seen) + cell.middle.at;
+  for (std::uint16_t s = 0; s < away.sides.size(); ++s) {
+    const auto& [normal, from] = away.sides[s];
+    if (const double above = dot(normal, there) - from; above < least) least = above, lowest = s;
+    if (height(normal, away.seen, from + away.loss, cell).never_negative(cell)) continue;
+    if (doubtful) return std::nullopt;
+    doubtful = s;
+  }
+  return doubtful.value_or(lowest);
+}
+
+/// How far the point is outside of the body on one side. The bound of margins has no part in it.
+PoseForm SolidBounds::form_of(const SolidAway& away, std::uint16_t side, const CellView& cell) const {
+  const auto& [normal, least] = away.sides[side];
+  PoseForm form = height(-normal, away.seen, -least - away.loss, cell);
+  form.whole = 0;
+  return form;
+}
+
 std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const FramedPose& pose) const {
   const SolidFrame& frame = meter_.frame();
   const Motion start = motion_of({frame.start_of(pose.chart), {}}), motion = frame.motion(pose);
   if (contact.datum != kNoTriangle) return held(contact, start);
+  if (contact.near != kNoTriangle) return away(contact, start, motion);
   const Vector n = contact.normal;
   KnownSolid made;
   const auto seen = [&](Vector p) { return start.turned(p - frame.pivot); };
@@ -359,6 +402,15 @@ std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const 
 std::optional<SolidForm> SolidBounds::form(const KnownSolid& known, SolidChoice choice,
                                            const CellView& cell) const {
   if (known.held) return SolidForm{form_of(*known.held, cell), -kInfinity};
+  if (known.away) {
+    for (std::size_t s = 0; s < known.away->sides.size(); ++s) {
+      const auto& [normal, least] = known.away->sides[s];
+      if (s != choice.part &&
+          !height(normal, known.away->seen, least + known.away->loss, cell).never_negative(cell))
+        return std::nullopt;
+    }
+    return SolidForm{form_of(*known.away, choice.part, cell), -kInfinity};
+  }
   auto made = form_of_allowance(known, choice, cell);
   if (!made) return std::nullopt;
   const bool of_ball = choice.kind == SolidTerm::Kind::ball || choice.kind == SolidTerm::Kind::plane ||
@@ -410,6 +462,7 @@ std::optional<SolidForm> SolidBounds::form_of_allowance(const KnownSolid& known,
     case SolidTerm::Kind::edges:
       return lekalo::locate::form_of(*known.edges, cell);
     case SolidTerm::Kind::datum:
+    case SolidTerm::Kind::near:
     case SolidTerm::Kind::part_face:
       break;
   }
@@ -442,12 +495,19 @@ void SolidBounds::close(SolidForm& term, const CellView& cell) const {
 }
 
 std::optional<SolidRow> SolidBounds::row(const KnownSolid& known, const CellView& cell) const {
-  if (known.held) {
+  if (known.held || known.away) {
+    SolidChoice choice{known.held ? SolidTerm::Kind::datum : SolidTerm::Kind::near, 0, 0};
+    if (known.away) {
+      const auto side = side_in_doubt(*known.away, cell);
+      if (!side) return std::nullopt;
+      choice.part = *side;
+    }
     PoseForm above;
-    above.add(kDatumWeight, form_of(*known.held, cell));
+    above.add(kDatumWeight,
+              known.held ? form_of(*known.held, cell) : form_of(*known.away, choice.part, cell));
     above.constant += meter_.beyond_margins();
     above.whole = 1;
-    return SolidRow{above.tangent(cell), {SolidTerm::Kind::datum, 0, 0}, 1 / kDatumWeight};
+    return SolidRow{above.tangent(cell), choice, 1 / kDatumWeight};
   }
   const double y = cell.turn, slide = norm(cell.slide);
   const Vector at = cell.middle.at;

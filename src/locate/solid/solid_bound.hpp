@@ -35,6 +35,14 @@ struct SolidHeld {
   solid::Vector seen, direction;
 };
 
+/// A point of the part that may not be in a body far from the blank's surface.
+struct SolidAway {
+  solid::Vector seen;  ///< from the pivot and turned as at the chart's start
+  double loss = 0;     ///< it may be off by this, mm
+  SolidBody body;
+  std::vector<BodySide> sides;
+};
+
 /// A contact that was met at some pose, and what terms can be made of it. The smallest ball of each kind lies
 /// beside the point of contact itself. Which term is best depends on the box of poses.
 struct KnownSolid {
@@ -56,9 +64,11 @@ struct KnownSolid {
   std::optional<SolidEdges> edges;
   /// A contact of a datum has this, and nothing else.
   std::optional<SolidHeld> held;
+  /// One of a point that is to be near the blank's surface has its place in `on_part`, and this.
+  std::optional<SolidAway> away;
 };
 
-/// One term of a contact: numbers among its balls, where it is made of some.
+/// One term of a contact: numbers among its balls, where it is made of some; `part` is a side of its body.
 struct SolidChoice {
   SolidTerm::Kind kind = SolidTerm::Kind::plane;
   std::uint16_t part = 0, blank = 0;
@@ -123,6 +133,10 @@ class SolidBounds {
   [[nodiscard]] PoseForm form_of(const SolidHeld& held, const CellView& cell) const;
   [[nodiscard]] std::optional<SolidForm> form_of_allowance(const KnownSolid& known, SolidChoice choice,
                                                            const CellView& cell) const;
+  [[nodiscard]] std::optional<KnownSolid> away(const SolidContact& contact, const solid::Motion& start,
+                                               const solid::Motion& motion) const;
+  [[nodiscard]] std::optional<std::uint16_t> side_in_doubt(const SolidAway& away, const CellView& cell) const;
+  [[nodiscard]] PoseForm form_of(const SolidAway& away, std::uint16_t side, const CellView& cell) const;
   void close(SolidForm& term, const CellView& cell) const;
   void set_point(const SolidContact& contact, const solid::Motion& start, KnownSolid& made) const;
   [[nodiscard]] double least_margin(double allowance, const SolidDemand* demand) const;

@@ -32,20 +32,28 @@ LinearBound<6> row_of(const SolidFrame& frame, const Motion& motion, const Solid
   return {{n.x, n.y, n.z, g.x, g.y, g.z}, contact.margin()};
 }
 
-/// The contacts that were near at some pose.
+/// The finds of the poses so far.
 struct Pool {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;  ///< of triangles
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;  ///< of triangles that were near
   std::vector<SolidContact> over_planes;
+  /// Points that are to be near the blank's surface and were far from it.
+  std::vector<SolidContact> points;
 };
+constexpr std::size_t kMostPoints = 128;
 
 bool add(Pool& pool, const std::vector<SolidContact>& contacts) {
   bool added = false;
   for (const SolidContact& c : contacts) {
     const auto same = [&](const SolidContact& o) { return o.part == c.part && o.normal == c.normal; };
+    const auto same_point = [&](const SolidContact& o) { return o.near == c.near && o.part == c.part; };
     if (c.part_triangle != kNoTriangle) {
       added = pool.pairs.insert({c.part_triangle, c.blank_triangle}).second || added;
     } else if (c.of_plane && std::none_of(pool.over_planes.begin(), pool.over_planes.end(), same)) {
       pool.over_planes.push_back(c);
+      added = true;
+    } else if (c.near != kNoTriangle && pool.points.size() < kMostPoints &&
+               std::none_of(pool.points.begin(), pool.points.end(), same_point)) {
+      pool.points.push_back(c);
       added = true;
     }
   }
@@ -66,10 +74,13 @@ std::vector<LinearBound<6>> rows_at(const SolidMeter& meter, const FramedPose& p
   const Motion motion = meter.frame().motion(pose);
   std::vector<LinearBound<6>> rows;
   for (const SolidContact& contact : contacts)
-    if (contact.part_triangle == kNoTriangle && !contact.of_plane)
+    if (contact.part_triangle == kNoTriangle && !contact.of_plane && contact.near == kNoTriangle)
       rows.push_back(row_of(meter.frame(), motion, contact));
   for (const SolidContact& contact : pool.over_planes)
     rows.push_back(row_of(meter.frame(), motion, SolidMeter::over_plane(motion, contact)));
+  for (const SolidContact& met : pool.points)
+    if (const auto contact = meter.near_contact(motion, met.near, met.part, met.demanded_triangle))
+      rows.push_back(row_of(meter.frame(), motion, *contact));
   for (const auto& [part, blank] : pool.pairs) {
     const SolidContact contact = meter.contact(motion, part, blank);
     if (contact.directed() && (inside || on_the_inner_side(meter.blank(), contact)))
@@ -181,7 +192,7 @@ MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trus
   Lead lead{from};
   const RunControl nobody;
   std::optional<Listening> to_the_end;
-  if (meter.datums().empty() && !meter.convex()) {
+  if (meter.datums().empty() && meter.nears().empty() && !meter.convex()) {
     lead = led_up(meter, from, kGlancedGain * enough, run, trust, pool, work);
     // They were told of, so there has to be something to show.
     to_the_end.emplace(nobody);
@@ -242,7 +253,7 @@ std::vector<SolidTouch> holding_contacts(const SolidMeter& meter, const Measured
   const LinearSolution<6> solution = solve_cell(rows, frame.trusted(within));
   for (std::size_t j = 0; j < solution.rows; ++j) {
     const SolidContact& c = contacts[solution.row[j]];
-    if (c.datum != kNoTriangle) continue;
+    if (c.of_place()) continue;
     touches.push_back(
         {c.part_triangle, c.blank_triangle, c.part, c.blank, c.distance, solution.multiplier[j]});
   }

@@ -34,6 +34,15 @@ constexpr double kNoDirection = 0x1p-40;
 constexpr std::size_t kDatumPoints = 8, kDirections = 16;
 /// A datum is aimed at within this part of its tolerance, so that steps along it do not leave it.
 constexpr double kAimed = 1 - 1.0 / 1024;
+/// So many points of a face are looked at to see if it is near enough; and to say how near it is where a pose
+/// was chosen.
+constexpr std::size_t kLooked = 20'000, kLookedAtLast = 2'000'000;
+/// So many of them are contacts, none of which is nearer to the blank's surface than this part of what is
+/// allowed.
+constexpr std::size_t kNearPoints = 6;
+constexpr double kFarEnough = 0.5;
+/// They are chosen of so many.
+constexpr std::size_t kMostNearPlaces = 512;
 /// Distances of datums are rounded by less than this part of the coordinates.
 constexpr double kDatumRounding = 0x1p-44;
 /// The square root of 3, rounded up: how far a point is off at most for each of its coordinates.
@@ -151,7 +160,8 @@ SolidMeter::SolidMeter(const SolidProblem& problem, const SolidFrame& frame, uns
       part_error_(kDiagonal * problem.part_coordinate_error),
       blank_error_(kDiagonal * problem.blank_coordinate_error),
       width_error_(problem.blank_width_error) {
-  if (problem.blank_widths.empty() && problem.demands.empty() && problem.datums.empty())
+  if (problem.blank_widths.empty() && problem.demands.empty() && problem.datums.empty() &&
+      problem.nears.empty())
     convex_ = ConvexBlank::of(problem.blank, clearance_.blank());
   sort_by_demand();
   of_part_ = samples_of_part();
@@ -163,6 +173,7 @@ SolidMeter::SolidMeter(const SolidProblem& problem, const SolidFrame& frame, uns
   }
   far_ = 2 * (clearance_.part().largest() + clearance_.blank().largest()) + norm(frame.window.middle().at) +
          norm(frame.window.half().at);
+  for (const SolidNear& near : problem.nears) nears_.emplace_back(near, part_);
   prepare_datums();
 }
 
@@ -176,6 +187,8 @@ void SolidMeter::prepare_datums() {
     far = std::max({far, norm(datum.at), datum.within});
   }
   for (const SolidDemand& demand : demands_) least_scale = std::min(least_scale, demand.scale);
+  if (!nears_.empty() && !widths_.empty()) bare_.emplace(part_, blank_);
+  if (!nears_.empty()) blank_points_ = solid::surface_points(blank_);
   datum_loss_ = part_error_ + kDatumRounding * far;
   beyond_margins_ = far_ / least_scale;
 }
@@ -217,6 +230,53 @@ void SolidMeter::add_datums(const Motion& motion, std::vector<SolidContact>& con
     for (const std::size_t k : of_datum_[d])
       if (k != farthest) add(k);
   }
+}
+
+double SolidMeter::far(const NearFace& face, const Motion& motion) const {
+  return face.at(clearance_.blank(), motion, 0, kLookedAtLast).high + datum_loss_ + blank_error_;
+}
+
+std::optional<SolidContact> SolidMeter::contact_of(std::uint32_t near, const FarPoint& point) const {
+  const SolidNear& demand = nears_[near].demand();
+  const Vector way = point.placed - point.blank;
+  const double length = norm(way);
+  if (!(length > kFarEnough * demand.within) || !(length > kNoDirection * far_)) return std::nullopt;
+  const double aim =
+      demand.within - 4 * demand.slack() - datum_loss_ - blank_error_ - beyond_margins_ / kDatumWeight;
+  SolidContact made{point.part, point.blank, -kDatumWeight / length * way, 0, kNoTriangle, kNoTriangle};
+  made.distance = beyond_margins_ + kDatumWeight * (aim - point.far);
+  made.demanded_triangle = point.triangle;
+  made.near = near;
+  return made;
+}
+
+std::optional<SolidContact> SolidMeter::near_contact(const Motion& motion, std::uint32_t near, Vector part,
+                                                     std::uint32_t triangle) const {
+  return contact_of(near, NearFace::point_at(clearance_.blank(), motion, part, triangle));
+}
+
+/// Adds the contacts of those points that are to be near the blank's surface and are the farthest from it.
+/// Returns by how much they are too far, altogether.
+double SolidMeter::add_nears(const Motion& motion, std::vector<SolidContact>& contacts) const {
+  double beyond = 0;
+  for (std::uint32_t k = 0; k < nears_.size(); ++k) {
+    const double within = nears_[k].demand().within, lost = datum_loss_ + blank_error_;
+    Farthest found = nears_[k].at(clearance_.blank(), motion, within - lost, kLooked);
+    // Once a point is known to be too far, the bound of the others is worth nothing.
+    const bool too_far = found.low + lost > within;
+    beyond += std::max(0.0, (too_far ? found.low : found.high) + lost - within);
+    auto& points = found.points;
+    std::stable_sort(points.begin(), points.end(),
+                     [](const FarPoint& a, const FarPoint& b) { return a.far > b.far; });
+    // The farthest, and of those that are about as far some that lie apart from each other.
+    const double least = std::min(within, points.front().far) - 0.25 * within;
+    std::vector<Vector> places;
+    for (const FarPoint& point : points)
+      if (point.far > least && places.size() < kMostNearPlaces) places.push_back(point.part);
+    for (const std::size_t at : spread(places, kNearPoints))
+      if (const auto made = contact_of(k, points[at])) contacts.push_back(*made);
+  }
+  return beyond;
 }
 
 void SolidMeter::sort_by_demand() {
@@ -342,7 +402,9 @@ MeasuredSolid SolidMeter::measure_pairs(const FramedPose& pose, double most, std
     const SolidContact made = contact(motion, pair);
     if (made.directed()) contacts.push_back(made);
   }
-  measured.inside = apart > 0 && inside(motion);
+  std::vector<SolidContact> of_nears;
+  const double too_far = add_nears(motion, of_nears);
+  measured.inside = apart > 0 && !(too_far > 0) && inside(motion);
   if (!measured.inside) {
     std::vector<SolidContact> crossing;
     for (const Sample& sample : of_part_)
@@ -352,8 +414,9 @@ MeasuredSolid SolidMeter::measure_pairs(const FramedPose& pose, double most, std
     add_crossings(motion, pairs, std::move(crossing), contacts);
     measured.value = -kNoDirection * far_;
     for (const SolidContact& made : contacts) measured.value = std::min(measured.value, made.margin());
-    measured.value -= beyond_datums(motion);
+    measured.value -= beyond_datums(motion) + too_far;
   }
+  contacts.insert(contacts.end(), of_nears.begin(), of_nears.end());
   add_datums(motion, contacts);
   return measured;
 }

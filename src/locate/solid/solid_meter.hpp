@@ -6,6 +6,7 @@
 #include "convex_blank.hpp"
 #include "lekalo/solid/mesh_clearance.hpp"
 #include "solid_frame.hpp"
+#include "solid_near.hpp"
 
 namespace lekalo::locate {
 
@@ -32,6 +33,10 @@ struct SolidContact {
   std::uint32_t datum = kNoTriangle, datum_point = 0;
   /// True of a face of a convex blank: the distance is the height over its plane, at any pose.
   bool of_plane = false;
+  /// The same of a point that is to be near the blank's surface: the number of the SolidNear.
+  std::uint32_t near = kNoTriangle;
+  /// Says if it is of the place of the part, and not of its allowance.
+  [[nodiscard]] bool of_place() const { return datum != kNoTriangle || near != kNoTriangle; }
   [[nodiscard]] double margin() const { return (distance - demand.minimum) / demand.scale; }
   /// False where the two points are too near to each other to give a normal.
   [[nodiscard]] bool directed() const { return !(normal == solid::Vector{}); }
@@ -49,7 +54,8 @@ struct MeasuredSolid {
   }
 };
 
-/// The least allowance and the least margin at one pose, whatever the coordinates may be off.
+/// The least allowance and the least margin at one pose, whatever the coordinates may be off; inside, but for
+/// what is to be near the blank's surface.
 struct MeasuredPose {
   double clearance = 0, margin = 0;
   bool inside = false;
@@ -89,6 +95,12 @@ class SolidMeter {
   /// The one that asks for the least allowance at a margin.
   [[nodiscard]] const SolidDemand& least_demand(double margin) const;
   [[nodiscard]] const std::vector<SolidDatum>& datums() const noexcept { return datums_; }
+  [[nodiscard]] const std::vector<NearFace>& nears() const noexcept { return nears_; }
+  /// The clearance of the blank's mesh, whatever its widths; and points of each of its surfaces.
+  [[nodiscard]] const solid::MeshClearance& bare_clearance() const noexcept {
+    return bare_ ? *bare_ : clearance_;
+  }
+  [[nodiscard]] const std::vector<solid::Vector>& blank_points() const noexcept { return blank_points_; }
   /// A datum's distances may be off by this, mm; and no margin is larger than that.
   [[nodiscard]] double datum_loss() const noexcept { return datum_loss_; }
   [[nodiscard]] double beyond_margins() const noexcept { return beyond_margins_; }
@@ -113,6 +125,12 @@ class SolidMeter {
   [[nodiscard]] MeasuredPose measure(const solid::Motion& motion) const;
   /// How far the points of a datum are off at a pose at most, mm.
   [[nodiscard]] double off(const SolidDatum& datum, const solid::Motion& motion) const;
+  /// No point of a SolidNear is farther from the blank's surface at a pose, mm.
+  [[nodiscard]] double far(const NearFace& face, const solid::Motion& motion) const;
+  /// The contact of a point that is to be near the blank's surface, or none where it is far from being too
+  /// far.
+  [[nodiscard]] std::optional<SolidContact> near_contact(const solid::Motion& motion, std::uint32_t near,
+                                                         solid::Vector part, std::uint32_t triangle) const;
   /// How far some points of either surface are on the wrong side of the other, all together, mm: a quick
   /// word on how a pose compares with others.
   [[nodiscard]] double misfit(const solid::Motion& motion) const;
@@ -152,6 +170,8 @@ class SolidMeter {
   void prepare_datums();
   void add_datums(const solid::Motion& motion, std::vector<SolidContact>& contacts) const;
   [[nodiscard]] double beyond_datums(const solid::Motion& motion) const;
+  [[nodiscard]] double add_nears(const solid::Motion& motion, std::vector<SolidContact>& contacts) const;
+  [[nodiscard]] std::optional<SolidContact> contact_of(std::uint32_t near, const FarPoint& point) const;
   [[nodiscard]] std::vector<Sample> samples_of_part() const;
   void cut_in_patches();
   [[nodiscard]] std::vector<solid::NearPair> nearest(const solid::Motion& motion, double most,
@@ -188,6 +208,9 @@ class SolidMeter {
   /// Some points of each datum, spread over all.
   std::vector<std::vector<std::size_t>> of_datum_;
   double datum_loss_ = 0, beyond_margins_ = 0;
+  std::vector<NearFace> nears_;
+  std::optional<solid::MeshClearance> bare_;  ///< where the blank has widths and something is to be near it
+  std::vector<solid::Vector> blank_points_;
   /// Vertices spread over the surfaces.
   std::vector<Sample> of_part_;
   std::vector<solid::Vector> of_blank_;

@@ -145,8 +145,11 @@ void SolidSearch::bound(Node& node, Found& found) const {
   const auto is_in_the_way = [&](const FramedPose& at) {
     const CellView there(meter_, {at, at});
     const double had = best_.inside ? best_.value : meter_.floor();
+    // Rows of the place do not count: a program is highest where they are left by as much as boxes are bent.
     for (std::size_t k = 0; k < rows.size(); ++k)
-      if (bounds_.level(known(of_row[k]), rows[k].choice, there) <= had) return true;
+      if (rows[k].choice.kind != SolidTerm::Kind::near &&
+          bounds_.level(known(of_row[k]), rows[k].choice, there) <= had)
+        return true;
     return false;
   };
   // Makes known what lowers the program where it is highest. Returns how many do.
@@ -156,7 +159,7 @@ void SolidSearch::bound(Node& node, Found& found) const {
     std::size_t added = 0;
     for (const SolidContact& contact : contacts) {
       if (added == kMostNew) break;
-      if (contact.datum != kNoTriangle && contact.margin() > solution.bound) continue;
+      if (contact.of_place() && contact.margin() > solution.bound) continue;
       auto made = bounds_.known(contact, pose);
       if (!made) continue;
       const auto row = bounds_.row(*made, view);
@@ -179,7 +182,7 @@ void SolidSearch::bound(Node& node, Found& found) const {
       double all = 0;
       for (std::size_t j = 0; j < solution.rows; ++j)
         all += shares[j] = solution.multiplier[j] / rows[solution.row[j]].scale;
-      if (!meter_.has_demands() && meter_.datums().empty()) all = 1;
+      if (!meter_.has_demands() && meter_.datums().empty() && meter_.nears().empty()) all = 1;
       for (std::size_t j = 0; j < solution.rows; ++j)
         if (const double share = std::round(kWhole * shares[j] / all); share > 0)
           terms.push_back(
@@ -363,6 +366,7 @@ SolidProof SolidSearch::proof() const {
   using Kind = SolidTerm::Kind;
   using Key = std::array<double, 4>;
   std::map<Key, std::uint32_t> part, points, blank, planes, datum_points, directions;
+  std::map<std::array<double, 13>, std::uint32_t> bodies;
   const auto place = [](std::map<Key, std::uint32_t>& places, auto& table, const auto& one, Vector v,
                         double number) {
     const auto [at, added] =
@@ -384,6 +388,19 @@ SolidProof SolidSearch::proof() const {
         const SolidDatumPoint in_file{at.datum, meter_.datums()[at.datum].points[at.point].number};
         written.part = place(datum_points, made.datum_points, in_file, numbers, 0);
         written.blank = place(directions, made.directions, u, u, 0);
+        return written;
+      }
+      case Kind::near: {
+        const SolidPoint& at = known.on_part;
+        const SolidBody& body = known.away->body;
+        std::array<double, 13> numbers{body.apart};
+        std::size_t next = 1;
+        for (const Vector v : {body.at, body.a, body.b, body.c})
+          for (const double Vector::*axis : kAxes) numbers[next++] = v.*axis;
+        const auto [row, added] = bodies.try_emplace(numbers, static_cast<std::uint32_t>(made.bodies.size()));
+        if (added) made.bodies.push_back(body);
+        written.part = place(points, made.part_points, at, {static_cast<double>(at.triangle), at.u, at.v}, 0);
+        written.blank = 6 * row->second + term.choice.part;
         return written;
       }
       case Kind::part_face:

@@ -118,10 +118,11 @@ constexpr Known kSolidContacts[] = {{"part_point"},     {"blank_point"}, {"part_
                                     {"blank_triangle"}, {"distance"},    {"multiplier"}};
 constexpr Known kSolidTrees[] = {{"quaternion"}, {"x"},      {"y"},      {"z"},
                                  {"turn_x"},     {"turn_y"}, {"turn_z"}, {"nodes"}};
-constexpr Known kSolidCertificate[] = {{"pivot"},        {"part_balls"},        {"part_points"},
-                                       {"datum_points"}, {"directions"},        {"blank_balls"},
-                                       {"planes"},       {"trees", kSolidTrees}};
-constexpr Known kSolidFeatures[] = {{"name"}, {"triangles"}, {"minimum"}, {"scale"}, {"as_cast"}};
+constexpr Known kSolidCertificate[] = {{"pivot"},        {"part_balls"}, {"part_points"},
+                                       {"datum_points"}, {"directions"}, {"blank_balls"},
+                                       {"planes"},       {"bodies"},     {"trees", kSolidTrees}};
+constexpr Known kSolidFeatures[] = {{"name"},  {"triangles"}, {"minimum"}, {"maximum"},
+                                    {"scale"}, {"as_cast"},   {"largest"}};
 constexpr Known kSolidDatums[] = {{"name"}, {"within"}, {"off"}};
 constexpr Known kSolidDemands[] = {
     {"minimum"},   {"features", kSolidFeatures}, {"datums", kSolidDatums}, {"margin"}, {"margin_bound"},

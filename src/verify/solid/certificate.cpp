@@ -79,8 +79,8 @@ class TreeCheck {
  private:
   static constexpr std::array<std::string_view, 6> kAxes{"x", "y", "z", "turn_x", "turn_y", "turn_z"};
   /// In the order of LeafTerm::Kind.
-  static constexpr std::array<std::string_view, 9> kKinds{
-      "ball", "plane", "face", "part_face", "edges", "point", "point_plane", "point_face", "datum"};
+  static constexpr std::array<std::string_view, 10> kKinds{
+      "ball", "plane", "face", "part_face", "edges", "point", "point_plane", "point_face", "datum", "near"};
 
   /// The ends of a box, by their places among all ends: a split has one, which many boxes share.
   struct Cell {
@@ -189,6 +189,8 @@ class TreeCheck {
         return index(value, tables_.planes());
       case LeafTerm::Kind::datum:
         return index(value, tables_.directions());
+      case LeafTerm::Kind::near:
+        return index(value, 6 * tables_.bodies());
       default:
         return index(value, tables_.blank_balls());
     }
@@ -202,6 +204,10 @@ class TreeCheck {
     term.blank = static_cast<std::uint32_t>(of_blank);
     if (kind == LeafTerm::Kind::datum) {
       if (hold(term)) terms_.push_back(std::move(term));
+      return;
+    }
+    if (kind == LeafTerm::Kind::near) {
+      if (keep_off(term)) terms_.push_back(std::move(term));
       return;
     }
     bool holds = true;
@@ -236,6 +242,25 @@ class TreeCheck {
     HeldPoint& held = term.held.emplace();
     held = {*point->place, datum.through, {}, {Fraction(datum.within), just(datum.within)}};
     for (std::size_t axis = 0; axis < 3; ++axis) held.direction[axis] = {u[axis], enclosed(u[axis])};
+    return true;
+  }
+
+  /// Gives the term of a point that is to be near the blank's surface the body in which it is not.
+  bool keep_off(LeafTerm& term) {
+    const PartPoint* const point = tables_.part_point(term.part);
+    const FarBody* const body = tables_.body(term.blank / 6);
+    if (point == nullptr || body == nullptr) return false;
+    const double within =
+        bounds_ == nullptr || bounds_->within.empty() ? kInfinity : bounds_->within[point->triangle];
+    if (!(within < kInfinity) || body->apart < Fraction(within)) {
+      findings_.push_back(fmt::format(
+          "{} has a body {} mm off the blank's surface, and the part's triangle {} may be {} from it", name(),
+          verify::nearest(body->apart), frame_.part.numbers[point->triangle],
+          within < kInfinity ? fmt::format("{} mm", within) : "anyhow far"));
+      return false;
+    }
+    term.part_ball = &point->ball;
+    term.body = body;
     return true;
   }
 

@@ -19,6 +19,9 @@ struct PartBounds {
   std::vector<std::uint32_t> of;
   /// The place of the least one; none where something is as cast.
   std::optional<std::uint32_t> least;
+  /// No point of each triangle may be farther from the blank's surface, mm; infinite where it may. Empty
+  /// where all may.
+  std::vector<double> within;
 };
 
 /// The proof that no pose of a window has more clearance than a bound: a subdivision of a box of poses around

@@ -210,9 +210,8 @@ class LeafProof {
       if (all == Answer::no) return all;
       for (std::size_t k = before; k < forms.size(); ++k) forms[k].weight = as<Number>(term.multiplier);
     }
-    const bool of_datums =
-        std::ranges::all_of(terms_, [](const LeafTerm& term) { return term.kind == LeafTerm::Kind::datum; });
-    return std::min(all, of_datums ? cell_.everywhere_negative(forms) : cell_.nowhere_positive(forms));
+    const bool of_place = std::ranges::all_of(terms_, [](const LeafTerm& term) { return term.of_place(); });
+    return std::min(all, of_place ? cell_.everywhere_negative(forms) : cell_.nowhere_positive(forms));
   }
 
  private:
@@ -240,6 +239,8 @@ class LeafProof {
         return add_part_face(term, forms);
       case LeafTerm::Kind::datum:
         return add_datum(*term.held, forms);
+      case LeafTerm::Kind::near:
+        return add_near(term, forms);
       case LeafTerm::Kind::edges:
         break;
     }
@@ -272,6 +273,24 @@ class LeafProof {
     form.level = number<Number>(0) - as<Number>(term.plane->level) * inverse - as<Number>(a.radius) - bound;
     forms.push_back(std::move(form));
     return Answer::yes;
+  }
+
+  Answer add_near(const LeafTerm& term, std::vector<Form<Number>>& forms) const {
+    const Point p = turned(as<Number>(term.part_ball->centre) - pivot_);
+    const std::size_t side = term.blank % 6;
+    Answer all = Answer::yes;
+    for (std::size_t s = 0; s < 6; ++s) {
+      const FarBody::Side& one = term.body->sides[s];
+      const Point n = point(one.normal);
+      const Number scale = inverse_length(n, false);
+      Form<Number> form{p, negative(n) * scale};
+      form.slope = form.from, form.level = value(one.level) * scale;
+      if (s == side)
+        forms.push_back(std::move(form));
+      else
+        all = std::min(all, cell_.everywhere_negative(std::vector<Form<Number>>{std::move(form)}));
+    }
+    return all;
   }
 
   Answer add_datum(const HeldPoint& held, std::vector<Form<Number>>& forms) const {
@@ -377,6 +396,14 @@ class LeafProof {
   static Point point(const Near3& p) {
     return {number<Number>(p[0]), number<Number>(p[1]), number<Number>(p[2])};
   }
+
+  static Number value(const Fraction& exact) {
+    if constexpr (std::is_same_v<Number, Span>)
+      return enclosed(exact);
+    else
+      return exact;
+  }
+  static Point point(const Exact3& p) { return {value(p[0]), value(p[1]), value(p[2])}; }
 
   static bool has_area(const Facet<Span>& /*face*/) { return true; }
   static bool has_area(const Facet<Fraction>& face) { return sgn(dot(face.normal, face.normal)) != 0; }

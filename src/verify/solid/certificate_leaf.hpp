@@ -28,12 +28,14 @@ struct LeafTerm {
     point,
     point_plane,
     point_face,
-    datum
+    datum,
+    near
   };
   Kind kind = Kind::ball;
   const Ball* part_ball = nullptr;
   const Ball* blank_ball = nullptr;
   const HalfSpace* plane = nullptr;
+  const FarBody* body = nullptr;
   /// The number of a triangle or an edge of either mesh. Edge 3 f + k leads from corner k of triangle f to
   /// its next one.
   std::uint32_t part{}, blank{};
@@ -42,6 +44,8 @@ struct LeafTerm {
   const Both* bound = nullptr;
   /// There is one in a term of a datum, which has neither a bound nor a side of part and blank.
   std::optional<HeldPoint> held = std::nullopt;
+  /// Says whether it is of the place of the part alone, so that it may be 0 where poses count.
+  [[nodiscard]] bool of_place() const { return kind == Kind::datum || kind == Kind::near; }
 };
 
 /// The leaves of one tree have this in common. The placed part is T p = R(x) turn (p - pivot) + t.
@@ -69,8 +73,12 @@ struct LeafFrame {
 ///   point:      as a ball. It lies on the part's surface, and that needs no condition.
 ///   datum:      within |u| - u . (T p - q). It is not below 0 where the datum is kept, and no pose without
 ///               that counts.
-/// So their sum with the multipliers is above 0, and it is shown not to be; or, where all are of datums, not
-/// below 0, and it is shown to be. With |w| <= (|w|^2 + l^2) / 2 l
+///   near:       how far T p is outside of a body on one of its sides. On all others it is shown to be
+///   inside.
+///               As it is not inside on all of them where its distance from the blank's surface is kept, this
+///               is not below 0, and no pose without that counts.
+/// So their sum with the multipliers is above 0, and it is shown not to be; or, where all are of datums and
+/// bodies, not below 0, and it is shown to be. With |w| <= (|w|^2 + l^2) / 2 l
 /// for a ball, and times 1 + |x|^2, the sum is a polynomial of degree 2 in x, convex in t: it is nowhere
 /// above the largest of its 27 Bernstein coefficients at the eight corners of the box of t. Spans decide that
 /// nearly always, and else fractions.

@@ -184,6 +184,8 @@ CertificateTables::CertificateTables(Json certificate, const SolidMesh& part, co
     read<2>(points, "datum_points", false, datum_points_, complaint);
   if (const Json directions = fields.get("directions"); !directions.text.empty())
     read<3>(directions, "directions", false, directions_, complaint);
+  if (const Json bodies = fields.get("bodies"); !bodies.text.empty())
+    read<13>(bodies, "bodies", false, bodies_, complaint);
 }
 
 template <std::size_t Count, class Thing>
@@ -240,6 +242,13 @@ const HalfSpace* CertificateTables::plane(std::size_t number) {
 const PartPoint* CertificateTables::part_point(std::size_t number) {
   return look(part_points_[number], "part_points", number,
               [&](Json written, PartPoint& point) { return fault_of_point(part_.mesh(), written, point); });
+}
+
+const FarBody* CertificateTables::body(std::size_t number) {
+  return look(bodies_[number], "bodies", number, [&](Json written, FarBody& body) {
+    std::string none;
+    return fault_of_body(blank_, *numbers_of<13>(written, none, [] { return std::string(); }), body);
+  });
 }
 
 const DatumPoint* CertificateTables::datum_point(std::size_t number) {

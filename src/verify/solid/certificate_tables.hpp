@@ -8,6 +8,7 @@
 
 #include "placed_solid.hpp"
 #include "solid_datum.hpp"
+#include "solid_near.hpp"
 #include "solid_number.hpp"
 #include "verify/read/json.hpp"
 
@@ -52,6 +53,7 @@ class CertificateTables {
   [[nodiscard]] std::size_t part_points() const { return part_points_.size(); }
   [[nodiscard]] std::size_t datum_points() const { return datum_points_.size(); }
   [[nodiscard]] std::size_t directions() const { return directions_.size(); }
+  [[nodiscard]] std::size_t bodies() const { return bodies_.size(); }
 
   /// A ball in the closed material of the part; nothing, and once a finding, where it is not that.
   [[nodiscard]] const Ball* part_ball(std::size_t number);
@@ -63,6 +65,8 @@ class CertificateTables {
   [[nodiscard]] const DatumPoint* datum_point(std::size_t number);
   /// Any three numbers.
   [[nodiscard]] const Both3* direction(std::size_t number);
+  /// A body that stays away from the blank's surface.
+  [[nodiscard]] const FarBody* body(std::size_t number);
   /// A half-space that holds the blank.
   [[nodiscard]] const HalfSpace* plane(std::size_t number);
 
@@ -89,6 +93,7 @@ class CertificateTables {
   std::vector<Row<PartPoint>> part_points_;
   std::vector<Row<DatumPoint>> datum_points_;
   std::vector<Row<Both3>> directions_;
+  std::vector<Row<FarBody>> bodies_;
 };
 
 /// Returns a whole number from 0 to below a count, or nothing where it is none.

@@ -14,6 +14,7 @@
 #include "scan_widths.hpp"
 #include "solid_document.hpp"
 #include "solid_features.hpp"
+#include "solid_near.hpp"
 #include "solid_number.hpp"
 #include "solid_window.hpp"
 #include "touch_widths.hpp"
@@ -72,7 +73,7 @@ class SolidCheck {
         check_clearance(pair);
       else if (demands_)
         LEKALO_CHECK(check_margin(pair, *part, *blank));
-      if (demands_) check_datums(*blank);
+      if (demands_) check_datums(*blank), check_nears(*part, *blank);
       check_contacts(pair, *part, *blank);
       if (has_certificate && bound() && demands_.has_value() == d_.demands.has_value())
         LEKALO_CHECK(check_certificate(certificate, *part, *blank));
@@ -112,7 +113,9 @@ class SolidCheck {
   void check_clearance(const SolidPair& pair);
   Result<void> check_margin(const SolidPair& pair, const SolidMesh& part, const SolidMesh& blank);
   void check_datums(const SolidMesh& blank);
+  void check_nears(const SolidMesh& part, const SolidMesh& blank);
   [[nodiscard]] bool keeps_datums() const;
+  [[nodiscard]] bool keeps_maxima() const;
   [[nodiscard]] std::optional<SolidDemand> demand_of(std::size_t feature) const;
   [[nodiscard]] PartBounds bounds_of(const SolidMesh& part) const;
   void check_contacts(const SolidPair& pair, const SolidMesh& part, const SolidMesh& blank);
@@ -200,6 +203,7 @@ Result<void> SolidCheck::read_demands(const SolidReading& part) {
   if (said.features.size() != is.features.size()) {
     find("demands.features has {} features, but {} has {}", said.features.size(), inputs_.features->name,
          is.features.size());
+    demands_.reset();
     return {};
   }
   for (std::size_t k = 0; k < is.features.size(); ++k) {
@@ -207,6 +211,10 @@ Result<void> SolidCheck::read_demands(const SolidReading& part) {
     const WrittenSolidDemands::Feature& one = said.features[k];
     std::optional<double> minimum, scale;
     if (feature.demand) minimum = feature.demand->minimum, scale = feature.demand->scale;
+    if (!same(one.maximum, feature.within))
+      find("demands.features[{}] has the maximum {}, but {} says {}", k,
+           told(one.maximum ? std::optional(approximate(*one.maximum)) : std::nullopt),
+           inputs_.features->name, told(feature.within));
     if (one.name != feature.name || one.triangles != feature.triangles || !same(one.minimum, minimum) ||
         !same(one.scale, scale) || one.as_cast == feature.demand.has_value())
       find("demands.features[{}] is not what {} says: \"{}\" has {} triangles{}", k, inputs_.features->name,
@@ -221,6 +229,47 @@ bool SolidCheck::keeps_datums() const {
   for (std::size_t k = 0; k < demands_->datums.size(); ++k)
     if (to_fraction(d_.demands->datums[k].off) > Fraction(demands_->datums[k].within)) return false;
   return true;
+}
+
+/// Says the same of maxima.
+bool SolidCheck::keeps_maxima() const {
+  for (std::size_t k = 0; k < demands_->features.size(); ++k) {
+    const auto& within = demands_->features[k].within;
+    const auto& largest = d_.demands->features[k].largest;
+    if (within && largest && to_fraction(*largest) > Fraction(*within)) return false;
+  }
+  return true;
+}
+
+/// Holds how far the points of features with a maximum are said to be from the blank's surface against them.
+void SolidCheck::check_nears(const SolidMesh& part, const SolidMesh& blank) {
+  /// More than this part of the maximum is no largest allowance any more.
+  constexpr double kSlack = 1.0 / 32;
+  const PlacedSolid placed(part, SolidMotion(d_.pose)), around(blank);
+  for (std::size_t k = 0; k < demands_->features.size(); ++k) {
+    const SolidFeature& feature = demands_->features[k];
+    const auto& largest = d_.demands->features[k].largest;
+    if (!feature.within || !largest) continue;
+    std::vector<std::uint32_t> triangles;
+    for (std::uint32_t t = 0; t < part.triangles.size(); ++t)
+      if (demands_->feature_of[part.numbers[t]] == k + 1) triangles.push_back(t);
+    if (triangles.empty()) continue;
+    const Span said = enclosed(*largest);
+    // A maximum far below all distances is not worth a search to its last digits.
+    const double slack = kSlack * std::max(*feature.within, 0x1p-10 * said.low);
+    const FarthestOf is = farthest_of(placed, triangles, around, said.low, slack / 16);
+    if (is.low > said.low || said.high > is.high + slack) {
+      find("feature \"{}\": its largest allowance is said to be {}, but it is {}", feature.name, said.low,
+           is.low > said.low ? is.low : is.high);
+    } else if (is.open) {
+      open_ = true;
+      note(fmt::format(
+          "feature \"{}\": its largest allowance was not rechecked to the end, for the meshes are "
+          "too fine",
+          feature.name));
+    }
+  }
+  if (d_.inside && !keeps_maxima()) find("inside is true, but a maximum is not kept");
 }
 
 /// Holds how far the part is said to be off its datums against its points.
@@ -444,7 +493,7 @@ Result<void> SolidCheck::check_margin(const SolidPair& pair, const SolidMesh& pa
   }
   if (!any) find("all of the part is as cast, so that there is no margin");
   if (!d_.inside) {
-    if (!fault && keeps_datums())
+    if (!fault && keeps_datums() && keeps_maxima())
       find("inside is false, but all of the part that is not as cast lies in the blank");
     return {};
   }
@@ -472,6 +521,11 @@ PartBounds SolidCheck::bounds_of(const SolidMesh& part) const {
     if (!made.least || made.bounds[feature].exact < made.bounds[*made.least].exact) made.least = feature;
   }
   if (as_cast) made.least.reset();
+  for (const std::uint32_t number : part.numbers) {
+    const std::uint32_t feature = demands_->feature_of[number];
+    made.within.push_back(feature == 0 ? kInfinity
+                                       : demands_->features[feature - 1].within.value_or(kInfinity));
+  }
   return made;
 }
 

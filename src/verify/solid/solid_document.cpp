@@ -172,6 +172,11 @@ class Reader {
       of.require({"minimum", "scale"});
       demands.features.push_back({of.text("name"), of.index("triangles"), of.number_or_null("minimum"),
                                   of.number_or_null("scale"), truth(of, "as_cast")});
+      if (of.get("maximum").text.empty() != of.get("largest").text.empty())
+        of.complain(fmt::format("field {} has one of a maximum and a largest allowance", path));
+      if (of.get("maximum").text.empty()) return;
+      demands.features.back().maximum = length(of, "maximum");
+      demands.features.back().largest = length(of, "largest");
     });
     fields.each("datums", [&](Json item, const std::string& path) {
       Fields of(item, path, complaint_);

@@ -95,6 +95,8 @@ struct WrittenSolidDemands {
     std::size_t triangles = 0;
     std::optional<Decimal> minimum, scale;  ///< of what is not as cast
     bool as_cast = false;
+    /// None of one without a maximum.
+    std::optional<Decimal> maximum = std::nullopt, largest = std::nullopt;
   };
   struct Datum {
     std::string name;

@@ -228,6 +228,9 @@ class FeatureReader {
 
  private:
   static bool has(const Fields& fields, std::string_view key) { return !fields.get(key).text.empty(); }
+  static bool is_said(const Fields& fields, std::string_view key) {
+    return has(fields, key) && !fields.get(key).is_null();
+  }
 
   /// Complains of words that would be demands if somebody knew them.
   static void refuse_other_words(Fields& fields, std::initializer_list<std::string_view> known) {
@@ -240,8 +243,13 @@ class FeatureReader {
   void add(Json item, const std::string& path, SolidDemands& demands) {
     Fields fields(item, path, complaint_);
     refuse_other_words(fields, {"name", "triangles", "label", "faces", "patch", "box", "plane", "minimum",
-                                "scale", "as_cast"});
+                                "maximum", "scale", "as_cast"});
     SolidFeature feature{fields.text("name"), demand(fields), 0};
+    if (is_said(fields, "maximum")) {
+      feature.within = length(fields, "maximum");
+      if (feature.demand && !(*feature.within > feature.demand->minimum))
+        fields.complain(fmt::format("field {} is not above the minimum", fields.name("maximum")));
+    }
     std::vector<std::uint32_t> triangles = triangles_of(fields);
     if (!complaint_.empty()) return;
     std::ranges::sort(triangles);
@@ -323,7 +331,7 @@ class FeatureReader {
   }
 
   std::optional<SolidDemand> demand(Fields& fields) {
-    if (is_as_cast(fields, {"minimum", "scale"})) return std::nullopt;
+    if (is_as_cast(fields, {"minimum", "maximum", "scale"})) return std::nullopt;
     SolidDemand made{.minimum = length(fields, "minimum")};
     if (has(fields, "scale")) made.scale = approximate(fields.number("scale"));
     if (!(made.scale > 0 && std::isfinite(made.scale)))

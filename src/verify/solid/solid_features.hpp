@@ -20,6 +20,8 @@ struct SolidFeature {
   std::string name;
   std::optional<SolidDemand> demand;  ///< none: as cast
   std::size_t triangles{};            ///< of the file
+  /// No point of it is farther from the blank's surface, mm: its maximum.
+  std::optional<double> within = std::nullopt;
 };
 
 struct SolidDemands {

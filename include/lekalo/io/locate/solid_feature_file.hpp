@@ -43,6 +43,8 @@ struct SolidFeatureSpec {
   std::string name;
   std::variant<Numbers, Label, Faces, Patch, Box, Plane> which;
   std::optional<locate::SolidDemand> demand;  ///< none: as cast
+  /// No point of it has more allowance, mm; above the minimum.
+  std::optional<double> maximum = std::nullopt;
 };
 
 /// A datum, as the file says it: what of the part lies on what of the blank.
@@ -66,8 +68,8 @@ struct SolidFeatureFile {
 };
 
 /// `{"units", "minimum", "as_cast", "features": [{"name", "triangles" | "label" | "faces" | "patch" | "box" |
-/// "plane", "minimum", "scale", "as_cast"}, ...], "datums": [{"name", "feature" | "points", "plane" | "axis"
-/// | "point", "within"},
+/// "plane", "minimum", "maximum", "scale", "as_cast"}, ...], "datums": [{"name", "feature" | "points",
+/// "plane" | "axis" | "point", "within"},
 /// ...]}`. `unit` applies where the file does not say.
 ///
 /// Fails with ErrorCode::bad_input, naming file and feature or datum: words it does not know, numbers out of
@@ -79,6 +81,7 @@ struct SolidFeature {
   std::string name;
   std::vector<std::uint32_t> triangles;       ///< as the part's file counts them, ascending
   std::optional<locate::SolidDemand> demand;  ///< none: as cast
+  std::optional<double> maximum = std::nullopt;
 };
 
 /// The features with their triangles in the file of a part. bad_input, naming the feature, for one that has

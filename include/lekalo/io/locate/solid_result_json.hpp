@@ -71,7 +71,10 @@ struct SolidDemandRecord {
   /// That of triangles of no feature, mm; none where they are as cast.
   std::optional<double> minimum = 0;
   std::vector<SolidFeature> features;
+  /// No point of each feature has more allowance, mm; counts for those with a maximum.
+  std::vector<double> largest = {};
   std::vector<SolidDatumRecord> datums;
+  [[nodiscard]] bool keeps_maxima() const noexcept;
   /// The least of (allowance - minimum) / scale, mm; none where the part is not inside.
   std::optional<double> margin;
   /// No pose of the window has more, mm; none of a method that proves nothing.

@@ -1,0 +1,153 @@
+// Maxima of faces: what the checker recomputes at a pose, and the bodies of certificates.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "support/solid_results.hpp"
+
+namespace lekalo::verify::verify_solid_maxima_test {
+namespace {
+
+using cases::demand_of_result;
+using cases::Json;
+using cases::one_leaf;
+using cases::SolidResultFiles;
+
+bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
+/// The cube of half edges 5 in that of 6, whose top (triangles 2 and 3) may not lie deeper than 0.75: so it
+/// lies 0.25 higher, and has no more. The certificate has a point of the top below the half-space z <= 6, and
+/// not in a body that reaches up to z = 5.25.
+struct Deep {
+  double maximum = 0.75, largest = 0.75, bound = 0.75, margin = 0.7499, multiplier = 1;
+  bool inside = true;
+  std::array<double, 3> at{0, 0, 0.25 + 0x1p-20};
+  Json body = {-5, -5, 0, 10, 0, 0, 0, 10, 0, 0, 0, 5.25, 0.75};
+  Json on_part = {2, 0.25, 0.5};
+  int side = 5;
+
+  [[nodiscard]] SolidResultFiles files() const {
+    const Json features{
+        {"minimum", 0},
+        {"features", Json::array({Json{{"name", "top"}, {"triangles", {2, 3}}, {"maximum", maximum}}})}};
+    Json certificate = one_leaf(Json::array({{"point_plane", 0, 0, 1}, {"near", 0, side, multiplier}}),
+                                Json::array(), Json::array(), Json::array({{0, 0, -1, -6}}));
+    certificate["part_points"] = Json::array({on_part});
+    certificate["bodies"] = Json::array({body});
+    Json of_result = demand_of_result("top", 2, 0, 1);
+    of_result["maximum"] = maximum, of_result["largest"] = largest;
+    SolidResultFiles made =
+        cases::with_demands(features, Json::array({of_result}), certificate, margin, bound);
+    made.result["clearance"] = margin;
+    made.result["contacts"] = Json::array();
+    made.result["x"] = at[0], made.result["y"] = at[1], made.result["z"] = at[2];
+    if (!inside) {
+      made.result["status"] = "stopped", made.result["inside"] = false;
+      for (const char* field : {"clearance", "shortfall"}) made.result[field] = nullptr;
+      for (const char* field : {"margin", "margin_gap"}) made.result["demands"][field] = nullptr;
+    }
+    return made;
+  }
+  [[nodiscard]] std::string told() const { return files().told(); }
+};
+
+TEST(SolidMaxima, ABodyBoundsTheMarginToTheLastDigit) {
+  EXPECT_EQ(Deep{}.told(), "confirmed");
+  Deep less;
+  less.bound = 0.75 - 1e-12, less.margin = 0.7;
+  EXPECT_TRUE(says(less.told(), "do not prove"));
+  Deep weaker;
+  weaker.multiplier = 0.9999;
+  EXPECT_TRUE(says(weaker.told(), "do not prove"));
+}
+
+TEST(SolidMaxima, ABodyHasToStayAwayFromTheBlank) {
+  Deep near;
+  near.body[11] = std::nextafter(5.25, 6);
+  EXPECT_TRUE(says(near.told(), "certificate.bodies[0] is not what it has to be: triangle")) << near.told();
+  // The side walls count as well.
+  Deep wide;
+  wide.body[0] = -5.25 - 1e-9;
+  EXPECT_TRUE(says(wide.told(), "comes nearer to it")) << wide.told();
+  wide.body[0] = -5.25;
+  EXPECT_EQ(wide.told(), "confirmed");
+  Deep flat;
+  flat.body[3] = 0;
+  EXPECT_TRUE(says(flat.told(), "it is flat")) << flat.told();
+  // All of the blank lies in one that is large enough.
+  Deep around;
+  around.body = {-50, -50, -50, 100, 0, 0, 0, 100, 0, 0, 0, 100, 0.75};
+  EXPECT_TRUE(says(around.told(), "a surface of the blank lies in it")) << around.told();
+  // Less than the maximum is not enough.
+  Deep close;
+  close.body[12] = 0.7499;
+  EXPECT_TRUE(says(close.told(), "and the part's triangle 2 may be 0.75 mm from it")) << close.told();
+}
+
+TEST(SolidMaxima, ThePointHasToStayInsideOnTheOtherSides) {
+  // Moved by up to 0.5 it leaves a body that ends at x = -2.9, or that begins at x = -2.
+  for (const double from : {-5.0, -2.0}) {
+    Deep narrow;
+    narrow.body[0] = from, narrow.body[3] = from < -2 ? 2.1 : 5;
+    EXPECT_TRUE(says(narrow.told(), "do not prove")) << from;
+  }
+  // Another side says nothing here, and there is no seventh.
+  Deep other;
+  other.side = 4;
+  EXPECT_TRUE(says(other.told(), "do not prove"));
+  other.side = 6;
+  EXPECT_TRUE(says(other.told(), "has a term that is none"));
+}
+
+TEST(SolidMaxima, APointOfAnotherTriangleMayBeAnywhere) {
+  Deep bottom;
+  bottom.on_part = {0, 0.25, 0.5};
+  EXPECT_TRUE(says(bottom.told(), "the part's triangle 0 may be anyhow far from it")) << bottom.told();
+}
+
+TEST(SolidMaxima, TheLargestAllowanceIsThatOfAllPoints) {
+  Deep small;
+  small.largest = 0.75 - 0x1p-20 - 1e-9;
+  EXPECT_TRUE(says(small.told(), "feature \"top\": its largest allowance is said to be")) << small.told();
+  // To the last digit it is not told.
+  small.largest = 0.75 - 0x1p-20;
+  EXPECT_EQ(small.told(), "incomplete");
+  // A little more is said as a rule, but more than the maximum is not inside.
+  Deep large;
+  large.maximum = 0.765625, large.largest = 0.7501, large.body[12] = 0.765625, large.body[11] = 5.234375;
+  large.bound = 0.77;
+  EXPECT_EQ(large.told(), "confirmed");
+  large.largest = 0.9;
+  EXPECT_TRUE(says(large.told(), "its largest allowance is said to be 0.")) << large.told();
+  EXPECT_TRUE(says(large.told(), "inside is true, but a maximum is not kept"));
+}
+
+TEST(SolidMaxima, APoseThatBreaksOneIsNotInside) {
+  Deep broken;
+  broken.at[2] = 0, broken.largest = 1.0001, broken.inside = false;
+  EXPECT_EQ(broken.told(), "confirmed");
+  broken.inside = true;
+  EXPECT_TRUE(says(broken.told(), "inside is true, but a maximum is not kept")) << broken.told();
+  // One that keeps them all is.
+  Deep kept;
+  kept.inside = false;
+  EXPECT_TRUE(
+      says(kept.told(), "inside is false, but all of the part that is not as cast lies in the blank"));
+}
+
+TEST(SolidMaxima, TheResultSaysWhatTheFileSays) {
+  SolidResultFiles files = Deep{}.files();
+  Json& feature = files.result["demands"]["features"][0];
+  feature["maximum"] = 0.8;
+  EXPECT_TRUE(says(files.told(), "demands.features[0] has the maximum 0.8, but features.json says 0.75"));
+  feature.erase("maximum");
+  EXPECT_TRUE(says(files.told(), "has one of a maximum and a largest allowance"));
+  feature.erase("largest");
+  EXPECT_TRUE(says(files.told(), "demands.features[0] has the maximum nothing, but features.json says 0.75"));
+}
+
+}  // namespace
+}  // namespace lekalo::verify::verify_solid_maxima_test
