@@ -78,7 +78,7 @@ show "$lekalo" simulate demo-out/cover.ngc --pocket examples/pockets/cover.json 
 
 # A hub pressed on a shaft: what that does to their surfaces. What is computed and not proved, verify names (exit status 1).
 show "$lekalo" fit --fit 18H8/z8 --hub-outer 36 --length 18 --shaft-length 54 --material C45 --friction 0.08,0.12 -o demo-out/fit.json \
-  --cylindrical outside --profile demo-out/fit.csv --drawing demo-out/fit.dxf --program demo-out/fit.ngc
+  --cylindrical outside --profile demo-out/fit.csv --drawing demo-out/fit.dxf --program demo-out/fit.ngc --picture demo-out/fit.svg
 show "$lekalo" verify demo-out/fit.json || [ $? -eq 1 ]
 
 # The editor, seen by a browser (tests drive it further: ctest -L browser).
@@ -99,7 +99,7 @@ say "                                     picture, report, a page that turns, re
 say "  shoes.json, shoes.svg, shoes.pdf   a pair of shoes on a hide with defects and zones: layout and picture"
 say "  shoes-nested.json, shoes-nested.svg  three pairs laid out by lekalo nest"
 say "  cover.ngc, cover.png, cover.html   a pocket with an island: the program that clears it, its path by engagement, played"
-say "  fit.json, fit.csv, fit.dxf, fit.ngc  a hub pressed on a shaft: pressures and growths along the axis, and what to turn"
+say "  fit.json, fit.svg, fit.csv, fit.dxf, fit.ngc  a hub pressed on a shaft: pressures and growths along the axis, and what to turn"
 say "                                     so that its outside is a cylinder afterwards"
 say "  editor.png                         the same in the editor, a part in hand over another. To use it:"
 say ""

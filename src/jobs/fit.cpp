@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fit_document.hpp"
+#include "fit_picture.hpp"
 #include "lekalo/fit/material.hpp"
 #include "lekalo/verify/claims.hpp"
 
@@ -184,6 +185,7 @@ Result<Fitted> fit(const FitJob& job, const PhaseListener& phases) {
         "the shaft has no bore that could be made cylindrical; give --bore, or choose the outside");
   LEKALO_CHECK(press_all(job, interference, made, phases, work));
   if (job.cylindrical) LEKALO_CHECK(correct(job, made, phases));
+  LEKALO_TRY(made.picture, drawn_fit(job, made));
   made.json = fit_json(job, made, work);
   LEKALO_TRY(const verify::ClaimReport report,
              verify::verify_fit_report({"the result", made.json}, files_of(job, made)));

@@ -43,12 +43,14 @@ TEST(CliFit, AStatedInterferenceIsOneCase) {
 
 TEST(CliFit, WritesTheTurnedProfile) {
   const TemporaryFolder folder;
-  const Ran made = run(folder.path(), with({"fit", "--diameter", "18", "--interference", "0.04",
-                                            "--cylindrical", "outside", "--profile", "p.csv", "--drawing",
-                                            "p.dxf", "--program", "p.ngc", "-o", "fit.json"},
-                                           kSizes));
+  const Ran made =
+      run(folder.path(),
+          with({"fit", "--diameter", "18", "--interference", "0.04", "--cylindrical", "outside", "--profile",
+                "p.csv", "--picture", "p.svg", "--drawing", "p.dxf", "--program", "p.ngc", "-o", "fit.json"},
+               kSizes));
   ASSERT_EQ(made.status, 0) << made.err;
-  EXPECT_EQ(folder.files().size(), 4U);
+  EXPECT_EQ(folder.files().size(), 5U);
+  EXPECT_NE(read_bytes(folder / "p.svg").find("outside of the hub"), std::string::npos);
   EXPECT_NE(read_bytes(folder / "p.ngc").find("G18"), std::string::npos);
   EXPECT_EQ(run(folder.path(), {"verify", "fit.json"}).status, 1);
   write_bytes(folder / "p.ngc", read_bytes(folder / "p.ngc") + " ");

@@ -60,6 +60,7 @@ std::string words_of(const jobs::FitJob& job, const jobs::Fitted& made) {
 Result<int> run_fit(const FitOptions& o) {
   const jobs::FitJob& job = o.job;
   LEKALO_CHECK(check_outputs({{"-o", o.output},
+                              {"--picture", o.picture},
                               {"--profile", job.table_as},
                               {"--drawing", job.drawing_as},
                               {"--program", job.program_as}},
@@ -67,6 +68,7 @@ Result<int> run_fit(const FitOptions& o) {
   LEKALO_TRY(const jobs::Fitted made, jobs::fit(o.job, progress_lines()));
   disk::AtomicFiles files;
   for (const auto& [path, bytes] : {std::pair{&o.output, &made.json},
+                                    {&o.picture, &made.picture},
                                     {&job.table_as, &made.table},
                                     {&job.drawing_as, &made.drawing},
                                     {&job.program_as, &made.program}})

@@ -12,8 +12,8 @@ namespace {
 struct FitWords {
   std::string fit, diameter, interference, hub_outer, length, shaft_length, bore, roughness, friction,
       clearance;
-  std::string material, youngs, poisson, yield, hardening, expansion, shaft_material, output, cylindrical,
-      table, drawing, program, control, feed, spindle;
+  std::string material, youngs, poisson, yield, hardening, expansion, shaft_material, output, picture,
+      cylindrical, table, drawing, program, control, feed, spindle;
   std::vector<std::string> rings;
   bool json = false, radius = false;
 };
@@ -73,7 +73,10 @@ void read_turning(WordReader& read, const FitWords& w, jobs::FitJob& job) {
 Result<Command> to_fit(const FitWords& w) {
   WordReader read;
   FitOptions o;
-  o.output = w.output, o.json = w.json;
+  o.output = w.output, o.picture = w.picture, o.json = w.json;
+  read.require(w.picture.empty() || w.picture.ends_with(".svg") || w.picture.ends_with(".png"),
+               "--picture " + w.picture + ": the name has to end in .svg or .png");
+  o.job.picture = jobs::picture_form(w.picture);
   o.job.fit = w.fit;
   read.require(w.fit.empty() != w.diameter.empty() && w.diameter.empty() == w.interference.empty(),
                "say what is pressed: --fit 18H8/z8, or --diameter MM and --interference MM");
@@ -141,6 +144,7 @@ Typed add_fit_form(Form& form) {
   add("--radius", w.radius, "X of the program is a radius, not a diameter");
   add("--feed", w.feed, "MM/MIN", "Of the finishing cut [50]");
   add("--spindle", w.spindle, "1/MIN", "Speed of the spindle [1000]");
+  add("--picture", w.picture, "FILE", "Draw the surfaces along the axis (.svg or .png)");
   add("-o,--output", w.output, "FILE", "Write the result as JSON");
   add("--json", w.json, "Print the result as JSON on stdout");
   form.footer =

@@ -103,7 +103,7 @@ struct PocketOptions : jobs::PocketOptions {
 /// The parts that are pressed, and the file of the result. The job has the names of the profile's files.
 struct FitOptions {
   jobs::FitJob job;
-  std::string output;  ///< may be empty
+  std::string output, picture;  ///< may be empty
   bool json = false;
 };
 

@@ -13,6 +13,7 @@
 #include "lekalo/fit/pressing.hpp"
 #include "lekalo/fit/turning.hpp"
 #include "lekalo/jobs/phases.hpp"
+#include "lekalo/jobs/picture_form.hpp"
 
 namespace lekalo::jobs {
 
@@ -46,6 +47,7 @@ struct FitJob {
   std::optional<fit::Surface> cylindrical;
   std::string table_as, drawing_as, program_as;
   fit::TurningWords turning;
+  std::optional<PictureForm> picture;  ///< SVG or PNG
 };
 
 /// One interference, and what it does.
@@ -61,6 +63,7 @@ struct Fitted {
   std::vector<FitCase> cases;  ///< the least, the mean and the greatest; one where one is given
   std::optional<fit::Corrected> corrected;
   std::string table, drawing, program;  ///< of the profile: CSV, DXF, NC; empty where not asked for
+  std::string picture;                  ///< SVG or PNG; empty where not asked for
   std::string json;                     ///< format lekalo-fit (docs/formats.md); confirmed by the checker
 };
 
