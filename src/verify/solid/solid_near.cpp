@@ -17,8 +17,6 @@ constexpr double kNearlySaid = 1 - 0x1p-40;
 /// So many pieces of triangles are looked at before it is given up.
 constexpr std::size_t kMostPieces = 2'000'000;
 
-Decimal sum(const Decimal& a, const Decimal& b) { return a - (Decimal{} - b); }
-
 /// The surface of the body, as a mesh of its own: corner k is at the end of a, b and c as the bits of k say.
 SolidMesh surface_of(const std::array<Decimal, 13>& row) {
   SolidMesh made;
@@ -26,7 +24,8 @@ SolidMesh surface_of(const std::array<Decimal, 13>& row) {
     std::array<Decimal, 3> place{row[0], row[1], row[2]};
     for (std::size_t edge = 0; edge < 3; ++edge)
       if ((k >> edge & 1) != 0)
-        for (std::size_t axis = 0; axis < 3; ++axis) place[axis] = sum(place[axis], row[3 + 3 * edge + axis]);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          place[axis] = place[axis] - (Decimal{} - row[3 + 3 * edge + axis]);
     made.near.push_back({approximate(place[0]), approximate(place[1]), approximate(place[2])});
     made.written.push_back(std::move(place));
   }
@@ -40,14 +39,14 @@ SolidMesh surface_of(const std::array<Decimal, 13>& row) {
 }
 
 /// The nearest triangle to a point, and the distance.
-struct NearTriangle {
+struct NearestTriangle {
   std::uint32_t number = 0;
   Span distance{kInfinity, kInfinity};
 };
 
-NearTriangle nearest_to(const Vec3& p, const PlacedSolid& body) {
+NearestTriangle nearest_to(const Vec3& p, const PlacedSolid& body) {
   const BoxTree point({box_of(p)});
-  NearTriangle found;
+  NearestTriangle found;
   double limit = kInfinity, low = kInfinity;
   point.visit_pairs(body.tree(), limit, [&](std::uint32_t, std::uint32_t number) {
     const Span apart = distance({p, p, p}, body.triangle(number), limit);
@@ -123,7 +122,7 @@ FarthestOf farthest_of(const PlacedSolid& part, const std::vector<std::uint32_t>
     ask();
     ++looked;
     const Vec3 middle = (at[0] + at[1] + at[2]) * (just(1) / just(3));
-    const NearTriangle near = nearest_to(middle, blank);
+    const NearestTriangle near = nearest_to(middle, blank);
     Span of_corners{}, way{};
     for (const Vec3& corner : at) {
       of_corners = larger(of_corners, distance({corner, corner, corner}, blank.triangle(near.number)));
