@@ -130,6 +130,42 @@ test('two fingers zoom and move, and one turns', wide, async (t) => {
   await page.done();
 });
 
+// A mark lies over the canvas: two fingers of which one was on a mark once zoomed nothing.
+test('a mark is in the way of no finger, and a tap on it chooses its contact', wide, async (t) => {
+  const page = await opened(t, 'wavy', { viewport: { width: 390, height: 844 }, hasTouch: true });
+  const touch = await page.context().newCDPSession(page);
+  const fingers = (type, ...places) =>
+    touch.send('Input.dispatchTouchEvent', { type, touchPoints: places.map(([x, y], id) => ({ x, y, id })) });
+  // Marks may lie over one another: the foremost is meant.
+  const chosen = page.locator('#contacts button[aria-pressed=true]');
+  const mark = async () => {
+    const { x, y, width, height } = await page.locator('#marks button').first().boundingBox();
+    return [x + width / 2, y + height / 2];
+  };
+  const [x, y] = await mark();
+  assert.ok(await page.evaluate(([x, y]) => document.elementFromPoint(x, y).closest('#marks button'), [x, y]));
+  const before = await scaleBar(page);
+  await changes(page, 'a finger on a mark and one beside it', async () => {
+    await fingers('touchStart', [x, y], [x + 60, y + 60]);
+    await fingers('touchMove', [x, y], [x + 120, y + 120]);
+    await fingers('touchEnd');
+  });
+  assert.notEqual(await scaleBar(page), before);
+  await page.keyboard.press('0');
+  page.seen = await pixels(page);
+  const [left, top] = await mark();
+  await changes(page, 'a drag that begins on a mark', async () => {
+    await page.mouse.move(left, top);
+    await page.mouse.down();
+    await page.mouse.move(left + 40, top + 20);
+    await page.mouse.up();
+  });
+  assert.equal(await chosen.count(), 0);
+  await page.touchscreen.tap(...(await mark()));
+  await chosen.waitFor({ timeout: 10_000 });
+  await page.done();
+});
+
 test('what is missing and what nobody measured is said, and a name is only a name', wide, async (t) => {
   const page = await opened(t, 'cored');
   assert.equal(await page.textContent('#part'), '<!--<script><b>"&Корпус');

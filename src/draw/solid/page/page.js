@@ -171,18 +171,20 @@ function zoom(factor, x = canvas.clientWidth / 2, y = canvas.clientHeight / 2) {
 function pointing() {
   const fingers = new Map();
   const spread = ([a, b]) => ({ x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, apart: Math.hypot(a.x - b.x, a.y - b.y) || 1 });
-  const place = (event) => ({ x: event.offsetX, y: event.offsetY });
-  canvas.onpointerdown = (event) => {
-    canvas.setPointerCapture(event.pointerId);
-    fingers.set(event.pointerId, place(event));
+  const place = (event) => {
+    const { left, top } = canvas.getBoundingClientRect();
+    return { x: event.clientX - left, y: event.clientY - top };
   };
-  canvas.onpointerup = canvas.onpointercancel = (event) => fingers.delete(event.pointerId);
-  canvas.onpointermove = (event) => {
+  const down = (event) => fingers.set(event.pointerId, { ...place(event), began: place(event) });
+  const up = (event) => fingers.delete(event.pointerId);
+  const drag = (event) => {
     const before = fingers.get(event.pointerId);
-    if (!before) return;
+    if (!before || !event.buttons) return up(event);
     const two = fingers.size === 2 && spread([...fingers.values()]);
-    const now = place(event);
+    const now = { ...place(event), began: before.began };
     fingers.set(event.pointerId, now);
+    // A mark that is hardly moved over is chosen; a drag that begins on one is a drag.
+    if (Math.hypot(now.x - now.began.x, now.y - now.began.y) > 4) canvas.setPointerCapture(event.pointerId);
     if (two) {
       const after = spread([...fingers.values()]);
       move(after.x - two.x, after.y - two.y);
@@ -191,16 +193,20 @@ function pointing() {
     else turn(now.x - before.x, now.y - before.y);
     draw();
   };
+  const wheel = (event) => {
+    event.preventDefault();
+    const { x, y } = place(event);
+    zoom(Math.exp(clamp(event.deltaY, -200, 200) * 0.0015), x, y);
+    draw();
+  };
+  // The marks of contacts lie over the canvas and are in nobody's way.
+  for (const over of [canvas, el('marks')]) {
+    over.onpointerdown = down;
+    over.onpointermove = drag;
+    over.onpointerup = over.onpointercancel = up;
+    over.addEventListener('wheel', wheel, { passive: false });
+  }
   canvas.oncontextmenu = (event) => event.preventDefault();
-  canvas.addEventListener(
-    'wheel',
-    (event) => {
-      event.preventDefault();
-      zoom(Math.exp(clamp(event.deltaY, -200, 200) * 0.0015), event.offsetX, event.offsetY);
-      draw();
-    },
-    { passive: false },
-  );
 }
 function keys() {
   const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
