@@ -123,35 +123,42 @@ Patches::Patches(const Handle(Geom_BSplineCurve) & curve, const gp_Dir& along) :
   }
 }
 
-std::vector<Patches::Piece> Patches::pieces(const Axis& axis, Range range) {
-  std::vector<Piece> found;
+std::vector<Patches::Cell> Patches::spans(const Axis& axis, Range range) {
+  std::vector<Cell> found;
   const double first = axis.knots.front();
-  const std::size_t spans = axis.knots.size() - 1;
+  const std::size_t count = axis.knots.size() - 1;
   double rounds_from = 0, rounds_to = 0;
   if (axis.period > 0) {
     rounds_from = std::floor((range.low - first) / axis.period);
     rounds_to = std::floor((range.high - first) / axis.period);
   }
   for (double round = rounds_from; round <= rounds_to; ++round)
-    for (std::size_t span = 0; span < spans; ++span) {
+    for (std::size_t span = 0; span < count; ++span) {
       const double begin = axis.knots[span] + round * axis.period,
-                   end = axis.knots[span + 1] + round * axis.period, size = end - begin;
+                   end = axis.knots[span + 1] + round * axis.period;
       // Beyond its ends the spline goes on as its last polynomials.
-      const bool opens = axis.period == 0 && span == 0, closes = axis.period == 0 && span + 1 == spans;
-      double low = opens ? range.low : std::max(range.low, begin);
-      double high = closes ? range.high : std::min(range.high, end);
-      if (!(low <= high) || (low == high && range.width() > 0)) continue;
-      // Differences over a sliver are rounding: a piece is as wide as the box, or as its span.
-      constexpr double kNarrowest = 1e-3;
-      const double width = std::max({high - low, std::min(range.width(), size), kNarrowest * size});
-      if (low >= begin && high <= end) {
-        low = std::max(begin, std::min(low, end - width));
-        high = low + width;
-      } else {
-        high = std::max(high, low + width);
-      }
-      found.push_back({span, (low - begin) / size, (high - begin) / size, low, high - low});
+      found.push_back({span, axis.period == 0 && span == 0 ? -kInfinite : begin,
+                       axis.period == 0 && span + 1 == count ? kInfinite : end, begin, end - begin, end});
     }
+  return found;
+}
+
+std::vector<Patches::Piece> Patches::pieces(const Axis& axis, Range range) {
+  std::vector<Piece> found;
+  for (const auto& [span, first, last, begin, size, end] : spans(axis, range)) {
+    double low = std::max(range.low, first), high = std::min(range.high, last);
+    if (!(low <= high) || (low == high && range.width() > 0)) continue;
+    // Differences over a sliver are rounding: a piece is as wide as the box, or as its span.
+    constexpr double kNarrowest = 1e-3;
+    const double width = std::max({high - low, std::min(range.width(), size), kNarrowest * size});
+    if (low >= begin && high <= end) {
+      low = std::max(begin, std::min(low, end - width));
+      high = low + width;
+    } else {
+      high = std::max(high, low + width);
+    }
+    found.push_back({span, (low - begin) / size, (high - begin) / size, low, high - low});
+  }
   return found;
 }
 
@@ -238,26 +245,12 @@ DerivativeBounds Patches::over(Range u, Range v) const {
 }
 
 std::vector<Patches::Cell> Patches::cells(const Axis& axis, Range range) {
-  std::vector<Cell> found;
-  const double first = axis.knots.front();
-  const std::size_t spans = axis.knots.size() - 1;
-  double rounds_from = 0, rounds_to = 0;
-  if (axis.period > 0) {
-    rounds_from = std::floor((range.low - first) / axis.period);
-    rounds_to = std::floor((range.high - first) / axis.period);
-  }
-  for (double round = rounds_from; round <= rounds_to; ++round)
-    for (std::size_t span = 0; span < spans; ++span) {
-      const double begin = axis.knots[span] + round * axis.period,
-                   end = axis.knots[span + 1] + round * axis.period;
-      // Beyond its ends the spline goes on as its last polynomials.
-      const double low = axis.period == 0 && span == 0 ? -kInfinite : begin,
-                   high = axis.period == 0 && span + 1 == spans ? kInfinite : end;
-      const bool meets = low < range.high && range.low < high;
-      // A range without width that lies at a knot is in one of the cells beside it.
-      if (meets || (range.low == range.high && low <= range.low && range.high <= high))
-        found.push_back({span, low, high, begin, end - begin});
-    }
+  std::vector<Cell> found = spans(axis, range);
+  std::erase_if(found, [&](const Cell& cell) {
+    const bool meets = cell.low < range.high && range.low < cell.high;
+    // A range without width that lies at a knot is in one of the cells beside it.
+    return !meets && !(range.low == range.high && cell.low <= range.low && range.high <= cell.high);
+  });
   return found;
 }
 

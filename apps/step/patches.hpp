@@ -73,8 +73,11 @@ class Patches {
     std::size_t span = 0;
     double low = 0, high = 0;    ///< where it is cut off
     double begin = 0, size = 0;  ///< where its own parameter is 0, and how long it is
+    double end = 0;              ///< where its own parameter is 1
   };
 
+  /// All spans, of each period that the range may meet; cells() are those that it meets.
+  [[nodiscard]] static std::vector<Cell> spans(const Axis& axis, Range range);
   [[nodiscard]] static std::vector<Piece> pieces(const Axis& axis, Range range);
   [[nodiscard]] static std::vector<Cell> cells(const Axis& axis, Range range);
   [[nodiscard]] const Points& patch(std::size_t u, std::size_t v) const {

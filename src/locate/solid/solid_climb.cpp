@@ -89,6 +89,24 @@ std::vector<LinearBound<6>> rows_at(const SolidMeter& meter, const FramedPose& p
   return rows;
 }
 
+/// How far a step goes, which is as far as the rows have been right.
+struct Trust {
+  double widest = 0, reach = widest;
+  int tries = 0;
+
+  /// A step that was no better is tried again with what it met, and made shorter where it met nothing new.
+  void was_no_better(bool met_more) {
+    if (met_more && ++tries < kMostTries) return;
+    reach *= 0.25;
+    tries = 0;
+  }
+  void was_better(double gained, double hoped, bool met_more) {
+    if (gained < 0.25 * hoped && !met_more) reach *= 0.5;
+    if (gained > 0.75 * hoped) reach = std::min(widest, 2 * reach);
+    tries = 0;
+  }
+};
+
 /// A pose to measure, with the margin that it may have.
 struct Lead {
   FramedPose pose;
@@ -131,7 +149,7 @@ struct Glanced {
 Lead led_up(const SolidMeter& meter, const FramedPose& from, double enough, const RunControl& run,
             double widest, Pool& pool, std::uint64_t& work) {
   const SolidFrame& frame = meter.frame();
-  double trust = widest;
+  Trust trust{widest};
   Glanced here, there;
   const auto look = [&](Glanced& at, const FramedPose& pose, double most) {
     at.pose = pose;
@@ -142,13 +160,13 @@ Lead led_up(const SolidMeter& meter, const FramedPose& from, double enough, cons
   if (!look(here, from, kInfinity)) return {from};
   add(pool, here.contacts);
   Lead lead{from};
-  int tries = 0;
-  for (int step = 0; step < kMostGlances && trust >= kShortest * widest && !run.stop_requested(); ++step) {
+  for (int step = 0; step < kMostGlances && trust.reach >= kShortest * widest && !run.stop_requested();
+       ++step) {
     if (run.progress) run.progress({work, 0});
     here.weigh(meter, pool);
     lead = {here.pose};
     if (here.rows.empty()) break;
-    const LinearSolution<6> solution = solve_cell(here.rows, frame.trusted(trust));
+    const LinearSolution<6> solution = solve_cell(here.rows, frame.trusted(trust.reach));
     const double most = std::max(solution.bound, meter.floor() + enough);
     if (here.inside) lead.most = most;
     if (!(solution.bound > here.value + enough)) break;
@@ -156,14 +174,10 @@ Lead led_up(const SolidMeter& meter, const FramedPose& from, double enough, cons
     const bool added = add(pool, there.contacts);
     there.weigh(meter, pool);
     if (there.inside != here.inside ? there.inside : there.value > here.value) {
-      const double gained = there.value - here.value, hoped = solution.bound - here.value;
+      trust.was_better(there.value - here.value, solution.bound - here.value, added);
       std::swap(here, there);
-      if (gained < 0.25 * hoped && !added) trust *= 0.5;
-      if (gained > 0.75 * hoped) trust = std::min(widest, 2 * trust);
-      tries = 0;
-    } else if (!added || ++tries == kMostTries) {
-      trust *= 0.25;
-      tries = 0;
+    } else {
+      trust.was_no_better(added);
     }
   }
   return lead;
@@ -183,17 +197,16 @@ std::optional<double> glanced_unless_stopped(const SolidMeter& meter, const Fram
   return unless_stopped<double>(run, [&] { return meter.glance(pose, most, count, contacts); });
 }
 
-MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trust, double enough,
+MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double widest, double enough,
                     const RunControl& run, std::uint64_t& work) {
   const SolidFrame& frame = meter.frame();
   std::vector<SolidContact> here, there;
   Pool pool;
-  const double widest = trust;
   Lead lead{from};
   const RunControl nobody;
   std::optional<Listening> to_the_end;
   if (meter.datums().empty() && meter.nears().empty() && !meter.convex()) {
-    lead = led_up(meter, from, kGlancedGain * enough, run, trust, pool, work);
+    lead = led_up(meter, from, kGlancedGain * enough, run, widest, pool, work);
     // They were told of, so there has to be something to show.
     to_the_end.emplace(nobody);
   }
@@ -202,7 +215,7 @@ MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trus
   if (!to_the_end) to_the_end.emplace(nobody);
   ++work;
   for (int more = 1; add(pool, here) && best.inside && lead.most < kInfinity && more < kMostLeads; ++more) {
-    lead = led_up(meter, best.pose, kGlancedGain * enough, run, trust, pool, work);
+    lead = led_up(meter, best.pose, kGlancedGain * enough, run, widest, pool, work);
     const auto next = measured_unless_stopped(meter, lead.pose, lead.most, kMissed, run, there);
     if (!next) break;
     ++work;
@@ -213,12 +226,12 @@ MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trus
     best = *next;
     here = there;
   }
-  int tries = 0;
+  Trust trust{widest};
   for (int step = 0; step < kMostSteps && !run.stop_requested(); ++step) {
     if (run.progress) run.progress({work, static_cast<double>(step) / kMostSteps});
     const auto rows = rows_at(meter, best.pose, best.inside, pool, here);
     if (rows.empty()) break;
-    const LinearSolution<6> solution = solve_cell(rows, frame.trusted(trust));
+    const LinearSolution<6> solution = solve_cell(rows, frame.trusted(trust.reach));
     if (!(solution.bound > best.value + enough)) break;
     const auto next =
         measured_unless_stopped(meter, frame.moved(best.pose, solution.z),
@@ -227,15 +240,11 @@ MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trus
     work += 2;
     const bool added = add(pool, there);
     if (next->better_than(best)) {
-      const double gained = next->value - best.value, hoped = solution.bound - best.value;
+      trust.was_better(next->value - best.value, solution.bound - best.value, added);
       best = *next;
       here = there;
-      if (gained < 0.25 * hoped && !added) trust *= 0.5;
-      if (gained > 0.75 * hoped) trust = std::min(widest, 2 * trust);
-      tries = 0;
-    } else if (!added || ++tries == kMostTries) {
-      trust *= 0.25;
-      tries = 0;
+    } else {
+      trust.was_no_better(added);
     }
   }
   return best;

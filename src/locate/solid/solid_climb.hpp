@@ -20,10 +20,10 @@ namespace lekalo::locate {
                                                            std::vector<SolidContact>& contacts);
 
 /// Climbs from a pose until no step makes it better by `enough`: the linear program of the contacts, without
-/// remainders, is solved in a box of steps up to `trust` mm, which shrinks where that does not help. What a
+/// remainders, is solved in a box of steps up to `widest` mm, which shrinks where that does not help. What a
 /// step meets is kept, so that the next program knows of it. Adds to `work`, and tells `run` how many of the
 /// steps that may be are done. A stop leaves the best so far.
-[[nodiscard]] MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double trust,
+[[nodiscard]] MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double widest,
                                   double enough, const RunControl& run, std::uint64_t& work);
 
 /// The contacts that hold the part at a pose, with multipliers that balance and sum to 1.
