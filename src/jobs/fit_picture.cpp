@@ -22,11 +22,12 @@ Result<std::string> drawn_fit(const FitJob& job, const Fitted& made) {
   if (job.picture == PictureForm::pdf) return failure(ErrorCode::usage, "a fit is drawn as SVG or PNG");
   const fit::Assembly& assembly = made.assembly;
   draw::FitPicture picture;
-  picture.title = fmt::format("{} of {:g} mm: growth of diameters x E / (pressure x diameter)",
-                              job.fit.empty() ? "seat" : job.fit, assembly.rings[0].outer_diameter);
+  picture.title =
+      (job.fit.empty() ? fmt::format("seat of {:g} mm", assembly.rings[0].outer_diameter) : job.fit) +
+      ": growth of diameters x E / (pressure x diameter)";
   picture.hub_to = assembly.rings[1].length / 2, picture.hub_from = -picture.hub_to;
   draw::FitPanel bore{"bore of the shaft", {}}, seat{"surface of the shaft", {}},
-      outside{"outside of the hub", {}};
+      outside{assembly.rings.size() > 2 ? "outside of the outermost ring" : "outside of the hub", {}};
   for (const FitCase& one : made.cases) {
     const fit::Pressed& p = one.pressed;
     const double factor =

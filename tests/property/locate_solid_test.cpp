@@ -214,6 +214,29 @@ TEST(LocateSolid, FreedomsThatAreLockedAreBoundedByWhatIsLeft) {
   }
 }
 
+TEST(LocateSolid, ThreadsChangeNothingOfAClimb) {
+  Random random(cases::seed(), 66);
+  for (int k = 0; k < 4; ++k) {
+    const cases::SolidCase pair = cases::cored_block(random, 4);
+    const auto found = [&](unsigned threads) {
+      locate::SolidOptions options{.run = {}};
+      options.threads = threads;
+      return locate::place_solid({pair.part, pair.blank, {}}, options).value();
+    };
+    const locate::SolidPlacement one = found(1), three = found(3);
+    EXPECT_EQ(one.pose.quaternion, three.pose.quaternion);
+    EXPECT_EQ(one.pose.shift, three.pose.shift);
+    EXPECT_EQ(one.clearance, three.clearance);
+    EXPECT_EQ(one.work, three.work);
+    ASSERT_EQ(one.contacts.size(), three.contacts.size());
+    for (std::size_t i = 0; i < one.contacts.size(); ++i) {
+      EXPECT_EQ(one.contacts[i].part_triangle, three.contacts[i].part_triangle);
+      EXPECT_EQ(one.contacts[i].blank_triangle, three.contacts[i].blank_triangle);
+      EXPECT_EQ(one.contacts[i].multiplier, three.contacts[i].multiplier);
+    }
+  }
+}
+
 TEST(LocateSolid, ThreadsChangeNothing) {
   Random random(cases::seed(), 65);
   const cases::SolidCase pair = cases::cored_block(random, 4);

@@ -153,7 +153,7 @@ struct SolidResult {
 /// A quick placement without a bound: climbs from the start to a place that no small motion makes better, and
 /// where the window has all turns from other rotations, too. It need not be the best one of the window.
 /// ErrorCode::usage for a window or numbers that make no sense, bad_input for meshes without triangles.
-/// Deterministic; single-threaded.
+/// Deterministic, and the same result for any number of threads.
 [[nodiscard]] Result<SolidPlacement> place_solid(const SolidProblem& problem, const SolidOptions& options);
 
 /// Searches the whole window. Refuses what place_solid refuses. The same result for any number of threads.
