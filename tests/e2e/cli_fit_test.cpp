@@ -41,6 +41,15 @@ TEST(CliFit, AStatedInterferenceIsOneCase) {
   EXPECT_EQ(cases[0]["state"], "plastic");
 }
 
+TEST(CliFit, WhatIsElasticIsAsItWasAfterTakingApart) {
+  const TemporaryFolder folder;
+  const Ran made = run(folder.path(), {"fit", "--diameter", "40", "--interference", "0.02", "--hub-outer",
+                                       "60", "--length", "30", "--ring", "80,0.03", "--material", "C45"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_NE(made.err.find("the outermost ring's outside +"), std::string::npos) << made.err;
+  EXPECT_NE(made.err.find("hub's bore +0.00, outside +0.00"), std::string::npos) << made.err;
+}
+
 TEST(CliFit, WritesTheTurnedProfile) {
   const TemporaryFolder folder;
   const Ran made =

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "interrupt.hpp"
 #include "lekalo/disk/files.hpp"
 #include "lekalo/jobs/fit.hpp"
@@ -10,6 +12,11 @@
 
 namespace lekalo::cli {
 namespace {
+
+/// In um with its sign; what rounds to nothing has a plus.
+std::string grown(const fit::Growth& growth) {
+  return fmt::format("{:+.2f}", std::round(1e5 * growth.diameter) / 100 + 0.0);
+}
 
 std::string case_row(const jobs::FitCase& one) {
   const fit::Pressed& p = one.pressed;
@@ -21,14 +28,13 @@ std::string case_row(const jobs::FitCase& one) {
               : std::string("does not hold here");
   return fmt::format(
       "{:g} um: {}, pressure {:.1f} MPa ({:.1f} in the middle)\n"
-      "  diameters, um        hub's outside +{:.2f} in the middle and +{:.2f} at its end, shaft {:.2f}{}\n"
-      "  after taking apart   hub's bore +{:.2f}, outside +{:.2f}\n"
+      "  diameters, um        {} outside {} in the middle and {} at its end, shaft {}{}\n"
+      "  after taking apart   hub's bore {}, outside {}\n"
       "  DIN 7190             {}\n",
       1000 * one.interference, fit::name_of(p.state), p.seats.front().pressure_mpa,
-      p.seats.front().middle_mpa, 1000 * p.rings.back().outer.front().diameter,
-      1000 * p.rings.back().outer.back().diameter, 1000 * shaft.outer.front().diameter, bore,
-      1000 * one.released.rings[1].inner.front().diameter,
-      1000 * one.released.rings.back().outer.front().diameter, din);
+      p.seats.front().middle_mpa, p.rings.size() > 2 ? "the outermost ring's" : "hub's",
+      grown(p.rings.back().outer.front()), grown(p.rings.back().outer.back()), grown(shaft.outer.front()),
+      bore, grown(one.released.rings[1].inner.front()), grown(one.released.rings.back().outer.front()), din);
 }
 
 std::string words_of(const jobs::FitJob& job, const jobs::Fitted& made) {
