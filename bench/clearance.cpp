@@ -80,14 +80,15 @@ int main() {
         found = meter.at(motion);
         (pose == 0 ? first : again) += milliseconds_since(start);
       }
-      // Poses far from each other, about the same one.
+      // Poses far from each other, about the same one; the same for any number of threads.
+      lekalo::Random drawn(2);
       double far = 0;
       lekalo::solid::Clearance least = found;
       for (int pose = 0; pose < kPoses; ++pose) {
-        const double angle = random.uniform(-0.02, 0.02), c = std::cos(angle), s = std::sin(angle);
+        const double angle = drawn.uniform(-0.02, 0.02), c = std::cos(angle), s = std::sin(angle);
         const lekalo::solid::Motion motion{
             {{{1, 0, 0}, {0, c, -s}, {0, s, c}}},
-            {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)}};
+            {drawn.uniform(-0.5, 0.5), drawn.uniform(-0.5, 0.5), drawn.uniform(-0.5, 0.5)}};
         start = std::clock();
         const lekalo::solid::Clearance there = meter.at(motion);
         far += milliseconds_since(start);
