@@ -36,6 +36,8 @@ std::vector<Stroke> strokes_of(const Move& move, double longest) {
 void add_part(const Stroke& stroke, double begin, double end, Cut cut, CutPath& path) {
   const Place from = at_share(stroke, begin), to = at_share(stroke, end);
   cut.stroke = beginning(until(stroke, to), from);
+  const double whole = cut.end - cut.begin;
+  cut.end = cut.begin + end * whole, cut.begin += begin * whole;
   if (!(length(to - from) > 0)) cut.stroke.arc = false;
   path.cuts.push_back(cut);
   path.strokes.push_back(cut.stroke);
@@ -70,7 +72,10 @@ Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool
     for (const Stroke& s : strokes) {
       Cut cut;
       cut.from_z = z;
+      cut.move = static_cast<std::size_t>(&move - moves.data());
+      cut.begin = whole > 0 ? done / whole : 0;
       done += length(s);
+      cut.end = &s == &strokes.back() ? 1 : done / whole;
       z = &s == &strokes.back() ? move.to_z : move.from_z + done / whole * (move.to_z - move.from_z);
       cut.to_z = z;
       cut.line = move.line, cut.rapid = move.rapid, cut.feed = move.feed, cut.radius = tool_radius;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "lekalo/verify/simulate.hpp"
+#include "machine_time.hpp"
 #include "nc_moves.hpp"
 #include "pocket_reach.hpp"
 #include "stroke_index.hpp"
@@ -20,6 +21,10 @@ struct Cut {
   /// A plunge has a stroke of no length.
   Stroke stroke;
   double from_z = 0, to_z = 0;
+  /// The number of the move that it is a part of, and the shares of that move's way at which it begins and
+  /// ends.
+  std::size_t move = 0;
+  double begin = 0, end = 1;
   std::size_t line = 0;
   /// Counts how often the tool has come down into the stock so far, from 1; 0 for an earlier program's cut.
   std::size_t entry = 0;
@@ -68,8 +73,5 @@ void measure_engagement_on(const CutPath& path, const Air& air, const SimulateOp
 void measure_coverage(const CutPath& path, const PocketReach& pocket, double radius, SimulateReport& report);
 void measure_gouge(const CutPath& path, const PocketReach& pocket, SimulateReport& report);
 void find_unreachable(const PocketReach& pocket, double radius, SimulateReport& report);
-
-/// Step 11: returns the seconds that a machine takes for all moves.
-[[nodiscard]] double machine_seconds(const std::vector<Move>& moves, const SimulateOptions& options);
 
 }  // namespace lekalo::verify

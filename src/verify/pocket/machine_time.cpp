@@ -1,6 +1,7 @@
+#include "machine_time.hpp"
+
 #include <algorithm>
 
-#include "cut_path.hpp"
 #include "lekalo/base/stop.hpp"
 #include "verify/number/span.hpp"
 
@@ -15,26 +16,23 @@ constexpr double kStraight = 1e-300;
 /// Arcs are cut into pieces of at most this length, or a 32nd of the radius if that is longer.
 constexpr double kLongest = 0.25;  // mm
 
-struct Direction {
-  double x, y, z;
-};
-double dot(Direction a, Direction b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+using Direction = MachineClock::Direction;
+using Piece = MachineClock::Piece;
 
-struct Piece {
-  double length, feed;    // mm, mm/s
-  Direction first, last;  // of travel
-  double square_limit;    // the square of the speed is at most this, (mm/s)^2
-};
+double dot(Direction a, Direction b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 double turn_between(Direction a, Direction b) {
   const Direction c{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   return std::abs(angle_between({1, 0}, {dot(a, b), std::sqrt(dot(c, c))}));
 }
 
-std::vector<Piece> pieces_of(const std::vector<Move>& moves, const SimulateOptions& o) {
+/// \param first_piece  becomes the number of the first piece of each move
+std::vector<Piece> pieces_of(const std::vector<Move>& moves, const SimulateOptions& o,
+                             std::vector<std::size_t>& first_piece) {
   std::vector<Piece> pieces;
   for (const Move& move : moves) {
     ask();
+    first_piece.push_back(pieces.size());
     const double feed = (move.rapid ? o.rapid_feed : move.feed) / 60;
     const double rise = move.to_z - move.from_z;
     std::vector<Stroke> strokes;
@@ -93,40 +91,74 @@ class Turned {
 }  // namespace
 
 /// Step 11 of docs/design/simulate.md.
-double machine_seconds(const std::vector<Move>& moves, const SimulateOptions& o) {
-  const std::vector<Piece> pieces = pieces_of(moves, o);
-  if (pieces.empty()) return 0;
-  const Turned turned(pieces);
-  const double a = o.acceleration;
-  // The square of the speed at the beginning of each piece and at the end of the last.
-  std::vector<double> square(pieces.size() + 1, 0.0);
+MachineClock::MachineClock(const std::vector<Move>& moves, const SimulateOptions& o)
+    : acceleration_(o.acceleration), pieces_(pieces_of(moves, o, first_piece_)) {
+  first_piece_.push_back(pieces_.size());
+  if (pieces_.empty()) return;
+  const Turned turned(pieces_);
+  const double a = acceleration_;
+  square_.assign(pieces_.size() + 1, 0.0);
   double s = 0;
-  for (std::size_t i = 1; i < pieces.size(); ++i) {
-    s += pieces[i - 1].length;
-    const double cosine = dot(pieces[i - 1].last, pieces[i].first);
+  for (std::size_t i = 1; i < pieces_.size(); ++i) {
+    s += pieces_[i - 1].length;
+    const double cosine = dot(pieces_[i - 1].last, pieces_[i].first);
     // The sine of half the angle between the two directions at the corner.
     const double half = std::sqrt(std::max(0.0, 0.5 * (1 + cosine)));
     const double bend = turned(s + kWindow / 2) - turned(s - kWindow / 2);
     const double radius = std::min(kJunctionDeviation * half / std::max(1 - half, kStraight),
                                    kWindow / std::max(bend, kStraight));
-    const double slower = std::min(pieces[i - 1].feed, pieces[i].feed);
-    square[i] = std::min({slower * slower, a * radius, pieces[i - 1].square_limit, pieces[i].square_limit});
+    const double slower = std::min(pieces_[i - 1].feed, pieces_[i].feed);
+    square_[i] =
+        std::min({slower * slower, a * radius, pieces_[i - 1].square_limit, pieces_[i].square_limit});
   }
-  for (std::size_t i = 1; i < square.size(); ++i)
-    square[i] = std::min(square[i], square[i - 1] + 2 * a * pieces[i - 1].length);
-  for (std::size_t i = square.size() - 1; i-- > 0;)
-    square[i] = std::min(square[i], square[i + 1] + 2 * a * pieces[i].length);
+  for (std::size_t i = 1; i < square_.size(); ++i)
+    square_[i] = std::min(square_[i], square_[i - 1] + 2 * a * pieces_[i - 1].length);
+  for (std::size_t i = square_.size() - 1; i-- > 0;)
+    square_[i] = std::min(square_[i], square_[i + 1] + 2 * a * pieces_[i].length);
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    begins_.push_back(seconds_);
+    seconds_ += seconds_of(i);
+  }
+}
+
+double MachineClock::top_square(std::size_t i) const {
+  const Piece& p = pieces_[i];
+  return std::min(
+      {p.feed * p.feed, p.square_limit, 0.5 * (square_[i] + square_[i + 1] + 2 * acceleration_ * p.length)});
+}
+
+double MachineClock::seconds_of(std::size_t i) const {
+  const Piece& p = pieces_[i];
+  const double top = top_square(i), v = std::sqrt(top), a = acceleration_;
+  const double ramps = (2 * top - square_[i] - square_[i + 1]) / (2 * a);
+  return (2 * v - std::sqrt(square_[i]) - std::sqrt(square_[i + 1])) / a +
+         std::max(0.0, p.length - ramps) / v;
+}
+
+double MachineClock::seconds_at(std::size_t move, double share) const {
+  const std::size_t first = first_piece_[move], end = first_piece_[move + 1];
+  if (first == end) return first < begins_.size() ? begins_[first] : seconds_;
+  double whole = 0;
+  for (std::size_t i = first; i < end; ++i) whole += pieces_[i].length;
+  double way = share * whole;
+  std::size_t i = first;
+  for (; i + 1 < end && way > pieces_[i].length; ++i) way -= pieces_[i].length;
+  const double length = pieces_[i].length, a = acceleration_, all = seconds_of(i);
+  way = std::clamp(way, 0.0, length);
+  const double top = top_square(i), v = std::sqrt(top);
+  const double up = (top - square_[i]) / (2 * a), down = (top - square_[i + 1]) / (2 * a);
   double seconds = 0;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const Piece& p = pieces[i];
-    const double top =
-        std::min({p.feed * p.feed, p.square_limit, 0.5 * (square[i] + square[i + 1] + 2 * a * p.length)});
-    const double v = std::sqrt(top);
-    const double ramps = (2 * top - square[i] - square[i + 1]) / (2 * a);
-    seconds +=
-        (2 * v - std::sqrt(square[i]) - std::sqrt(square[i + 1])) / a + std::max(0.0, p.length - ramps) / v;
-  }
-  return seconds;
+  if (way < up)
+    seconds = (std::sqrt(square_[i] + 2 * a * way) - std::sqrt(square_[i])) / a;
+  else if (way > length - down)
+    seconds = all - (std::sqrt(square_[i + 1] + 2 * a * (length - way)) - std::sqrt(square_[i + 1])) / a;
+  else
+    seconds = (v - std::sqrt(square_[i])) / a + (way - up) / v;
+  return begins_[i] + std::clamp(seconds, 0.0, all);
+}
+
+double machine_seconds(const std::vector<Move>& moves, const SimulateOptions& o) {
+  return MachineClock(moves, o).seconds();
 }
 
 }  // namespace lekalo::verify

@@ -67,7 +67,7 @@ class ProgramReader {
     }
     if (!complaint_.empty())
       return failure(ErrorCode::bad_input, fmt::format("{}:{}: {}", program_.name, line_, complaint_));
-    return NcProgram{std::move(moves_), std::move(events_)};
+    return NcProgram{std::move(moves_), std::move(events_), std::move(dwells_)};
   }
 
  private:
@@ -204,11 +204,26 @@ class ProgramReader {
     if (block.code(Group::motion_off) != nullptr) motion_ = nullptr;
     if (const words::Word* code = block.code(Group::motion)) set_motion(code);
     const words::Word* once = block.code(Group::once);
-    if (once != nullptr && once->tenths != words::kDwell)
+    if (once != nullptr && once->tenths == words::kDwell)
+      dwells_.push_back({moves_.size(), dwell_of(block)});
+    else if (once != nullptr)
       go_to_machine(block, *once);
-    else if (once == nullptr && (block.has_axis() || is_arc(block.code(Group::motion))))
+    else if (block.has_axis() || is_arc(block.code(Group::motion)))
       move(block);
     if (const words::Word* code = block.code(Group::stop)) ended_ = code->tenths == 20 || code->tenths == 300;
+  }
+
+  /// LinuxCNC and grbl count seconds. Haas and Fanuc count thousandths where there is no decimal point, and
+  /// Fanuc's P never has one.
+  [[nodiscard]] double dwell_of(const NcBlock& block) const {
+    for (const char letter : {'P', 'X', 'U'})
+      if (block[letter]) {
+        const bool pointless = block.pointless.find(letter) != std::string::npos;
+        const bool thousandths = (control_ == Control::fanuc && (letter == 'P' || pointless)) ||
+                                 (control_ == Control::haas && pointless);
+        return *block[letter] / (thousandths ? 1000 : 1);
+      }
+    return 0;
   }
 
   void set_plane(int tenths) {
@@ -479,6 +494,7 @@ class ProgramReader {
   bool judged_, heights_apart_;
   NcLines lines_;
   std::vector<NcEvent> events_;
+  std::vector<NcDwell> dwells_;
   std::optional<NcArc> upright_;  ///< of the block at hand
   std::vector<Move> moves_;
   std::string complaint_;

@@ -48,9 +48,17 @@ struct NcEvent {
   bool places = false;
 };
 
+/// The machine waits (G4).
+struct NcDwell {
+  std::size_t before_move = 0;
+  double seconds = 0;
+};
+
 struct NcProgram {
   std::vector<Move> moves;
   std::vector<NcEvent> events;
+  /// In their order. The waits at the bottoms of canned cycles are not among them.
+  std::vector<NcDwell> dwells = {};
 };
 
 /// Reads a program to its end, with subprograms and expressions. A motion from a place that is not known has

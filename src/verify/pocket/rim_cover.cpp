@@ -132,25 +132,38 @@ void RimCover::add_air(const Air& air) {
   if (cover([&](Place rim) { return air.holds(rim); })) bound();
 }
 
+double RimCover::width_of(const Stretch& stretch) const {
+  return radius_ * dot(direction_of(stretch.begin) - direction_of(stretch.end), -1.0 * left_of(heading_));
+}
+
+/// The stretch is summed in parts of at most a quarter turn, so that the angle between two directions is the
+/// one that is meant.
+void RimCover::add_angle(const Stretch& stretch, double& sum) const {
+  for (double from = stretch.begin; from < stretch.end;) {
+    const double to = std::min(stretch.end, std::floor(from) + 1);
+    sum += std::abs(angle_between(direction_of(from), direction_of(to)));
+    from = to;
+  }
+}
+
 double RimCover::open_width() const {
   double width = 0;
-  const Place right = -1.0 * left_of(heading_);
-  for (const Stretch& stretch : open_)
-    width += radius_ * dot(direction_of(stretch.begin) - direction_of(stretch.end), right);
+  for (const Stretch& stretch : open_) width += width_of(stretch);
   return width;
 }
 
 double RimCover::open_beyond(double low) const {
   double open = 0;
-  // A stretch is summed in parts of at most a quarter turn, so that the angle between two directions is the
-  // one that is meant.
-  for (const Stretch& stretch : open_)
-    for (double from = std::max(low, stretch.begin); from < stretch.end;) {
-      const double to = std::min(stretch.end, std::floor(from) + 1);
-      open += std::abs(angle_between(direction_of(from), direction_of(to)));
-      from = to;
-    }
+  for (const Stretch& stretch : open_) add_angle({std::max(low, stretch.begin), stretch.end}, open);
   return open;
+}
+
+void RimCover::add_open_arcs(std::vector<OpenArc>& arcs) const {
+  for (const Stretch& stretch : open_) {
+    OpenArc arc{direction_of(stretch.begin), 0, width_of(stretch)};
+    add_angle(stretch, arc.angle);
+    arcs.push_back(arc);
+  }
 }
 
 }  // namespace lekalo::verify

@@ -32,6 +32,14 @@ class RimCover {
   [[nodiscard]] double open_left() const { return open_beyond(1); }
   /// Returns how wide the open rim is across the heading, mm: a mm of path removes so many square mm.
   [[nodiscard]] double open_width() const;
+  /// A stretch of the rim that still meets material.
+  struct OpenArc {
+    Place right;       ///< the direction of its right end, from which it runs counter-clockwise
+    double angle = 0;  ///< radians
+    double width = 0;  ///< mm across the heading
+  };
+  /// Adds them, from the right of the heading to its left.
+  void add_open_arcs(std::vector<OpenArc>& arcs) const;
 
  private:
   /// Returns the open angle beyond a diamond angle.
@@ -47,6 +55,8 @@ class RimCover {
   struct Stretch {
     double begin, end;  ///< diamond angles from the heading's right, 0 to 2
   };
+  [[nodiscard]] double width_of(const Stretch& stretch) const;
+  void add_angle(const Stretch& stretch, double& sum) const;
   Place at_, heading_;
   double radius_ = 0;
   std::vector<double> cuts_;

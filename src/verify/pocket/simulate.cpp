@@ -7,6 +7,7 @@
 #include "cut_path.hpp"
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/parallel.hpp"
+#include "simulate_job.hpp"
 #include "verify/number/span.hpp"
 
 namespace lekalo::verify {
@@ -89,18 +90,10 @@ double cutting_feed(const std::vector<EngagementSample>& samples) {
   return 0;
 }
 
-/// The subject of a judgement: the program's moves, the pocket, and the path in the stock with what ran
-/// before.
-struct Job {
-  std::vector<Move> moves;
-  PocketReach reach;
-  CutPath path;
-};
+}  // namespace
 
-/// Steps 1, 4, 6 and 9 of docs/design/simulate.md: the strokes of the program and of those before it, the
-/// open edges, and where the tool's middle may be.
-Result<Job> read_job(const Document& program, const Document& pocket, const SimulateOptions& o,
-                     const std::vector<EarlierProgram>& earlier) {
+Result<SimulateJob> read_simulate_job(const Document& program, const Document& pocket,
+                                      const SimulateOptions& o, const std::vector<EarlierProgram>& earlier) {
   LEKALO_CHECK(check(o, earlier));
   LEKALO_TRY(std::vector<Move> moves, read_moves(program, o.top, o.control));
   const double radius = o.tool_diameter / 2;
@@ -115,15 +108,13 @@ Result<Job> read_job(const Document& program, const Document& pocket, const Simu
       path.before.push_back(cut);
     }
   }
-  return Job{std::move(moves), std::move(reach), std::move(path)};
+  return SimulateJob{std::move(moves), std::move(reach), std::move(path)};
 }
-
-}  // namespace
 
 Result<SimulateReport> simulate(const Document& program, const Document& pocket, const SimulateOptions& o,
                                 const std::vector<EarlierProgram>& earlier,
                                 const ProgressListener& progress) {
-  LEKALO_TRY(const Job job, read_job(program, pocket, o, earlier));
+  LEKALO_TRY(const SimulateJob job, read_simulate_job(program, pocket, o, earlier));
   const std::vector<Move>& moves = job.moves;
   const PocketReach& reach = job.reach;
   const CutPath& path = job.path;
@@ -164,7 +155,7 @@ Result<std::vector<EngagementSample>> engagement_on(const Document& program, con
                                                     const SimulateOptions& o,
                                                     const std::vector<EarlierProgram>& earlier,
                                                     const std::vector<LineRange>& lines) {
-  LEKALO_TRY(const Job job, read_job(program, pocket, o, earlier));
+  LEKALO_TRY(const SimulateJob job, read_simulate_job(program, pocket, o, earlier));
   SimulateReport report;
   measure_engagement_on(job.path, job.reach.air(), o, lines, report);
   return std::move(report.samples);
