@@ -9,8 +9,8 @@
 
 namespace lekalo::verify {
 
-/// What the tool takes off along its way, by the simulator of simulate.hpp and from the same bytes: when,
-/// where, how deep and with which part of its rim. docs/design/simulate.md, step 12.
+/// The simulator of simulate.hpp also says what the tool takes off along its way: when, where, how deep and
+/// with which part of its rim. docs/design/simulate.md, step 12.
 
 /// A part of the tool's rim, over some height, that meets material.
 struct EngagedLayer {

@@ -32,7 +32,7 @@ double cleared_to(const Cut& cut) {
   return length(cut.stroke) > 0 ? std::max(cut.from_z, cut.to_z) : std::min(cut.from_z, cut.to_z);
 }
 
-/// What stands about the tool at one place, by the cuts before.
+/// Knows what stands about the tool at one place, by the cuts before.
 class Surroundings {
  public:
   Surroundings(const CutPath& path, const Air& air, double radius, double top)
@@ -133,7 +133,8 @@ class Surroundings {
     return state;
   }
 
-  /// What is engaged at a height is engaged at every lower one, so that layers whose rim is as wide are one.
+  /// A part of the rim that is engaged at a height is engaged at every lower one, so that layers whose rim is
+  /// as wide are one.
   void divide(const std::vector<double>& heights, std::size_t first, std::size_t last, const Stroke& so_far,
               std::vector<State>& states, std::vector<EngagedLayer>& layers) {
     ask();
