@@ -6,7 +6,7 @@
 Each line runs in a folder of its own with copies of examples/ and tests/corpus/ (as `corpus`) and a link `data` to
 LEKALO_SHARED_DATA (lines that name it are left out without). `lekalo` in it is a step; after each, everything that it
 wrote and that can be rechecked is verified as it is: placements with the status `optimal`, layouts, reports,
-programs and exports. The answer has to be exit status 0 with nothing left unchecked. What may be left all the same
+programs, exports, and results of fit with their turned profiles. The answer has to be exit status 0 with nothing left unchecked. What may be left all the same
 stands in the table of docs/formats.md, "What is left unchecked"; a sentence that is not of its rows is a fault.
 
 LEKALO_CASES is the number of lines drawn (0: all of them and demo.sh), LEKALO_SEED their seed.
@@ -99,6 +99,11 @@ def checks(argv, stdout, status):
                 found.append([out, "--layout", given])
         if is_json(stdout, "lekalo-nest") and out:
             found.append(["{}"])
+    elif command == "fit":  # a result names the files of its turned profile, beside which it lies
+        if out and os.path.isfile(out):
+            found.append([out])
+        elif is_json(stdout, "lekalo-fit") and not json.loads(stdout).get("outputs"):
+            found.append(["{}"])
     elif command in ("check", "show", "simulate", "pocket"):
         if is_json(stdout, "lekalo-check", "lekalo-show", "lekalo-simulate", "lekalo-pocket"):
             if command != "pocket" or out:
@@ -181,7 +186,7 @@ def lines_to_run(only):
     lines = [("demo", demo_lines())]
     for line in (ROOT / "tools/same_bytes.txt").read_text().splitlines():
         found = re.match(r"([\w.-]+): +(.*)", line)
-        writes = found and re.search(r"lekalo (locate|nest|edit|check|show|simulate|pocket|export) ", found[2])
+        writes = found and re.search(r"lekalo (locate|nest|edit|check|show|simulate|pocket|export|fit) ", found[2])
         if writes and "--help" not in found[2] and (shared or "data/" not in found[2].replace("corpus/data/", "")):
             lines.append(found.groups())
     lines = [line for line in lines if re.search(only, line[0])]
