@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "hexahedron.hpp"
+#include "lattice.hpp"
+
+namespace lekalo::heat {
+
+/// A displacement or a force at corners of voxels, each component by itself.
+using Field = std::array<Numbers, kComponents>;
+
+/// One level of a multigrid of hexahedra that are as stiff as their share of material.
+struct ElasticLevel {
+  std::array<std::size_t, 3> elements{};
+  Lattice nodes;
+  Hexahedron element;
+  /// A node between whole elements: forces on it by the displacements of its 27 neighbours.
+  std::array<std::array<std::array<double, kComponents>, kComponents>, 27> whole{};
+  std::array<double, kComponents> diagonal{};  ///< of a node with one whole element
+  double most = 0;            ///< bound of the eigenvalues of the matrix scaled by its diagonal
+  Numbers share;              ///< of each element, at its low corner
+  Numbers inverse;            ///< 1 / sum of a node's shares; 0 where it is held or has none
+  Field right, x, way, rest;  ///< of the cycle
+};
+
+/// Forces by displacements at the corners of voxels, and the displacements that given forces bring about, by
+/// conjugate gradients with one multigrid cycle as preconditioner (docs/design/heat.md, step 9).
+class ElasticSystem {
+ public:
+  ElasticSystem(const std::array<std::size_t, 3>& elements, const std::array<double, 3>& pitch, double youngs,
+                double poisson, const std::array<bool, 6>& held, unsigned threads);
+
+  [[nodiscard]] ElasticLevel& finest() noexcept { return levels_.front(); }
+  [[nodiscard]] const ElasticLevel& finest() const noexcept { return levels_.front(); }
+  /// Carries the shares of the finest level to the others.
+  void coarsen();
+  /// Solves from the x that is given, whose held nodes are 0; false where some hundred iterations do not
+  /// bring what is left of b to `part` of it.
+  [[nodiscard]] bool solve(const Field& b, Field& x, double part);
+  [[nodiscard]] std::uint64_t work() const noexcept { return work_; }
+
+ private:
+  template <class Write>
+  void product(const ElasticLevel& level, const Field& x, const Write& write) const;
+  void residual(const ElasticLevel& level, const Field& b, const Field& x, Field& out) const;
+  void smooth(ElasticLevel& level, bool from_zero) const;
+  void restrict_to(const ElasticLevel& level, ElasticLevel& coarse) const;
+  void add_from(const ElasticLevel& coarse, ElasticLevel& level) const;
+  void cycle(std::size_t n);
+  void factor();
+  void solve_coarsest(ElasticLevel& level) const;
+  [[nodiscard]] double dot(const Field& a, const Field& b) const;
+  template <class Act>
+  void each_run(const ElasticLevel& level, const Act& act) const;
+
+  std::vector<ElasticLevel> levels_;
+  std::array<bool, 6> held_;
+  unsigned threads_;
+  std::vector<std::size_t> coarse_nodes_;  // of the coarsest level, those that have unknowns
+  Numbers factor_;                         // of its matrix, row by row
+  std::uint64_t work_ = 0;
+};
+
+}  // namespace lekalo::heat
