@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "earlier_documents.hpp"
+#include "heat_border.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/io/formats/outline_file.hpp"
@@ -49,25 +50,6 @@ Result<HeatStock> stock_of(const HeatSourceJob& job) {
   stock.box = {box.low.x, box.low.y, box.high.x, box.high.y, job.stock.thickness};
   return stock;
 }
-
-/// Says where the stock's border is.
-class Border {
- public:
-  explicit Border(const HeatStock& stock) : stock_(stock) {
-    if (!stock.outline.empty()) index_.emplace(stock.outline);
-  }
-
-  /// Distance from the border, mm, positive inside.
-  [[nodiscard]] double inside(double x, double y) const {
-    if (!index_) return stock_.box.inside(x, y);
-    const double distance = index_->nearest({x, y}).distance;
-    return index_->contains({x, y}) ? distance : -distance;
-  }
-
- private:
-  const HeatStock& stock_;
-  std::optional<geom::RegionIndex> index_;
-};
 
 /// Leaves out contacts that lie outside of the stock, and refuses those that cross its border.
 class Clip {
@@ -125,7 +107,7 @@ class Clip {
 
   const HeatSourceJob& job_;
   const HeatStock& stock_;
-  Border border_;
+  StockBorder border_;
   double radius_;
 };
 

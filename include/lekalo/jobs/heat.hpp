@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "lekalo/base/error.hpp"
+#include "lekalo/base/parallel.hpp"
+#include "lekalo/heat/body.hpp"
+#include "lekalo/heat/conduction.hpp"
+#include "lekalo/heat/expansion.hpp"
+#include "lekalo/heat/material.hpp"
+#include "lekalo/jobs/heat_source.hpp"
+#include "lekalo/jobs/phases.hpp"
+
+namespace lekalo::jobs {
+
+/// A program, and what is needed to say how warm it makes the workpiece and what that does to the walls.
+struct HeatJob {
+  HeatSourceJob source;     ///< force and share are those of the material
+  heat::Material material;  ///< the middles of its figures, but for force and share
+  heat::Interval film;      ///< W/(m2 K), of all surfaces but the underside and those that are held
+  heat::Holding holding;
+  double pitch = 2;       ///< of voxels, mm
+  double ambient_c = 20;  ///< degrees Celsius
+  unsigned threads = kUsualThreads;
+};
+
+/// A place of a wall that a program has cut.
+struct WallPoint {
+  double x = 0, y = 0, z = 0;       ///< mm
+  std::array<double, 2> outward{};  ///< from the pocket into the workpiece, of length 1
+  double seconds = 0;               ///< when it was cut last
+  /// How far the wall lies behind its place when the workpiece is cold again, um: the pocket is larger where
+  /// it is above 0. At the middles of all intervals, and over all of them.
+  double error_um = 0;
+  heat::Interval errors_um;
+};
+
+struct WallErrors {
+  double least = 0, most = 0, mean = 0;  ///< um
+};
+
+/// The scaling and the shift of the program that leave the least squares of errors.
+struct UniformScaling {
+  double factor = 1;
+  std::array<double, 2> shift_um{};
+  WallErrors left;
+};
+
+struct HeatFound {
+  HeatSource source;
+  heat::Grid grid;
+  std::vector<WallPoint> walls;
+  std::size_t uncut = 0;      ///< places of walls that the program does not cut
+  WallErrors errors;          ///< at the middles
+  heat::Interval largest_um;  ///< the largest distance of any wall from its place, over the intervals
+  UniformScaling scaling;     ///< at the middles
+  heat::Interval warmest_k;   ///< of any voxel at any time, above the surroundings
+  /// Stress by von Mises, when walls were cut last.
+  heat::Interval stress_mpa;
+  heat::HeatBook book;      ///< at the middles, at the end of the program
+  double not_placed_j = 0;  ///< heat of cuts about which no material is left, at the middles
+  std::uint64_t work = 0;
+};
+
+/// Follows the program in voxels: heat enters where the tool cuts, material goes away, and the displacement
+/// is known when each place of a wall is cut for the last time. docs/design/heat-walls.md.
+///
+/// Errors: bad_input for what heat_source() and heat::Grid::divide refuse, where no place of a wall is cut,
+/// and where the workpiece surely gets warmer than the material's figures hold; refuted where the equations
+/// are not solved. Phases: "following the program", "heating". Cost: about 300 steps in time for each of
+/// three films, and a displacement for each in which walls are cut last.
+[[nodiscard]] Result<HeatFound> heat(const HeatJob& job, const PhaseListener& phases = {});
+
+}  // namespace lekalo::jobs

@@ -1,0 +1,306 @@
+#include "lekalo/jobs/heat.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
+
+#include "heat_border.hpp"
+#include "heat_walls.hpp"
+#include "lekalo/base/angle.hpp"
+#include "lekalo/base/stop.hpp"
+#include "lekalo/geom/trig.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+using heat::Interval;
+using heat::Place;
+using heat::Property;
+
+/// A program has so many steps in time, and some more for each wait.
+constexpr double kSteps = 300, kStepsOfAWait = 15;
+constexpr double kShortestStep = 0.2;  // s
+/// A voxel takes heat where at least this part of it is material.
+constexpr double kSolid = 0.5;
+/// Heat looks for material this many half voxels out of the tool.
+constexpr int kLooksOut = 6;
+constexpr double kMicrometres = 1000;
+
+/// The figures of a material as the solver takes them.
+heat::Conductor conductor_of(const heat::Material& m) {
+  return {m[Property::conductivity].middle() * 1e-3,
+          m[Property::density].middle() * m[Property::heat_capacity].middle() * 1e-9};
+}
+heat::Elastic elastic_of(const heat::Material& m) {
+  return {m[Property::youngs].middle(), m[Property::poisson].middle(), m[Property::expansion].middle()};
+}
+
+/// The underside lies on something, and what holds a side covers it.
+heat::Films films_of(double film, const heat::Holding& holding) {
+  heat::Films films;
+  const double each = film * 1e-6;
+  films.cut = each;
+  for (std::size_t side = 0; side < heat::kSides; ++side)
+    films.sides[side] = holding.held[side] || side == of(heat::Side::z_low) ? 0 : each;
+  return films;
+}
+
+/// The events between two times: heat of cuts, then their material, then walls that were cut last.
+struct Span {
+  double begin = 0, end = 0;  ///< s
+  std::vector<const heat::CutStep*> steps;
+  std::vector<const heat::ToolPiece*> strokes;
+  std::vector<std::size_t> walls;
+};
+
+/// One run with all of the work as heat: everything is in proportion to the share.
+struct Run {
+  std::vector<double> errors_um;
+  double warmest_k = 0, stress_mpa = 0, not_placed_j = 0;
+  heat::HeatBook book;
+  std::uint64_t work = 0;
+};
+
+class Follower {
+ public:
+  Follower(const HeatJob& job, const HeatFound& found)
+      : job_(job),
+        found_(found),
+        radius_(job.source.machining.tool_diameter / 2),
+        border_(found.source.stock) {
+    divide(found.source.pieces, found.source.work.seconds);
+    const auto span_of = [&](double at) -> Span& {
+      const auto after = std::ranges::upper_bound(spans_, at, {}, &Span::end);
+      return after == spans_.end() ? spans_.back() : *after;
+    };
+    for (const heat::CutStep& s : found.source.work.steps)
+      span_of(s.start + s.seconds / 2).steps.push_back(&s);
+    for (const heat::ToolPiece& p : found.source.pieces)
+      if (std::min(p.from[2], p.to[2]) < job.source.machining.top)
+        span_of(p.start + p.seconds / 2).strokes.push_back(&p);
+    for (std::size_t i = 0; i < found.walls.size(); ++i) span_of(found.walls[i].seconds).walls.push_back(i);
+  }
+
+  Result<Run> run(double film, const ProgressListener& progress) const {
+    heat::Body body(
+        found_.grid, border_.is_block() ? std::function<double(Place)>{}
+                                        : [&](Place p) { return border_.inside(p.x, p.y); });
+    heat::Conduction conduction(body, conductor_of(job_.material), films_of(film, job_.holding),
+                                job_.threads);
+    heat::Expansion expansion(found_.grid, elastic_of(job_.material), job_.holding, job_.threads);
+    Run run;
+    run.errors_um.resize(found_.walls.size());
+    for (std::size_t n = 0; n < spans_.size(); ++n) {
+      ask();
+      if (progress) progress({n, static_cast<double>(n) / static_cast<double>(spans_.size())});
+      const Span& span = spans_[n];
+      LEKALO_CHECK(conduction.step(span.end - span.begin, sources_of(span, body, run)));
+      for (const heat::ToolPiece* p : span.strokes)
+        body.cut({{p->from[0], p->from[1], p->from[2]}, {p->to[0], p->to[1], p->to[2]}, radius_});
+      const std::vector<heat::Changed> changed = body.settle();
+      if (!changed.empty()) conduction.follow(body, changed);
+      const std::vector<double> temperatures = conduction.temperatures();
+      run.warmest_k = std::max(run.warmest_k, *std::ranges::max_element(temperatures));
+      if (span.walls.empty()) continue;
+      expansion.follow(body);
+      LEKALO_CHECK(expansion.solve(temperatures));
+      const std::vector<double> stress = expansion.mises();
+      run.stress_mpa = std::max(run.stress_mpa, *std::ranges::max_element(stress));
+      for (const std::size_t i : span.walls) {
+        const WallPoint& w = found_.walls[i];
+        const Place moved = expansion.moved({w.x, w.y, w.z});
+        // The tool cuts at its place whatever was there; when it is cold, that is where it came from.
+        run.errors_um[i] = -kMicrometres * (moved.x * w.outward[0] + moved.y * w.outward[1]);
+      }
+    }
+    run.book = conduction.book();
+    run.work = conduction.work() + expansion.work();
+    return run;
+  }
+
+ private:
+  /// Steps have about one length, but for waits, in which nothing happens but that heat spreads.
+  void divide(const std::vector<heat::ToolPiece>& pieces, double seconds) {
+    double waits = 0;
+    for (const heat::ToolPiece& p : pieces)
+      if (p.line == 0) waits += p.seconds;
+    const double step = std::max(kShortestStep, (seconds - waits) / kSteps);
+    double begin = 0;
+    const auto end_at = [&](double end) {
+      if (end > begin) spans_.push_back({begin, end, {}, {}, {}});
+      begin = std::max(begin, end);
+    };
+    for (const heat::ToolPiece& p : pieces) {
+      const double end = p.start + p.seconds;
+      if (p.line == 0 && p.seconds > step) {
+        end_at(p.start);
+        const double parts = std::min(kStepsOfAWait, std::ceil(p.seconds / step));
+        for (double k = 1; k <= parts; ++k) end_at(p.start + p.seconds * k / parts);
+      } else if (end - begin >= step) {
+        end_at(end);
+      }
+    }
+    end_at(seconds);
+  }
+
+  [[nodiscard]] std::vector<heat::Source> sources_of(const Span& span, const heat::Body& body,
+                                                     Run& run) const {
+    Placed placed;
+    for (const heat::CutStep* step : span.steps)
+      step->floor ? heat_floor(*step, body, placed) : heat_rim(*step, body, placed);
+    run.not_placed_j += placed.nowhere;
+    std::vector<heat::Source> sources;
+    for (const auto& [cell, heat] : placed.joules) sources.push_back({cell, heat / (span.end - span.begin)});
+    return sources;
+  }
+
+  /// The heat of each voxel, and what found none, J.
+  struct Placed {
+    std::map<std::size_t, double> joules;
+    double nowhere = 0;
+  };
+
+  /// Adds heat to the first voxel that is solid enough on the way out of the tool, if there is one.
+  bool add(Place from, Place out, double heat, const heat::Body& body, Placed& placed) const {
+    const heat::Grid& grid = found_.grid;
+    for (int k = 1; k <= kLooksOut; ++k) {
+      const Place at{from.x + 0.5 * k * out.x, from.y + 0.5 * k * out.y, from.z + 0.5 * k * out.z};
+      const std::array<double, 3> off{(at.x - grid.low.x) / grid.pitch.x, (at.y - grid.low.y) / grid.pitch.y,
+                                      (at.z - grid.low.z) / grid.pitch.z};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (!(off[axis] >= 0 && off[axis] < static_cast<double>(grid.count[axis]))) return false;
+      const auto voxel = grid.voxel_of(at);
+      const std::size_t cell = grid.cell(voxel[0], voxel[1], voxel[2]);
+      if (body.share(cell) < kSolid) continue;
+      placed.joules[cell] += heat;
+      return true;
+    }
+    return false;
+  }
+
+  /// The foot of a rib takes the heat where nothing stands behind it.
+  void heat_rim(const heat::CutStep& step, const heat::Body& body, Placed& placed) const {
+    const Place pitch = found_.grid.pitch;
+    const double x = (step.from[0] + step.to[0]) / 2, y = (step.from[1] + step.to[1]) / 2;
+    const double arc = step.end - step.begin, height = step.high_z - step.low_z;
+    const auto parts = [](double whole, double of) {
+      return static_cast<std::size_t>(std::max(1.0, std::ceil(whole / of)));
+    };
+    const std::size_t round = parts(arc * radius_, std::min(pitch.x, pitch.y)), up = parts(height, pitch.z);
+    const double heat = step.work_j.middle() / static_cast<double>(round * up);
+    for (std::size_t i = 0; i < round; ++i) {
+      const auto d =
+          geom::sincos(step.begin + arc * (static_cast<double>(i) + 0.5) / static_cast<double>(round));
+      const double at_x = x + radius_ * d.cosine, at_y = y + radius_ * d.sine;
+      for (std::size_t k = 0; k < up; ++k) {
+        const double z = step.low_z + height * (static_cast<double>(k) + 0.5) / static_cast<double>(up);
+        if (!add({at_x, at_y, z}, {pitch.x * d.cosine, pitch.y * d.sine, 0}, heat, body, placed) &&
+            !add({at_x, at_y, step.low_z}, {0, 0, -pitch.z}, heat, body, placed))
+          placed.nowhere += heat;
+      }
+    }
+  }
+
+  /// A disc is nine places of equal parts.
+  void heat_floor(const heat::CutStep& step, const heat::Body& body, Placed& placed) const {
+    constexpr int kRing = 8;
+    const double x = (step.from[0] + step.to[0]) / 2, y = (step.from[1] + step.to[1]) / 2;
+    const double heat = step.work_j.middle() / (kRing + 1);
+    for (int k = 0; k <= kRing; ++k) {
+      const double off = k < kRing ? 0.7 * radius_ : 0;
+      const auto d = geom::sincos(k * kTurn / kRing);
+      if (!add({x + off * d.cosine, y + off * d.sine, step.low_z}, {0, 0, -found_.grid.pitch.z}, heat, body,
+               placed))
+        placed.nowhere += heat;
+    }
+  }
+
+  const HeatJob& job_;
+  const HeatFound& found_;
+  double radius_;
+  StockBorder border_;
+  std::vector<Span> spans_;
+};
+
+/// Returns the products of share and force, as parts of the middle of all work, from least to greatest.
+Interval factors_of(const HeatFound& found, const Interval& share) {
+  const Interval& work = found.source.work.work_j;
+  return {share.least * work.least / work.middle(), share.greatest * work.greatest / work.middle()};
+}
+
+Interval hull(const Interval& a, double b) { return {std::min(a.least, b), std::max(a.greatest, b)}; }
+
+/// Takes the runs together. The middle one stands in the middle.
+void take(const std::vector<Run>& runs, const Interval& factors, double middle, HeatFound& found) {
+  const Run& usual = runs[runs.size() / 2];
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < found.walls.size(); ++i) {
+    WallPoint& w = found.walls[i];
+    w.error_um = middle * usual.errors_um[i];
+    w.errors_um = {w.error_um, w.error_um};
+    for (const Run& run : runs)
+      for (const double factor : {factors.least, factors.greatest})
+        w.errors_um = hull(w.errors_um, factor * run.errors_um[i]);
+    errors.push_back(w.error_um);
+  }
+  found.errors = summary_of(errors);
+  found.scaling = best_scaling(found.walls);
+  const auto largest = [](const Run& run) {
+    double most = 0;
+    for (const double e : run.errors_um) most = std::max(most, std::abs(e));
+    return most;
+  };
+  const auto over_all = [&](auto&& of) {
+    Interval all{middle * of(usual), middle * of(usual)};
+    for (const Run& run : runs)
+      for (const double factor : {factors.least, factors.greatest}) all = hull(all, factor * of(run));
+    return all;
+  };
+  found.largest_um = over_all(largest);
+  found.warmest_k = over_all([](const Run& run) { return run.warmest_k; });
+  found.stress_mpa = over_all([](const Run& run) { return run.stress_mpa; });
+  found.book = usual.book;
+  for (double* j : {&found.book.in, &found.book.lost, &found.book.removed, &found.book.stored}) *j *= middle;
+  found.not_placed_j = middle * usual.not_placed_j;
+  for (const Run& run : runs) found.work += run.work;
+}
+
+}  // namespace
+
+Result<HeatFound> heat(const HeatJob& job, const PhaseListener& phases) {
+  const Interval share = job.material[Property::share];
+  HeatSourceJob source = job.source;
+  source.cutting.cutting_force = job.material[Property::cutting_force];
+  source.cutting.force_exponent = job.material[Property::force_exponent];
+  source.cutting.share = share;
+  HeatFound found;
+  LEKALO_TRY(found.source, heat_source(source, phases));
+  const double top = source.machining.top;
+  const heat::StockBox& box = found.source.stock.box;
+  LEKALO_TRY(found.grid, heat::Grid::divide({box.low_x, box.low_y, top - box.thickness},
+                                            {box.high_x, box.high_y, top}, job.pitch));
+  LEKALO_TRY(CutWalls walls, cut_walls(source, found.source, job.pitch));
+  found.walls = std::move(walls.points), found.uncut = walls.uncut;
+  std::vector<double> films{job.film.middle()};
+  if (job.film.least < job.film.greatest) films = {job.film.least, job.film.middle(), job.film.greatest};
+  const Follower follower(job, found);
+  std::vector<Run> runs;
+  for (const double film : films) {
+    LEKALO_TRY(Run run, follower.run(film, begin_phase(phases, "heating")));
+    runs.push_back(std::move(run));
+  }
+  take(runs, factors_of(found, share), share.middle(), found);
+  if (const double least = job.ambient_c + found.warmest_k.least; least > job.material.limit_c())
+    return failure(ErrorCode::bad_input,
+                   fmt::format("{}: the workpiece gets {:.0f} degrees C warm at least, and the figures of {} "
+                               "hold up to {:.0f}; cut less at a time, cool, or state a smaller share",
+                               job.source.program.name, least, job.material.name, job.material.limit_c()));
+  return found;
+}
+
+}  // namespace lekalo::jobs

@@ -1,0 +1,193 @@
+#include "heat_walls.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "lekalo/base/angle.hpp"
+#include "lekalo/geom/trig.hpp"
+#include "lekalo/io/shape/region_json.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+/// A pass is as near to a wall as another within this, mm: pieces of arcs are chords.
+constexpr double kAsNear = 0.03;
+/// A wall is cut where the tool's rim comes this near, mm.
+constexpr double kReached = 0.1;
+/// A tip is as deep as a place within this, mm.
+constexpr double kAsDeep = 1e-6;
+
+struct Station {
+  geom::Point at;
+  std::array<double, 2> outward{};
+};
+
+/// Places along an edge, whose left is the pocket.
+void add_stations(const geom::Edge& edge, double spacing, std::vector<Station>& stations) {
+  const geom::Point way = edge.to - edge.from;
+  if (edge.kind == geom::EdgeKind::line) {
+    const double length = geom::norm(way);
+    const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(length / spacing)));
+    for (std::size_t k = 0; k < count; ++k) {
+      const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
+      stations.push_back({edge.from + t * way, {way.y / length, -way.x / length}});
+    }
+    return;
+  }
+  const bool ccw = edge.kind == geom::EdgeKind::arc_ccw;
+  const geom::Point a = edge.from - edge.centre, b = edge.to - edge.centre;
+  const double radius = geom::arc_radius(edge), from = geom::direction_angle(a.x, a.y);
+  double turn = geom::direction_angle(b.x, b.y) - from;
+  if (ccw && turn <= 0) turn += kTurn;
+  if (!ccw && turn >= 0) turn -= kTurn;
+  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(radius * std::abs(turn) / spacing)));
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto direction =
+        geom::sincos(from + turn * (static_cast<double>(k) + 0.5) / static_cast<double>(count));
+    const double sign = ccw ? 1 : -1;
+    stations.push_back({{edge.centre.x + radius * direction.cosine, edge.centre.y + radius * direction.sine},
+                        {sign * direction.cosine, sign * direction.sine}});
+  }
+}
+
+double distance_from(const heat::ToolPiece& piece, geom::Point p) {
+  const double dx = piece.to[0] - piece.from[0], dy = piece.to[1] - piece.from[1];
+  const double px = p.x - piece.from[0], py = p.y - piece.from[1], square = dx * dx + dy * dy;
+  const double t = square > 0 ? std::clamp((px * dx + py * dy) / square, 0.0, 1.0) : 0.0;
+  return std::hypot(px - t * dx, py - t * dy);
+}
+
+/// Solves three equations with a positive definite matrix by Cholesky's method; 0 for what nothing decides.
+std::array<double, 3> solved(std::array<std::array<double, 3>, 3> m, std::array<double, 3> b) {
+  std::array<bool, 3> decided{};
+  const double scale = m[0][0] + m[1][1] + m[2][2];
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < i; ++k)
+      if (decided[k]) m[i][i] -= m[i][k] * m[i][k];
+    decided[i] = m[i][i] > 1e-12 * scale;
+    if (!decided[i]) continue;
+    m[i][i] = std::sqrt(m[i][i]);
+    for (std::size_t j = i + 1; j < 3; ++j) {
+      for (std::size_t k = 0; k < i; ++k)
+        if (decided[k]) m[j][i] -= m[j][k] * m[i][k];
+      m[j][i] /= m[i][i];
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < i; ++k)
+      if (decided[k]) b[i] -= m[i][k] * b[k];
+    b[i] = decided[i] ? b[i] / m[i][i] : 0;
+  }
+  for (std::size_t i = 3; i-- > 0;) {
+    for (std::size_t k = i + 1; k < 3; ++k)
+      if (decided[i]) b[i] -= m[k][i] * b[k];
+    b[i] = decided[i] ? b[i] / m[i][i] : 0;
+  }
+  return b;
+}
+
+}  // namespace
+
+Result<CutWalls> cut_walls(const HeatSourceJob& job, const HeatSource& source, double spacing) {
+  std::vector<geom::Edge> open;
+  LEKALO_TRY(const io::RegionFile pocket, io::parse_regions(job.pocket.bytes, job.pocket.name, {}, &open));
+  std::vector<Station> stations;
+  const auto add_walls = [&](const geom::Contour& contour) {
+    for (const geom::Edge& edge : contour)
+      if (std::ranges::find(open, edge) == open.end() &&
+          std::ranges::find(open, geom::reversed(edge)) == open.end())
+        add_stations(edge, spacing, stations);
+  };
+  for (const geom::Region& region : pocket.regions) {
+    add_walls(region.outer);
+    for (const geom::Contour& hole : region.holes) add_walls(hole);
+  }
+  const double top = job.machining.top,
+               radius = job.machining.tool_diameter / 2 + job.machining.stock_to_leave;
+  double deepest = top;
+  std::vector<const heat::ToolPiece*> down;
+  for (const heat::ToolPiece& piece : source.pieces)
+    if (const double tip = std::max(piece.from[2], piece.to[2]);
+        tip < top && piece.line > 0 && !piece.rapid) {
+      down.push_back(&piece);
+      deepest = std::min(deepest, tip);
+    }
+  deepest = std::max(deepest, top - source.stock.box.thickness);
+  const auto levels = static_cast<std::size_t>(std::max(1.0, std::round((top - deepest) / spacing)));
+  CutWalls walls;
+  std::vector<double> distances(down.size());
+  for (const Station& station : stations) {
+    for (std::size_t i = 0; i < down.size(); ++i) distances[i] = distance_from(*down[i], station.at);
+    for (std::size_t k = 0; k < levels; ++k) {
+      const double z = top - (static_cast<double>(k) + 0.5) * (top - deepest) / static_cast<double>(levels);
+      const auto is_deep = [&](std::size_t i) {
+        return std::max(down[i]->from[2], down[i]->to[2]) <= z + kAsDeep;
+      };
+      double nearest = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < down.size(); ++i)
+        if (is_deep(i)) nearest = std::min(nearest, distances[i]);
+      if (!(nearest <= radius + kReached)) {
+        ++walls.uncut;
+        continue;
+      }
+      WallPoint point;
+      point.x = station.at.x, point.y = station.at.y, point.z = z, point.outward = station.outward;
+      for (std::size_t i = down.size(); i-- > 0;)
+        if (is_deep(i) && distances[i] <= nearest + kAsNear) {
+          point.seconds = down[i]->start + down[i]->seconds / 2;
+          break;
+        }
+      walls.points.push_back(point);
+    }
+  }
+  if (walls.points.empty())
+    return failure(ErrorCode::bad_input,
+                   job.program.name + ": the program cuts no wall of " + job.pocket.name +
+                       "; the tool, the stock to leave and the pocket have to be those of the program");
+  return walls;
+}
+
+WallErrors summary_of(const std::vector<double>& errors) {
+  WallErrors found;
+  if (errors.empty()) return found;
+  const auto [least, most] = std::ranges::minmax(errors);
+  found.least = least, found.most = most;
+  for (const double error : errors) found.mean += error;
+  found.mean /= static_cast<double>(errors.size());
+  return found;
+}
+
+UniformScaling best_scaling(const std::vector<WallPoint>& walls) {
+  double middle_x = 0, middle_y = 0;
+  for (const WallPoint& w : walls) middle_x += w.x, middle_y += w.y;
+  middle_x /= static_cast<double>(walls.size()), middle_y /= static_cast<double>(walls.size());
+  // A wall moves outwards by (x n) e + s n where the program is scaled by 1 + e and shifted by s.
+  const auto row = [&](const WallPoint& w) {
+    return std::array{(w.x - middle_x) * w.outward[0] + (w.y - middle_y) * w.outward[1], w.outward[0],
+                      w.outward[1]};
+  };
+  std::array<std::array<double, 3>, 3> matrix{};
+  std::array<double, 3> right{};
+  for (const WallPoint& w : walls) {
+    const auto r = row(w);
+    for (std::size_t i = 0; i < 3; ++i) {
+      right[i] -= r[i] * w.error_um;
+      for (std::size_t k = 0; k < 3; ++k) matrix[i][k] += r[i] * r[k];
+    }
+  }
+  const std::array<double, 3> found = solved(matrix, right);
+  UniformScaling scaling;
+  scaling.factor = 1 + found[0] / 1000;
+  scaling.shift_um = {found[1], found[2]};
+  std::vector<double> left;
+  for (const WallPoint& w : walls) {
+    const auto r = row(w);
+    left.push_back(w.error_um + r[0] * found[0] + r[1] * found[1] + r[2] * found[2]);
+  }
+  scaling.left = summary_of(left);
+  return scaling;
+}
+
+}  // namespace lekalo::jobs

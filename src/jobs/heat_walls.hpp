@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "lekalo/jobs/heat.hpp"
+
+namespace lekalo::jobs {
+
+/// The places of a pocket's walls that a program cuts.
+struct CutWalls {
+  std::vector<WallPoint> points;  ///< with place, direction and time; ordered by the outline, then by height
+  std::size_t uncut = 0;
+};
+
+/// Steps 1 and 2 of docs/design/heat-walls.md. \param spacing  of places, mm
+[[nodiscard]] Result<CutWalls> cut_walls(const HeatSourceJob& job, const HeatSource& source, double spacing);
+
+/// Step 7: the scaling about the middle of the walls, and the shift, by least squares.
+[[nodiscard]] UniformScaling best_scaling(const std::vector<WallPoint>& walls);
+
+[[nodiscard]] WallErrors summary_of(const std::vector<double>& errors_um);
+
+}  // namespace lekalo::jobs

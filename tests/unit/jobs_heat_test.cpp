@@ -1,0 +1,178 @@
+#include "lekalo/jobs/heat.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace lekalo::jobs::jobs_heat_test {
+namespace {
+
+const std::string kPocket =
+    R"({"units":"mm","outer":[{"line":{"from":[0,0],"to":[20,0]}},{"line":{"from":[20,0],"to":[20,16]}},)"
+    R"({"line":{"from":[20,16],"to":[0,16]}},{"line":{"from":[0,16],"to":[0,0]}}]})";
+
+/// Clears the pocket but for 0.2 mm, waits, and takes that off the walls.
+std::string program(const std::string& wait) {
+  return "G21 G90 G17\nG0 X3.2 Y3.2 Z5\nG1 Z-4 F200\nG1 X16.8 F600\nG1 Y12.8\nG1 X3.2\nG1 Y3.2\nG1 Y8\nG1 "
+         "X16.8\n" +
+         wait + "G1 X17 Y8\nG1 Y13\nG1 X3\nG1 Y3\nG1 X17\nG1 Y8\nG0 Z5\n";
+}
+
+heat::Material material(double share_least, double share_greatest, const char* name = "6061-T6") {
+  heat::MaterialWords words{name, {}};
+  const auto state = [&](heat::Property p, heat::Interval value) {
+    words.stated[static_cast<std::size_t>(p)] = value;
+  };
+  state(heat::Property::share, {share_least, share_greatest});
+  if (std::string(name) == "PMMA") {
+    state(heat::Property::cutting_force, {200, 200});
+    state(heat::Property::force_exponent, {0.2, 0.2});
+    state(heat::Property::poisson, {0.37, 0.37});
+  }
+  return *heat::material_of(words);
+}
+
+HeatJob job_of(const std::string& wait = "") {
+  HeatJob job;
+  job.source.program = {"part.ngc", program(wait)};
+  job.source.pocket = {"pocket.json", kPocket};
+  job.source.machining.tool_diameter = 6;
+  job.source.cutting.teeth = 3, job.source.cutting.spindle_rpm = 8000;
+  job.source.stock.block = heat::read_stock("40x36x10");
+  job.material = material(0.1, 0.1);
+  job.film = {20, 20};
+  job.pitch = 2.5;
+  return job;
+}
+
+HeatFound run(const HeatJob& job) {
+  Result<HeatFound> found = heat(job);
+  if (!found) {
+    ADD_FAILURE() << found.error().message;
+    return {};
+  }
+  return std::move(*found);
+}
+
+/// That of job_of(), on two threads.
+const HeatFound& usual() {
+  static const HeatFound found = run(job_of());
+  return found;
+}
+
+TEST(JobsHeat, AfterALongWaitOnlyPlainGrowthIsLeft) {
+  HeatJob job = job_of("G4 P120\n");
+  job.film = {0, 0};
+  const HeatFound found = run(job);
+  // What is stored then is spread over the whole block; the last pass adds a little.
+  const double capacity = 2700 * 896e-9 * (40 * 36 * 10 - 20 * 16 * 4), warm = found.book.stored / capacity;
+  EXPECT_GT(warm, 0.3);
+  EXPECT_NEAR(found.scaling.factor - 1, 23.6e-6 * warm, 0.1 * 23.6e-6 * warm);
+  const double growth = 23.6e-6 * warm * 10 * 1000;
+  for (const WallPoint& w : found.walls) {
+    const double along = (w.x - 10) * w.outward[0] + (w.y - 8) * w.outward[1];
+    EXPECT_NEAR(w.error_um, -23.6e-6 * warm * along * 1000, 0.15 * growth) << w.x << " " << w.y << " " << w.z;
+  }
+  EXPECT_LT(std::max(std::abs(found.scaling.left.least), found.scaling.left.most), 0.15 * growth);
+}
+
+TEST(JobsHeat, AWarmPocketIsTooSmallWhenItIsCold) {
+  const HeatFound& found = usual();
+  EXPECT_LT(found.errors.mean, 0);
+  EXPECT_LE(found.errors.least, found.errors.mean);
+  EXPECT_LE(found.errors.mean, found.errors.most);
+  EXPECT_GT(found.scaling.factor, 1);
+  EXPECT_GT(found.warmest_k.least, 0);
+  // 8, 7, 8 and 7 places on two heights, of which the tool gets to none a millimetre from a corner.
+  EXPECT_EQ(found.walls.size(), 44U);
+  EXPECT_EQ(found.uncut, 16U);
+  for (const WallPoint& w : found.walls) EXPECT_GT(w.seconds, 6);
+}
+
+TEST(JobsHeat, HeatIsBooked) {
+  const HeatFound& found = usual();
+  const double into = found.source.work.work_j.middle() * 0.1;
+  EXPECT_NEAR(found.book.in + found.not_placed_j, into, 1e-9 * into);
+  EXPECT_LT(found.not_placed_j, 0.02 * into);
+  EXPECT_LT(found.book.balance(), 1e-3);
+  EXPECT_GT(found.book.removed, 0);
+  EXPECT_GT(found.book.lost, 0);
+}
+
+TEST(JobsHeat, WithoutAShareNothingMoves) {
+  HeatJob job = job_of();
+  job.material = material(0, 0);
+  const HeatFound found = run(job);
+  for (const WallPoint& w : found.walls) {
+    EXPECT_EQ(w.error_um, 0);
+    EXPECT_EQ(w.errors_um, (heat::Interval{0, 0}));
+  }
+  EXPECT_EQ(found.scaling.factor, 1);
+  EXPECT_EQ(found.largest_um, (heat::Interval{0, 0}));
+}
+
+TEST(JobsHeat, ErrorsAreInProportionToTheShareAndTheIntervalsHoldThem) {
+  HeatJob job = job_of();
+  const HeatFound& once = usual();
+  job.material = material(0.05, 0.15);
+  const HeatFound wide = run(job);
+  ASSERT_EQ(once.walls.size(), wide.walls.size());
+  const heat::Interval work = once.source.work.work_j;
+  for (std::size_t i = 0; i < once.walls.size(); ++i) {
+    const WallPoint &a = once.walls[i], &b = wide.walls[i];
+    EXPECT_NEAR(a.error_um, b.error_um, 1e-12);
+    EXPECT_LE(b.errors_um.least, a.errors_um.least + 1e-12);
+    EXPECT_GE(b.errors_um.greatest, a.errors_um.greatest - 1e-12);
+    const double most = 1.5 * work.greatest / work.middle() * a.error_um;
+    EXPECT_NEAR(a.error_um < 0 ? b.errors_um.least : b.errors_um.greatest, most,
+                1e-9 + 1e-9 * std::abs(most));
+  }
+}
+
+TEST(JobsHeat, WaitingPaysWithFloodAndAnIntervalOfFilmsHoldsTheErrorsOfItsEnds) {
+  HeatJob job = job_of("G4 P40\n");
+  job.film = {10, 2000};
+  const HeatFound wide = run(job);
+  job.film = {10, 10};
+  const HeatFound dry = run(job);
+  job.film = {2000, 2000};
+  const HeatFound flood = run(job);
+  EXPECT_LT(flood.largest_um.greatest, 0.7 * dry.largest_um.greatest);
+  for (const HeatFound* one : {&dry, &flood})
+    for (std::size_t i = 0; i < one->walls.size(); ++i) {
+      EXPECT_LE(wide.walls[i].errors_um.least, one->walls[i].error_um + 1e-9);
+      EXPECT_GE(wide.walls[i].errors_um.greatest, one->walls[i].error_um - 1e-9);
+    }
+}
+
+TEST(JobsHeat, ThreadsChangeNothing) {
+  HeatJob job = job_of();
+  job.threads = 1;
+  const HeatFound one = run(job);
+  const HeatFound& two = usual();
+  for (std::size_t i = 0; i < one.walls.size(); ++i) EXPECT_EQ(one.walls[i].error_um, two.walls[i].error_um);
+  EXPECT_EQ(one.work, two.work);
+}
+
+TEST(JobsHeat, ImpossibleJobsAreToldInOneSentence) {
+  const auto complaint_of = [](const HeatJob& job) {
+    const Result<HeatFound> found = heat(job);
+    return found ? std::string() : found.error().message;
+  };
+  HeatJob job = job_of();
+  job.source.program.bytes = "G21 G90 G17\nG0 X8 Y8 Z5\nG1 Z-1 F200\nG1 X12 F600\n";
+  EXPECT_EQ(
+      complaint_of(job),
+      "part.ngc: the program cuts no wall of pocket.json; the tool, the stock to leave and the pocket have "
+      "to be those of the program");
+  job = job_of(), job.pitch = 0;
+  EXPECT_EQ(complaint_of(job), "voxels of 0 mm cannot be made; state a pitch above 0");
+  job = job_of(), job.material = material(0.5, 0.5, "PMMA");
+  EXPECT_NE(complaint_of(job).find("the figures of PMMA hold up to 105"), std::string::npos)
+      << complaint_of(job);
+}
+
+}  // namespace
+}  // namespace lekalo::jobs::jobs_heat_test
