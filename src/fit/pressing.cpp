@@ -65,8 +65,9 @@ struct Pressing::Model {
   std::vector<double> forces;        // what holds each of them, N per radian
   double largest_force = 0;          // that a node ever held, by which what is left over is measured
   std::uint64_t work = 0;
+  FirstSeat first_seat;
 
-  Model(const Assembly& a, const Fineness& fineness, const std::vector<Turned>& turned);
+  Model(const Assembly& a, const Fineness& fineness, const std::vector<Turned>& turned, FirstSeat first);
 
   // One step to other interferences; false where no solution was found, with everything as before.
   bool step(const std::vector<double>& to, bool apart);
@@ -81,6 +82,10 @@ struct Pressing::Model {
   bool solve(const std::vector<double>& to, std::vector<PlasticState>& after);
   bool iterate(const Numbering& numbering, Envelope& matrix, std::vector<PlasticState>& after);
   bool touch_anew(const std::vector<double>& to);
+  /// The hub's node moves as it is told, and its force is the shaft's load.
+  [[nodiscard]] bool is_held(const Pair& pair) const {
+    return pair.seat == 0 && first_seat == FirstSeat::cylinder;
+  }
   [[nodiscard]] double overlap(const Pair& pair, const std::vector<double>& to) const {
     return to[pair.seat] / 2 + pair.turned;
   }
@@ -96,8 +101,9 @@ struct Pressing::Model {
   void read_stresses(std::vector<RingGrowth>& rings) const;
 };
 
-Pressing::Model::Model(const Assembly& a, const Fineness& fineness, const std::vector<Turned>& turned)
-    : assembly(a) {
+Pressing::Model::Model(const Assembly& a, const Fineness& fineness, const std::vector<Turned>& turned,
+                       FirstSeat first)
+    : assembly(a), first_seat(first) {
   std::vector<Turned> free;  // seats keep their nominal diameter in the mesh: theirs is the interference
   for (const Turned& t : turned)
     if (t.outer ? at(t.ring) + 1 == a.rings.size() : t.ring == 0) free.push_back(t);
@@ -128,7 +134,10 @@ Pressing::Model::Numbering Pressing::Model::number() const {
   }
   std::vector<int> same(mesh.nodes.size(), -1);  // the node whose r this node's follows
   for (std::size_t p = 0; p < pairs.size(); ++p)
-    if (touching[p] != 0) same[at(pairs[p].hub)] = pairs[p].shaft;
+    if (is_held(pairs[p]))
+      n.of[2 * at(pairs[p].hub)] = -1;
+    else if (touching[p] != 0)
+      same[at(pairs[p].hub)] = pairs[p].shaft;
   // A node that is followed has the lower number, so that its unknown is there already.
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
     for (std::size_t c = 0; c < 2; ++c) {
@@ -143,6 +152,7 @@ Pressing::Model::Numbering Pressing::Model::number() const {
 bool Pressing::Model::iterate(const Numbering& numbering, Envelope& matrix,
                               std::vector<PlasticState>& after) {
   std::vector<double> right(numbering.unknowns);
+  const std::vector<double> before = forces;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     ask();
     matrix.clear();
@@ -188,6 +198,10 @@ bool Pressing::Model::iterate(const Numbering& numbering, Envelope& matrix,
       largest = std::max(largest, std::abs(forces[i]));
       if (numbering.of[i] >= 0) right[at(numbering.of[i])] -= forces[i];
     }
+    for (const Pair& pair : pairs)
+      // While the jump of the seat lies in one layer, the hub's forces are those of no pressure.
+      if (is_held(pair))
+        right[at(numbering.of[2 * at(pair.shaft)])] -= (iteration == 0 ? before : forces)[2 * at(pair.hub)];
     for (const double r : right) left = std::max(left, std::abs(r));
     if (!std::isfinite(left)) return false;
     if (iteration > 0 && left <= kSolved * largest) {
@@ -210,6 +224,7 @@ bool Pressing::Model::touch_anew(const std::vector<double>& to) {
   bool changed = false;
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const Pair& pair = pairs[p];
+    if (is_held(pair)) continue;
     const double inside = moved[2 * at(pair.shaft)] + overlap(pair, to) - moved[2 * at(pair.hub)];
     const bool touches = touching[p] != 0 ? forces[2 * at(pair.hub)] > -1e-9 * largest : inside > 1e-12;
     if (touches != (touching[p] != 0)) touching[p] = touches ? 1 : 0, changed = true;
@@ -221,7 +236,9 @@ bool Pressing::Model::solve(const std::vector<double>& to, std::vector<PlasticSt
   for (int round = 0; round < kContactRounds; ++round) {
     const Numbering numbering = number();
     for (std::size_t p = 0; p < pairs.size(); ++p)
-      if (touching[p] != 0)
+      if (is_held(pairs[p]))
+        moved[2 * at(pairs[p].hub)] = to[0] / 2;
+      else if (touching[p] != 0)
         moved[2 * at(pairs[p].hub)] = moved[2 * at(pairs[p].shaft)] + overlap(pairs[p], to);
     std::vector<std::size_t> first(numbering.unknowns);
     for (std::size_t i = 0; i < first.size(); ++i) first[i] = i;
@@ -328,8 +345,9 @@ Pressed Pressing::Model::read() const {
   return pressed;
 }
 
-Pressing::Pressing(const Assembly& assembly, const Fineness& fineness, const std::vector<Turned>& turned)
-    : model_(std::make_unique<Model>(assembly, fineness, turned)) {}
+Pressing::Pressing(const Assembly& assembly, const Fineness& fineness, const std::vector<Turned>& turned,
+                   FirstSeat first_seat)
+    : model_(std::make_unique<Model>(assembly, fineness, turned, first_seat)) {}
 Pressing::~Pressing() = default;
 Pressing::Pressing(Pressing&&) noexcept = default;
 Pressing& Pressing::operator=(Pressing&&) noexcept = default;

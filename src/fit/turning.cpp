@@ -15,8 +15,10 @@ std::vector<TurnedPoint> whole(const Corrected& corrected) {
   return points;
 }
 
-const char* name_of_surface(Surface surface) {
-  return surface == Surface::outside ? "OUTSIDE OF THE HUB" : "BORE OF THE SHAFT";
+const char* words_of(Surface surface) {
+  return surface == Surface::outside ? "OUTSIDE OF THE HUB"
+         : surface == Surface::bore  ? "BORE OF THE SHAFT"
+                                     : "SEAT ON THE SHAFT";
 }
 
 }  // namespace
@@ -39,27 +41,33 @@ std::string profile_dxf(const Corrected& corrected) {
 
 std::string turning_program(const Corrected& corrected, const TurningWords& words) {
   const std::vector<TurnedPoint> points = whole(corrected);
-  const double face = points.front().z, scale = words.radius ? 0.5 : 1,
-               away = corrected.surface == Surface::outside ? 2 : -2;
+  const bool on_seat = corrected.surface == Surface::seat;
+  const double face = corrected.face, scale = words.radius ? 0.5 : 1,
+               away = corrected.surface == Surface::bore ? -2 * kLead : 2 * kLead;
   // A radius is half of a diameter, and needs one decimal more to be as exact.
   const auto x = [&](double diameter) {
     return fmt::format("X{:.{}f}", scale * diameter, words.radius ? 5 : 4);
   };
   const auto z = [&](double place) { return fmt::format("Z{:.4f}", place - face); };
   std::string text = words.control == Lathe::fanuc ? "%\nO0001\n" : "";
-  text += fmt::format("(LEKALO FIT - {})\n(Z0 IS THE RIGHT FACE, X IS A {})\n",
-                      name_of_surface(corrected.surface), words.radius ? "RADIUS" : "DIAMETER");
+  text += fmt::format("(LEKALO FIT - {})\n(Z0 IS THE RIGHT FACE, X IS A {})\n", words_of(corrected.surface),
+                      words.radius ? "RADIUS" : "DIAMETER");
   text += words.control == Lathe::fanuc
               ? "G21 G18 G40 G80 G97 G98\n"
               : fmt::format("G21 G18 G40 G80 G90 G94 G97 {}\n", words.radius ? "G8" : "G7");
   text += fmt::format("S{:.0f} M3\n", words.spindle_rpm);
-  text += fmt::format("G0 {}\nG0 {}\n", z(face + kLead), x(points.front().diameter));
-  text += fmt::format("G1 {} F{:.1f}\n", z(face), words.feed_mm_per_min);
+  // Beside a seat the shaft goes on, so that the tool comes onto it and leaves it along X.
+  const double before = points.front().diameter, behind = points.back().diameter;
+  text += fmt::format("G0 {}\nG0 {}\n", z(face + kLead), x(before + (on_seat ? away : 0)));
+  if (on_seat)
+    text += fmt::format("G0 {}\nG1 {} F{:.1f}\n", z(points.front().z), x(before), words.feed_mm_per_min);
+  else
+    text += fmt::format("G1 {} F{:.1f}\n", z(face), words.feed_mm_per_min);
   for (std::size_t i = 1; i < points.size(); ++i)
     text += fmt::format("G1 {} {}\n", x(points[i].diameter), z(points[i].z));
-  text += fmt::format("G1 {}\n", z(points.back().z - kLead));
-  text += fmt::format("G0 {}\nG0 {}\n", x(points.back().diameter + away * kLead), z(face + kLead));
-  text += "M5\nM30\n";
+  text += on_seat ? "G1 " + x(behind + away) + "\n"
+                  : fmt::format("G1 {}\nG0 {}\n", z(points.back().z - kLead), x(behind + away));
+  text += fmt::format("G0 {}\nM5\nM30\n", z(face + kLead));
   return words.control == Lathe::fanuc ? text + "%\n" : text;
 }
 

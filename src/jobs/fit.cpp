@@ -138,6 +138,14 @@ Result<void> press_all(const FitJob& job, const Interference& interference, Fitt
   return {};
 }
 
+/// The diameter of the shaft before pressing and before smoothing: in the middle of its limits, or beyond
+/// that of a hub whose bore is the nominal one.
+double seat_diameter(const FitJob& job, const Fitted& made) {
+  const double diameter = made.assembly.rings.front().outer_diameter;
+  if (!made.named) return diameter + job.interference;
+  return diameter + (made.named->shaft_limits.lower_um + made.named->shaft_limits.upper_um) / 2000;
+}
+
 /// The profile for the mean interference, pressed again at all of them, and its files.
 Result<void> correct(const FitJob& job, Fitted& made, const PhaseListener& phases) {
   const ProgressListener listening = begin_phase(phases, "pressing again with the turned profile");
@@ -145,8 +153,8 @@ Result<void> correct(const FitJob& job, Fitted& made, const PhaseListener& phase
   std::vector<fit::Pressed> pressed;
   for (const FitCase& one : made.cases)
     interferences.push_back(one.pressed.interference), pressed.push_back(one.pressed);
-  LEKALO_TRY(made.corrected,
-             fit::corrected(made.assembly, interferences, pressed, made.cases.size() / 2, *job.cylindrical));
+  LEKALO_TRY(made.corrected, fit::corrected(made.assembly, interferences, pressed, made.cases.size() / 2,
+                                            *job.cylindrical, seat_diameter(job, made)));
   if (!job.table_as.empty()) made.table = fit::profile_csv(*made.corrected);
   if (!job.drawing_as.empty()) made.drawing = fit::profile_dxf(*made.corrected);
   if (!job.program_as.empty()) made.program = fit::turning_program(*made.corrected, job.turning);

@@ -115,17 +115,19 @@ void write_correction(io::JsonWriter& json, const FitJob& job, const Fitted& mad
     return;
   }
   const fit::Corrected& c = *made.corrected;
-  json.begin_object().fields({{"surface", c.surface == fit::Surface::outside ? "outside" : "bore"},
-                              {"nominal_mm", c.nominal},
-                              {"case", made.cases.size() / 2}});
+  json.begin_object().fields(
+      {{"surface", fit::name_of(c.surface)}, {"nominal_mm", c.nominal}, {"case", made.cases.size() / 2}});
   json.key("remains").begin_list();
   for (std::size_t i = 0; i < c.variations.size(); ++i)
     json.object({{"interference_um", um(made.cases[i].interference)},
                  {"before_um", um(c.variations[i].before)},
                  {"after_um", um(c.variations[i].after)}});
-  json.end().key("profile").list(c.profile, [&](const fit::TurnedPoint& p) {
-    json.object({{"z_mm", shown(p.z)}, {"diameter_mm", shown(p.diameter)}});
-  });
+  json.end().key("profile").begin_list();
+  for (std::size_t i = 0; i < c.profile.size(); ++i)
+    json.object({{"z_mm", shown(c.profile[i].z)},
+                 {"diameter_mm", shown(c.profile[i].diameter)},
+                 {"pressed_um", um(c.growths[i])}});
+  json.end();
   json.key("turning");
   if (made.program.empty())
     json.value(nullptr);

@@ -85,7 +85,7 @@ TEST(CliFit, WhatIsWrongIsSaidInOneSentence) {
         {{"--diameter", "18"}, 2, "--interference"},
         {{"--fit", "18H8/z8", "--diameter", "18"}, 2, "say what is pressed"},
         {{"--fit", "18H8/z8", "--program", "p.ngc"}, 2, "need --cylindrical"},
-        {{"--fit", "18H8/z8", "--cylindrical", "seat"}, 2, "is not outside or bore"},
+        {{"--fit", "18H8/z8", "--cylindrical", "hub"}, 2, "is not outside, bore or seat"},
         {{"--fit", "18H8/z8", "--cylindrical", "bore"}, 3, "has no bore"},
         {{"--fit", "18H8/z8", "--friction", "0.2,0.1"}, 2, "the least comes first"},
         {{"--fit", "18H8/z8", "--ring", "50"}, 2, "--ring"}}) {

@@ -332,7 +332,8 @@ def of_fits():
     sizes = ["--hub-outer", "36", "--length", "18", "--material", "C45", "--bore", "6", "-o", "r.json"]
     yield Kind("result of fit", [], [["fit", "--fit", "18H8/z8", "--friction", "0.08,0.12", "--clearance", "18"] + sizes],
                "r.json", ["verify", "r.json"], lambda context: lambda change: None, base=1)
-    turned = ["fit", "--diameter", "18", "--interference", "0.04", "--cylindrical", "outside", "--profile", "p.csv", "--drawing",
-              "p.dxf", "--program", "p.ngc"] + sizes
-    yield Kind("result of fit, turned", [], [turned], "r.json", ["verify", "r.json"], lambda context: lambda change: None, base=1,
-               inputs=["p.csv", "p.dxf", "p.ngc"])
+    for surface in ("outside", "seat"):
+        turned = ["fit", "--diameter", "18", "--interference", "0.04", "--cylindrical", surface, "--profile", "p.csv", "--drawing",
+                  "p.dxf", "--program", "p.ngc"] + sizes
+        yield Kind("result of fit, turned" + ", seat" * (surface == "seat"), [], [turned], "r.json", ["verify", "r.json"],
+                   lambda context: lambda change: None, base=1, inputs=["p.csv", "p.dxf", "p.ngc"])

@@ -43,6 +43,8 @@ CASES = [
                                 "--material", "C45", "--interference", "0.015"]),
     ("outside corrected", SHAFT + ["--yield", "340", "--interference", "0.06", "--cylindrical", "outside"]),
     ("bore corrected", SHAFT + STRONG + ["--bore", "8", "--interference", "0.04", "--cylindrical", "bore"]),
+    ("seat corrected", SHAFT + STRONG + ["--interference", "0.04", "--cylindrical", "seat"]),
+    ("seat corrected, yielding", SHAFT + ["--yield", "340", "--interference", "0.087", "--cylindrical", "seat"]),
 ]
 
 
@@ -196,8 +198,8 @@ class Case:
         for seat, ring in zip(self.case["seats"], self.rings):
             self.shrinks.append(self.shrinks[-1] - seat["interference_um"] / 1000 / ring["outer_diameter_mm"])
         if self.correction:
-            outer = self.correction["surface"] == "outside"
-            turned = {"ring": len(self.rings) - 1 if outer else 0, "outer": outer,
+            outer = self.correction["surface"] != "bore"
+            turned = {"ring": len(self.rings) - 1 if self.correction["surface"] == "outside" else 0, "outer": outer,
                       "nominal": self.correction["nominal_mm"], "profile": self.correction["profile"]}
         # The profile's growths are those of the parts as they were before they were corrected.
         self.meshes = [meshed(self.rings, self.shrinks, None)] + (
@@ -237,11 +239,12 @@ class Case:
         rows.append(("pressure in the middle", self.case["middle_pressure_mpa"], middle, PRESSURE * middle))
         rows.append(("mean pressure", self.case["pressure_mpa"], mean, PRESSURE * mean))
         if self.correction:
-            outer = self.correction["surface"] == "outside"
-            ring, nominal = (last if outer else 0), self.correction["nominal_mm"]
+            surface, nominal = self.correction["surface"], self.correction["nominal_mm"]
+            ring, outer = (last if surface == "outside" else 0), surface != "bore"
+            here = lambda z: surface != "seat" or z <= edge + 1e-9
             after = [2 * u + 1000 * (diameter_at(self.correction["profile"], z) - nominal)
-                     for z, u in self.growths(ring, outer, run=1)]
-            before = [2 * u for _, u in self.growths(ring, outer)]
+                     for z, u in self.growths(ring, outer, run=1) if here(z)]
+            before = [2 * u for z, u in self.growths(ring, outer) if here(z)]
             rows.append(("varies after correction", self.correction["remains"][len(self.correction["remains"]) // 2]
                          ["after_um"], max(after) - min(after), max(1, 0.05 * (max(before) - min(before)))))
         return rows
@@ -257,8 +260,8 @@ def main():
     lekalo, wrong = os.path.abspath(words.lekalo), 0
     chosen = [c for c in CASES if re.search(words.only, c[0])][:None if "LEKALO_FULL" in os.environ else 1]
     if words.table:
-        print("| case | largest difference of growths, um in the radius | where | pressure in the middle, MPa | mean pressure, MPa |"
-              "\n|---|---|---|---|---|")
+        print("| case | largest difference of growths, um in the radius | where | pressure in the middle, MPa | mean pressure, MPa | variation after correction, um |"
+              "\n|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as name:
         for title, options in chosen:
             ran = subprocess.run([lekalo, "fit", "--json"] + options, capture_output=True, text=True)
@@ -271,8 +274,9 @@ def main():
             figures = {r[0]: r for r in rows}
             if words.table:
                 print(f"| {title} | {abs(worst[1] - worst[2]):.3f} of {abs(worst[2]):.2f} | {worst[0]} | " + " | ".join(
-                    f"{figures[k][1]:.1f} / {figures[k][2]:.1f}" for k in ("pressure in the middle", "mean pressure")) + " |",
-                      flush=True)
+                    f"{figures[k][1]:{form}} / {figures[k][2]:{form}}" if k in figures else "" for k, form in
+                    (("pressure in the middle", ".1f"), ("mean pressure", ".1f"), ("varies after correction", ".2f"))) +
+                      " |", flush=True)
             else:
                 print(f"{title}: {len(rows)} figures, {len(bad)} apart, largest difference {worst[0]} "
                       f"{worst[1]:.4f} / {worst[2]:.4f} um, {time.monotonic() - start:.1f} s", flush=True)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lekalo/fit/closed_form.hpp"
 #include "lekalo/fit/turning.hpp"
 #include "verify/fit/turning_check.hpp"
 
@@ -27,7 +28,7 @@ Corrected made(double bore, double yield, const std::vector<double>& ends, Surfa
     interferences.push_back({mm});
     pressed.push_back(pressing.press({mm}).value());
   }
-  return fit::corrected(assembly, interferences, pressed, ends.size() / 2, surface).value();
+  return fit::corrected(assembly, interferences, pressed, ends.size() / 2, surface, 18.05).value();
 }
 
 TEST(Corrected, PressedAgainTheSurfaceIsACylinder) {
@@ -56,6 +57,36 @@ TEST(Corrected, WhatGrowsMoreIsTurnedSmaller) {
   EXPECT_GT(bore.profile.front().diameter, bore.profile.back().diameter);
 }
 
+// The bore of an elastic hub stays a cylinder under an even pressure, so that of a seat that becomes a
+// cylinder is even, and in the mean the same as before.
+TEST(Corrected, ASeatThatBecomesACylinderIsPressedEvenly) {
+  for (const auto& [bore, yield, ends] : {std::tuple{0.0, 900.0, std::vector<double>{0.04}},
+                                          {8.0, 900.0, std::vector<double>{0.04}},
+                                          {14.0, 900.0, std::vector<double>{0.02}},
+                                          {0.0, 340.0, std::vector<double>{0.033, 0.060, 0.087}},
+                                          {6.0, 340.0, std::vector<double>{0.033, 0.060, 0.087}}}) {
+    const Corrected c = made(bore, yield, ends, Surface::seat);
+    const fit::Variation& mean = c.variations[ends.size() / 2];
+    EXPECT_GT(mean.before, 0.0005);
+    EXPECT_LE(mean.after, 0.05 * mean.before) << bore << " " << yield;
+    EXPECT_EQ(c.profile.back().z, 9) << "the seat ends with the hub";
+    EXPECT_LT(c.profile.back().diameter, c.profile.front().diameter) << "less gives way at the end";
+    if (yield < 900) continue;
+    const fit::Pressed& p = c.pressed[0];
+    EXPECT_EQ(p.state, fit::State::elastic);
+    // A tenth of a micrometre is some megapascals where it lies on one element.
+    EXPECT_NEAR(p.seats[0].middle_mpa, p.seats[0].pressure_mpa, 0.01 * p.seats[0].pressure_mpa);
+    fit::Pressing without({{{bore, 18, 54, {"steel", 210000, 0.3, 900, 0, 0}},
+                            {18, 36, 18, {"steel", 210000, 0.3, 900, 0, 0}}}});
+    const double before = (*without.press(p.interference)).seats[0].pressure_mpa;
+    EXPECT_NEAR(p.seats[0].pressure_mpa, before, 2e-3 * before);
+    const double lame =
+        fit::lame_displacement({18, 36, 18, {"steel", 210000, 0.3, 900, 0, 0}}, 18, before, 0);
+    EXPECT_NEAR(p.rings[1].outer.front().diameter, 2 * lame, 2e-3 * lame);
+    EXPECT_NEAR(p.rings[1].outer.back().diameter, 2 * lame, 2e-3 * lame);
+  }
+}
+
 TEST(Corrected, ASolidShaftHasNoBore) {
   const Assembly solid{
       {{0, 18, 54, {"steel", 210000, 0.3, 900, 0, 0}}, {18, 36, 18, {"steel", 210000, 0.3, 900, 0, 0}}}};
@@ -73,7 +104,7 @@ std::vector<verify::ProfilePoint> whole(const Corrected& c) {
 }
 
 TEST(Corrected, FilesAreTheProfileAndChangedOnesAreNot) {
-  for (const Surface surface : {Surface::outside, Surface::bore}) {
+  for (const Surface surface : {Surface::outside, Surface::bore, Surface::seat}) {
     const Corrected c = made(8, 900, {0.04}, surface);
     const std::vector<verify::ProfilePoint> points = whole(c);
     const std::string table = fit::profile_csv(c), drawing = fit::profile_dxf(c);
@@ -86,12 +117,24 @@ TEST(Corrected, FilesAreTheProfileAndChangedOnesAreNot) {
     for (const fit::Lathe control : {fit::Lathe::linuxcnc, fit::Lathe::fanuc})
       for (const bool radius : {false, true}) {
         const std::string program = fit::turning_program(c, {control, radius, 60, 1200});
-        const verify::TurningClaim claim{control == fit::Lathe::fanuc, radius, surface == Surface::bore, 60,
-                                         1200};
+        const verify::TurningClaim claim{control == fit::Lathe::fanuc,
+                                         radius,
+                                         surface == Surface::bore   ? verify::TurnedSurface::bore
+                                         : surface == Surface::seat ? verify::TurnedSurface::seat
+                                                                    : verify::TurnedSurface::outside,
+                                         60,
+                                         1200,
+                                         surface == Surface::outside ? 9.0 : 27.0};
         EXPECT_EQ(verify::fault_of_turning(program, points, claim), std::nullopt) << program.substr(0, 300);
         EXPECT_NE(verify::fault_of_turning(program, other, claim), std::nullopt);
         verify::TurningClaim lie = claim;
         lie.feed = 61;
+        EXPECT_NE(verify::fault_of_turning(program, points, lie), std::nullopt);
+        lie = claim;
+        lie.face += 1;
+        EXPECT_NE(verify::fault_of_turning(program, points, lie), std::nullopt);
+        lie = claim;
+        lie.surface = surface == Surface::seat ? verify::TurnedSurface::outside : verify::TurnedSurface::seat;
         EXPECT_NE(verify::fault_of_turning(program, points, lie), std::nullopt);
         const auto changed = [&](const std::string& from, const std::string& to) {
           std::string text = program;
@@ -103,7 +146,7 @@ TEST(Corrected, FilesAreTheProfileAndChangedOnesAreNot) {
                                        {"G18", "G17"},
                                        {"G21", "G20"},
                                        {"M3\n", "M4\n"},
-                                       {"G0 Z1", "G0 Z-1"},
+                                       {"G0 Z1.0000\nG0", "G0 Z-1.0000\nG0"},
                                        {"G1 X", "G0 X"},
                                        {"G1 X", "G2 X"},
                                        {"M5\n", ""},

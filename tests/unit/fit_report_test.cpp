@@ -1,6 +1,7 @@
 // The checker and results of `lekalo fit`: those of many fits hold, and lies about every figure that it can
 // make anew are refuted.
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -125,10 +126,9 @@ TEST(VerifyFit, LiesAreRefuted) {
   EXPECT_TRUE(found([](Json& d) { d["cases"][0]["profile"].erase(5); }));
 }
 
-TEST(VerifyFit, ProfilesAndTheirFilesAreHeldAgainstTheGrowths) {
-  jobs::FitJob job = article();
-  job.fit.clear(), job.diameter = 18, job.interference = 0.04;
-  job.cylindrical = fit::Surface::outside;
+/// Returns what was made.
+jobs::Fitted profiles_are_held(jobs::FitJob job, fit::Surface surface) {
+  job.cylindrical = surface;
   job.table_as = "p.csv", job.drawing_as = "p.dxf", job.program_as = "p.ngc";
   const jobs::Fitted made = jobs::fit(job).value();
   const auto found = [&](const std::function<void(Json&)>& change, const std::string& program) {
@@ -138,23 +138,45 @@ TEST(VerifyFit, ProfilesAndTheirFilesAreHeldAgainstTheGrowths) {
         {"r.json", document.dump()}, {{"p.csv", made.table}, {"p.dxf", made.drawing}, {"p.ngc", program}});
     return !report || !report->findings.empty();
   };
+  const std::string after_path = fmt::format("/correction/remains/{}/after_um", made.cases.size() / 2);
   EXPECT_FALSE(found([](Json&) {}, made.program));
   EXPECT_TRUE(found([](Json&) {}, made.program + "G0 X0\n"));
-  for (const char* path :
-       {"/correction/nominal_mm", "/correction/profile/0/diameter_mm", "/correction/profile/3/z_mm",
-        "/correction/remains/0/before_um", "/correction/remains/0/interference_um",
-        "/correction/turning/feed_mm_per_min", "/correction/turning/spindle_rpm"})
+  for (const char* path : {"/correction/nominal_mm", "/correction/profile/0/diameter_mm",
+                           "/correction/profile/3/z_mm", "/correction/profile/0/pressed_um",
+                           "/correction/remains/0/before_um", "/correction/remains/0/interference_um",
+                           "/correction/turning/feed_mm_per_min", "/correction/turning/spindle_rpm"})
     EXPECT_TRUE(found([&](Json& d) { d.at(path) = d.at(path).get<double>() + 1; }, made.program)) << path;
   for (const auto& lie :
-       std::initializer_list<std::pair<const char*, Json>>{{"/correction/surface", "bore"},
-                                                           {"/correction/case", 1},
+       std::initializer_list<std::pair<const char*, Json>>{{"/correction/surface", "all"},
+                                                           {"/correction/case", 7},
                                                            {"/correction/turning/control", "fanuc"},
                                                            {"/correction/turning/x", "radius"},
                                                            {"/correction/turning", nullptr},
                                                            {"/correction", nullptr},
-                                                           {"/correction/remains/0/after_um", 2},
+                                                           {after_path.c_str(), 2},
                                                            {"/outputs/0/role", "program"}})
     EXPECT_TRUE(found([&](Json& d) { d.at(lie.first) = lie.second; }, made.program)) << lie.first;
+  for (const fit::Surface other : {fit::Surface::outside, fit::Surface::bore, fit::Surface::seat})
+    EXPECT_EQ(
+        found([&](Json& d) { d["correction"]["surface"] = std::string(fit::name_of(other)); }, made.program),
+        other != surface);
+  return made;
+}
+
+TEST(VerifyFit, ProfilesAndTheirFilesAreHeldAgainstTheGrowths) {
+  jobs::FitJob job = article();
+  job.fit.clear(), job.diameter = 18, job.interference = 0.04;
+  for (const fit::Surface surface : {fit::Surface::outside, fit::Surface::bore, fit::Surface::seat})
+    (void)profiles_are_held(job, surface);
+}
+
+// The shaft of a named fit is turned from the middle of its limits, and smoothing takes nothing off that.
+TEST(VerifyFit, SeatsAreTurnedFromTheShaftsOwnDiameter) {
+  jobs::FitJob job = article();
+  job.bore = 0;
+  EXPECT_NEAR(profiles_are_held(job, fit::Surface::seat).corrected->nominal, 18.0735, 1e-9);
+  job.fit.clear(), job.diameter = 18, job.interference = 0.05, job.roughness_um = {3, 4};
+  EXPECT_NEAR(profiles_are_held(job, fit::Surface::seat).corrected->nominal, 18.05, 1e-9);
 }
 
 TEST(VerifyFit, ClosedFormIsTheCheckersOwn) {

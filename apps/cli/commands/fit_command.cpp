@@ -52,7 +52,7 @@ std::string words_of(const jobs::FitJob& job, const jobs::Fitted& made) {
   }
   if (made.corrected) {
     text += fmt::format("Turned for the mean interference, the {} varies by\n",
-                        made.corrected->surface == fit::Surface::outside ? "outside" : "bore");
+                        fit::name_of(made.corrected->surface));
     for (std::size_t i = 0; i < made.cases.size(); ++i)
       text += fmt::format("  {:.2f} um instead of {:.2f} at {:g} um\n",
                           1000 * made.corrected->variations[i].after,

@@ -54,11 +54,12 @@ void read_optional(WordReader& read, const char* option, const std::string& word
 void read_turning(WordReader& read, const FitWords& w, jobs::FitJob& job) {
   if (w.cylindrical == "outside") job.cylindrical = fit::Surface::outside;
   if (w.cylindrical == "bore") job.cylindrical = fit::Surface::bore;
+  if (w.cylindrical == "seat") job.cylindrical = fit::Surface::seat;
   read.require(w.cylindrical.empty() || job.cylindrical,
-               fmt::format("--cylindrical: \"{}\" is not outside or bore", w.cylindrical));
+               fmt::format("--cylindrical: \"{}\" is not outside, bore or seat", w.cylindrical));
   job.table_as = w.table, job.drawing_as = w.drawing, job.program_as = w.program;
   read.require(job.cylindrical || (w.table + w.drawing + w.program).empty(),
-               "--profile, --drawing and --program need --cylindrical outside or bore");
+               "--profile, --drawing and --program need --cylindrical outside, bore or seat");
   read.require(!w.program.empty() || (w.control + w.feed + w.spindle).empty(),
                "--control, --feed and --spindle are for --program FILE");
   read.require(!w.radius || !w.program.empty(), "--radius is for --program FILE");
@@ -136,7 +137,7 @@ Typed add_fit_form(Form& form) {
   add("--friction", w.friction, "LEAST,MOST", "For the force of pressing");
   add("--clearance", w.clearance, "UM", "In diameter, for the temperature of shrinking");
   add("--cylindrical", w.cylindrical, "SURFACE",
-      "outside or bore: turn it such that it is a cylinder after pressing");
+      "outside, bore or seat (of the shaft): turn it such that it is a cylinder after pressing");
   add("--profile", w.table, "FILE", "Write what is to be turned as CSV");
   add("--drawing", w.drawing, "FILE", "Write it as DXF");
   add("--program", w.program, "FILE", "Write the finishing cut along it as NC program");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "lekalo/base/error.hpp"
@@ -12,8 +13,10 @@ namespace lekalo::fit {
 
 enum class Surface : std::uint8_t {
   outside,  ///< of the outermost ring
-  bore      ///< of a hollow shaft
+  bore,     ///< of a hollow shaft
+  seat      ///< of the shaft in the hub
 };
+[[nodiscard]] std::string_view name_of(Surface surface) noexcept;
 
 /// A diameter to be turned at a place along the axis, mm; z from the middle.
 struct TurnedPoint {
@@ -28,21 +31,26 @@ struct Variation {
 
 struct Corrected {
   Surface surface = Surface::outside;
-  double nominal = 0;                ///< the diameter that the surface is to have, mm
+  double nominal = 0;                ///< the diameter before pressing that a profile changes, mm
+  double face = 0;                   ///< z of the right face of the part that is turned
   std::vector<TurnedPoint> profile;  ///< z >= 0, in whole tenths of a micrometre; straight between its points
+  std::vector<double> growths;       ///< of each point, mm, at the interference that counts, with the profile
   std::vector<Variation> variations;  ///< of each interference
   std::vector<Pressed> pressed;       ///< at each, with the profile
 };
 
 /// Turns off what the surface grows at one of the interferences, and presses all of them again with that
-/// profile, in their order.
+/// profile, in their order. The seat's profile changes the pressure: it is such that the hub's bore stays a
+/// cylinder that has grown by what it grew in the mean, which takes the same pressure while the hub is
+/// elastic.
 ///
 /// bad_input where a bore is asked for of a solid shaft, and where pressing again does not leave a cylinder
 /// to a micrometre or a twentieth of the variation before. Cost: that of Pressing. \param interferences  of
-/// each press() in turn; \param pressed  what it gave; \param at  which of them counts
+/// each press() in turn; \param pressed  what it gave; \param at  which of them counts; \param seat_diameter
+/// the shaft's before pressing, mm, which is of use for the seat alone
 [[nodiscard]] Result<Corrected> corrected(const Assembly& assembly,
                                           const std::vector<std::vector<double>>& interferences,
                                           const std::vector<Pressed>& pressed, std::size_t at,
-                                          Surface surface);
+                                          Surface surface, double seat_diameter = 0);
 
 }  // namespace lekalo::fit

@@ -67,12 +67,19 @@ struct Fineness {
   double across = 1.0 / 5;  ///< the largest elements across, as a part of their wall
 };
 
+/// The shaft's seat.
+enum class FirstSeat : std::uint8_t {
+  pressed,  ///< the shaft has its interference
+  cylinder  ///< the hub's bore stays a cylinder, whose growth (in diameter) counts as the interference, and
+            ///< the shaft bears the pressure that this takes
+};
+
 /// Presses rings together step by step. What yields does so along the way, so an order of calls is a history.
 class Pressing {
  public:
   /// \pre check_assembly() takes it
   explicit Pressing(const Assembly& assembly, const Fineness& fineness = {},
-                    const std::vector<Turned>& turned = {});
+                    const std::vector<Turned>& turned = {}, FirstSeat first_seat = FirstSeat::pressed);
   ~Pressing();
   Pressing(Pressing&&) noexcept;
   Pressing& operator=(Pressing&&) noexcept;

@@ -67,7 +67,7 @@ class FitReport {
         "released: it is computed by finite elements and not proved"};
     if (corrected_)
       claims_.unchecked.emplace_back(
-          "correction.remains.after_um: it is computed by finite elements and not proved");
+          "correction: how the turned surface grows is computed by finite elements and not proved");
     return std::move(claims_);
   }
 
@@ -162,6 +162,7 @@ class FitReport {
         *shaft_limits != std::array{s->lower, s->upper})
       find(fmt::format("fit: the limits of {}/{} at {} mm are {} to {} and {} to {} um", hole, shaft,
                        rings_[0].outer, h->lower, h->upper, s->lower, s->upper));
+    shaft_middle_ = (s->lower + s->upper) / 2;
     const double rz = roughness_ ? (*roughness_)[0] + (*roughness_)[1] : 0;
     const double least = s->lower - h->upper - kMostSmoothed * rz,
                  most = s->upper - h->lower - kLeastSmoothed * rz;
@@ -391,34 +392,81 @@ class FitReport {
     const std::string surface = f.text("surface");
     const double nominal = f.number("nominal_mm");
     const std::size_t at = f.index("case");
-    if (complaint_.empty() && surface != "outside" && surface != "bore")
-      f.complain("field correction.surface is neither outside nor bore");
+    if (complaint_.empty() && surface != "outside" && surface != "bore" && surface != "seat")
+      f.complain("field correction.surface is not outside, bore or seat");
     if (complaint_.empty() && (at != rows_.size() / 2 || (surface == "bore" && rings_[0].inner == 0)))
       f.complain("field correction is of another case, or of a bore that is not there");
     if (!complaint_.empty()) return;
-    const bool bore = surface == "bore";
-    if (nominal != (bore ? rings_[0].inner : rings_.back().outer))
-      find("correction.nominal_mm is not the surface's diameter");
-    const auto figure = bore ? &Row::bore : &Row::hub;
-    check_remains(f, at, figure);
-    const std::vector<ProfilePoint> half = read_turned(f);
-    const std::optional<TurningClaim> turning = read_turning(f, bore);
+    surface_ = surface == "bore"   ? TurnedSurface::bore
+               : surface == "seat" ? TurnedSurface::seat
+                                   : TurnedSurface::outside;
+    hold("correction.nominal_mm", nominal, nominal_of_surface(), 1e-9 * rings_.back().outer);
+    const Remains remains = check_remains(f, at);
+    const std::vector<TurnedGrowth> turned = read_turned(f);
+    const std::optional<TurningClaim> turning = read_turning(f);
     f.refuse_others();
     if (!complaint_.empty()) return;
-    std::vector<ProfilePoint> wanted;
-    for (const Row& row : rows_[at])
-      if (row.*figure && (wanted.empty() || row.z > wanted.back().z + kDecimal))
-        wanted.push_back({row.z, nominal - *(row.*figure) / 1000});
-    if (half.size() != wanted.size()) return find("correction.profile has other places than the surface");
-    for (std::size_t i = 0; i < half.size(); ++i)
-      if (!(std::abs(half[i].z - wanted[i].z) <= kDecimal &&
-            std::abs(half[i].diameter - wanted[i].diameter) <= kDecimal))
-        return find(
-            fmt::format("correction.profile at z = {} does not take off what the surface grows", half[i].z));
+    check_turned(turned, nominal, at, remains);
+    std::vector<ProfilePoint> half;
+    for (const TurnedGrowth& t : turned) half.push_back(t.point);
     check_files(half, turning);
   }
 
-  void check_remains(ReportFields& f, std::size_t at, std::optional<double> Row::*figure) {
+  /// Turned points, and what they grow when they are pressed again, um.
+  struct TurnedGrowth {
+    ProfilePoint point;
+    double grows = 0;
+  };
+  struct Remains {
+    double before = 0, after = 0;  // um, at the interference that counts
+  };
+
+  /// The growth of the corrected surface in a row, um; of a seat where the hub is.
+  [[nodiscard]] std::optional<double> growth_in(const Row& row) const {
+    if (surface_ == TurnedSurface::bore) return row.bore;
+    if (surface_ == TurnedSurface::outside) return row.hub;
+    return row.hub_bore ? row.shaft : std::nullopt;
+  }
+
+  /// The diameter of the surface before pressing; of a shaft that of the middle of its limits, or above a
+  /// bore of the nominal diameter by the interference before smoothing.
+  [[nodiscard]] double nominal_of_surface() const {
+    if (surface_ == TurnedSurface::bore) return rings_[0].inner;
+    if (surface_ == TurnedSurface::outside) return rings_.back().outer;
+    if (shaft_middle_) return rings_[0].outer + *shaft_middle_ / 1000;
+    const double rz = roughness_ ? (*roughness_)[0] + (*roughness_)[1] : 0;
+    return rings_[0].outer + (interferences_[0] + kMostSmoothed * rz) / 1000;
+  }
+
+  void check_turned(const std::vector<TurnedGrowth>& turned, double nominal, std::size_t at,
+                    const Remains& remains) {
+    std::vector<ProfilePoint> wanted;  // with a growth for a diameter
+    for (const Row& row : rows_[at])
+      if (growth_in(row) && (wanted.empty() || row.z > wanted.back().z + kDecimal))
+        wanted.push_back({row.z, *growth_in(row) / 1000});
+    if (turned.size() != wanted.size()) return find("correction.profile has other places than the surface");
+    // A seat's profile keeps the hub's bore a cylinder, which has grown by what it grew in the mean.
+    const double bore = integral(rows_[at], &Row::hub_bore) / rings_[1].length - interferences_[at];
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (std::size_t i = 0; i < turned.size(); ++i) {
+      const ProfilePoint& p = turned[i].point;
+      const double after = 1000 * (p.diameter - nominal) + turned[i].grows;
+      least = std::min(least, after), most = std::max(most, after);
+      const bool keeps = surface_ == TurnedSurface::seat
+                             ? std::abs(after - bore) <= most_left(remains.before)
+                             : std::abs(p.diameter - (nominal - wanted[i].diameter)) <= kDecimal;
+      if (!(keeps && std::abs(p.z - wanted[i].z) <= kDecimal))
+        return find(
+            fmt::format("correction.profile at z = {} does not take off what the surface grows", p.z));
+    }
+    hold("correction.remains.after_um", remains.after, most - least, 1e-5);
+  }
+
+  /// A surface that varies by so much, um, is a cylinder.
+  static double most_left(double before) { return std::max(1.0, 0.05 * before) + kShown; }
+
+  Remains check_remains(ReportFields& f, std::size_t at) {
+    Remains remains;
     std::size_t count = 0;
     f.each("remains", [&](Json item, const std::string& place) {
       ReportFields r(item, place, complaint_);
@@ -431,34 +479,36 @@ class FitReport {
       hold(place + ".interference_um", interference, interferences_[i], 0);
       double least = HUGE_VAL, most = -HUGE_VAL;
       for (const Row& row : rows_[i])
-        if (row.*figure) least = std::min(least, *(row.*figure)), most = std::max(most, *(row.*figure));
+        if (const auto grows = growth_in(row)) least = std::min(least, *grows), most = std::max(most, *grows);
       hold(place + ".before_um", before, most - least, 4 * kShown);
-      if (i == at && !(after >= 0 && after <= std::max(1.0, 0.05 * before) + kShown))
-        find(place + ".after_um is no cylinder");
+      if (i == at) remains = {before, after};
+      if (i == at && !(after >= 0 && after <= most_left(before))) find(place + ".after_um is no cylinder");
     });
     if (complaint_.empty() && count != rows_.size())
       f.complain("field correction.remains has not one of each case");
+    return remains;
   }
 
-  std::vector<ProfilePoint> read_turned(ReportFields& f) {
-    std::vector<ProfilePoint> half;
+  std::vector<TurnedGrowth> read_turned(ReportFields& f) {
+    std::vector<TurnedGrowth> half;
     f.each("profile", [&](Json item, const std::string& place) {
       ReportFields p(item, place, complaint_);
       if (!complaint_.empty()) return;
-      half.push_back({p.number("z_mm"), p.number("diameter_mm")});
+      half.push_back({{p.number("z_mm"), p.number("diameter_mm")}, p.number("pressed_um")});
       p.refuse_others();
     });
     return half;
   }
 
-  std::optional<TurningClaim> read_turning(ReportFields& f, bool bore) {
+  std::optional<TurningClaim> read_turning(ReportFields& f) {
     const Json value = f.get("turning");
     if (value.text.empty()) f.complain("field correction.turning is missing");
     if (value.text.empty() || value.is_null()) return {};
     ReportFields t(value, "correction.turning", complaint_);
     const std::string control = t.text("control"), x = t.text("x");
-    TurningClaim claim{control == "fanuc", x == "radius", bore, t.number("feed_mm_per_min"),
-                       t.number("spindle_rpm")};
+    const CheckedRing& part = surface_ == TurnedSurface::outside ? rings_.back() : rings_[0];
+    TurningClaim claim{control == "fanuc",          x == "radius",           surface_,
+                       t.number("feed_mm_per_min"), t.number("spindle_rpm"), part.length / 2};
     t.refuse_others();
     if ((control != "fanuc" && control != "linuxcnc") || (x != "radius" && x != "diameter"))
       t.complain("field correction.turning is of no such control, or X");
@@ -501,7 +551,9 @@ class FitReport {
   std::vector<std::vector<Row>> rows_;  // of each case
   std::vector<double> interferences_;
   bool corrected_ = false;
-  double force_ = 0;  // of the first seat in the case at hand
+  TurnedSurface surface_ = TurnedSurface::outside;  // that is corrected
+  std::optional<double> shaft_middle_;              // of a named fit: the middle of the shaft's limits, um
+  double force_ = 0;                                // of the first seat in the case at hand
 };
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kHalfDecimal = 5.1e-5;  // mm, of a diameter and of z
 constexpr double kLead = 1;              // mm
+constexpr double kOff = 0.1;             // mm, of a diameter: no surface is as far off its nominal one
 
 std::optional<double> decimal_of(std::string_view word) {
   const std::optional<Decimal> value = parse_decimal(word);
@@ -47,7 +48,7 @@ std::optional<std::string> fault_of_points(const std::vector<ProfilePoint>& foun
 class TurningProgram {
  public:
   TurningProgram(const std::vector<ProfilePoint>& profile, const TurningClaim& claim)
-      : profile_(profile), claim_(claim), face_(profile.front().z) {
+      : profile_(profile), claim_(claim), face_(claim.face) {
     for (const ProfilePoint& p : profile)
       least_ = std::min(least_, p.diameter), most_ = std::max(most_, p.diameter);
   }
@@ -61,13 +62,21 @@ class TurningProgram {
     if (!ended_) return "it does not end with M5 and M30";
     if (cut_.size() != profile_.size() + 2)
       return fmt::format("it cuts {} points of {}", cut_.size(), profile_.size() + 2);
-    if (cut_.front().z < face_ + kLead - kHalfDecimal ||
-        cut_.back().z > profile_.back().z - kLead + kHalfDecimal)
+    if (on_seat() && !(is_beside(cut_.front(), profile_.front()) && is_beside(cut_.back(), profile_.back())))
+      return "it does not come onto the seat and go off it along X";
+    if (!on_seat() && !(cut_.front().z >= face_ + kLead - kHalfDecimal &&
+                        cut_.back().z <= profile_.back().z - kLead + kHalfDecimal))
       return "it does not begin before the part and end behind it";
     return fault_of_points({cut_.begin() + 1, cut_.end() - 1}, profile_);
   }
 
  private:
+  [[nodiscard]] bool on_seat() const { return claim_.surface == TurnedSurface::seat; }
+  /// At the same place along the axis, off the surface.
+  [[nodiscard]] bool is_beside(const ProfilePoint& place, const ProfilePoint& of) const {
+    return std::abs(place.z - of.z) <= kHalfDecimal && place.diameter - most_ >= kOff;
+  }
+
   std::optional<std::string> take(std::string_view line) {
     if (ended_)
       return line == "%" && claim_.fanuc ? std::nullopt : std::optional<std::string>("something follows M30");
@@ -131,8 +140,9 @@ class TurningProgram {
       const bool before = std::min(from_z, to_z) >= face_ + kLead - kHalfDecimal;
       // Behind the part the tool goes off the surface, and back along it only at a distance.
       const bool done = cut_.size() == profile_.size() + 2 && x_;
-      const double off = claim_.bore ? least_ - (z && x_ ? *x_ : to_x) : (z && x_ ? *x_ : to_x) - most_;
-      const bool behind = done && !(x && z) && off >= 0.1;
+      const double at_x = z && x_ ? *x_ : to_x;
+      const double off = claim_.surface == TurnedSurface::bore ? least_ - at_x : at_x - most_;
+      const bool behind = (done || (on_seat() && z && x_)) && !(x && z) && off >= kOff;
       if (!before && !behind) return "a rapid motion at the part";
     } else {
       if (!x_ || !z_ || !modes_.contains("F")) return "a cut from a place, or with a feed, that was not said";
