@@ -80,12 +80,16 @@ Result<fit::Assembly> assembled(const FitJob& job, double diameter) {
   return assembly;
 }
 
+double stated_most(const FitJob& job) {
+  return job.most_interference > 0 ? job.most_interference : job.interference;
+}
+
 struct Interference {
   double at_least = 0, at_most = 0;  // um
 };
 
 Result<Interference> interference_of(const FitJob& job, const std::optional<fit::NamedFit>& named) {
-  Interference i{1000 * job.interference, 1000 * job.interference};
+  Interference i{1000 * job.interference, 1000 * stated_most(job)};
   std::string whose = fmt::format("the interference is {} um", i.at_least);
   if (named) {
     i = {named->least_um, named->greatest_um};
@@ -142,7 +146,7 @@ Result<void> press_all(const FitJob& job, const Interference& interference, Fitt
 /// that of a hub whose bore is the nominal one.
 double seat_diameter(const FitJob& job, const Fitted& made) {
   const double diameter = made.assembly.rings.front().outer_diameter;
-  if (!made.named) return diameter + job.interference;
+  if (!made.named) return diameter + (job.interference + stated_most(job)) / 2;
   return diameter + (made.named->shaft_limits.lower_um + made.named->shaft_limits.upper_um) / 2000;
 }
 

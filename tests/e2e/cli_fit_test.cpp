@@ -41,6 +41,19 @@ TEST(CliFit, AStatedInterferenceIsOneCase) {
   EXPECT_EQ(cases[0]["state"], "plastic");
 }
 
+TEST(CliFit, TwoStatedInterferencesAreThreeCases) {
+  const TemporaryFolder folder;
+  const Ran made = run(folder.path(), with({"fit", "--diameter", "18", "--interference", "0.02,0.03",
+                                            "--cylindrical", "seat", "-o", "fit.json"},
+                                           kSizes));
+  ASSERT_EQ(made.status, 0) << made.err;
+  const Json result = Json::parse(read_bytes(folder / "fit.json"));
+  ASSERT_EQ(result["cases"].size(), 3U);
+  EXPECT_EQ(result["cases"][1]["interference_um"], 25);
+  EXPECT_EQ(result["correction"]["nominal_mm"], 18.025);
+  EXPECT_EQ(run(folder.path(), {"verify", "fit.json"}).status, 1);
+}
+
 TEST(CliFit, WhatIsElasticIsAsItWasAfterTakingApart) {
   const TemporaryFolder folder;
   const Ran made = run(folder.path(), {"fit", "--diameter", "40", "--interference", "0.02", "--hub-outer",
@@ -83,6 +96,8 @@ TEST(CliFit, WhatIsWrongIsSaidInOneSentence) {
         {{"--diameter", "36", "--interference", "0.02"}, 3, "not above its bore"},
         {{"--diameter", "18", "--interference", "0.02", "--bore", "18"}, 3, "not below its diameter"},
         {{"--diameter", "18"}, 2, "--interference"},
+        {{"--diameter", "18", "--interference", "0.05,0.04"}, 2, "the least comes first"},
+        {{"--diameter", "18", "--interference", "0,0.04"}, 3, "has to be above 0"},
         {{"--fit", "18H8/z8", "--diameter", "18"}, 2, "say what is pressed"},
         {{"--fit", "18H8/z8", "--program", "p.ngc"}, 2, "need --cylindrical"},
         {{"--fit", "18H8/z8", "--cylindrical", "hub"}, 2, "is not outside, bore or seat"},

@@ -136,6 +136,33 @@ TEST(Pressing, TheEdgeOfALongPressureHasHalfTheDisplacement) {
   EXPECT_NEAR(far, lame, 2e-3 * std::abs(lame));
 }
 
+/// A pressure of 1 MPa on |z| < half moves the surface of an endless solid cylinder so far, by Fourier's
+/// integral: under a pressure cos(k z) it moves by (1 - nu) R / G times the factor.
+double by_fourier_and_bessel(double radius, double half, double z) {
+  const double nu = 0.3, shear = 210000 / 2.6;
+  const auto factor = [&](double x) {
+    const double i0 = std::cyl_bessel_i(0.0, x), i1 = std::cyl_bessel_i(1.0, x);
+    return i1 * i1 / (x * x * (i0 * i0 - i1 * i1) - 2 * (1 - nu) * i1 * i1);
+  };
+  const double step = 0.02, end = 200;
+  double sum = 0;
+  for (double x = step / 2; x < end; x += step)
+    sum += step * factor(x) * std::sin(x * half / radius) / x * std::cos(x * z / radius);
+  return -(1 - nu) * radius / shear * 2 / kPi * sum;
+}
+
+TEST(Pressing, ABandOfPressureIsThatOfFourierAndBessel) {
+  for (const double length : {6.0, 18.0, 40.0}) {
+    Pressing pressing(evenly_pressed(0, 18, length, 160));
+    const Pressed pressed = *pressing.press({0.1});
+    const double pressure = pressed.seats[0].pressure_mpa, far = 0.7 * pressure * 9 / 210000;
+    for (const double part : {0.0, 0.3, 0.7, 0.9, 1.0, 1.1, 1.5, 2.0})
+      EXPECT_NEAR(growth_at(pressed.rings[0].outer, part * length / 2) / 2,
+                  pressure * by_fourier_and_bessel(9, length / 2, part * length / 2), 3e-3 * far)
+          << length << " at " << part;
+  }
+}
+
 TEST(Pressing, AThinTubeBesideThePressureIsABeamOnItsFoundation) {
   const double radius = 49, wall = 2;
   Pressing pressing(evenly_pressed(2 * radius - wall, 2 * radius + wall, 100, 160));

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "option_forms.hpp"
@@ -82,7 +83,15 @@ Result<Command> to_fit(const FitWords& w) {
   read.require(w.fit.empty() != w.diameter.empty() && w.diameter.empty() == w.interference.empty(),
                "say what is pressed: --fit 18H8/z8, or --diameter MM and --interference MM");
   read.number("--diameter", w.diameter, 1e-3, 1e4, kLength, o.job.diameter);
-  read.number("--interference", w.interference, -1e4, 1e4, "a length in mm", o.job.interference);
+  const std::size_t comma = std::min(w.interference.find(','), w.interference.size());
+  read.number("--interference", w.interference.substr(0, comma), -1e4, 1e4, "a length in mm",
+              o.job.interference);
+  if (comma < w.interference.size()) {
+    read.number("--interference", w.interference.substr(comma + 1), -1e4, 1e4, "a length in mm",
+                o.job.most_interference);
+    read.require(o.job.interference < o.job.most_interference,
+                 "--interference " + w.interference + ": the least comes first");
+  }
   read.number("--hub-outer", w.hub_outer, 1e-3, 1e4, kLength, o.job.hub_outer);
   read.number("--length", w.length, 1e-3, 1e4, kLength, o.job.length);
   read.number("--shaft-length", w.shaft_length, 1e-3, 1e4, kLength, o.job.shaft_length);
@@ -118,7 +127,8 @@ Typed add_fit_form(Form& form) {
   const OptionAdder add(form);
   add("--fit", w.fit, "FIT", "Diameter, hole and shaft by ISO 286, like 18H8/z8");
   add("--diameter", w.diameter, "MM", "Of the seat, instead of --fit");
-  add("--interference", w.interference, "MM", "In diameter, with --diameter");
+  add("--interference", w.interference, "MM[,MM]",
+      "In diameter, with --diameter; or the least and the greatest");
   add("--hub-outer", w.hub_outer, "MM", "Outer diameter of the hub").required = true;
   add("--length", w.length, "MM", "Of the hub").required = true;
   add("--shaft-length", w.shaft_length, "MM",

@@ -32,6 +32,7 @@ struct OuterRing {
 struct FitJob {
   std::string fit;  ///< "18H8/z8"; empty: diameter and interference
   double diameter = 0, interference = 0;
+  double most_interference = 0;  ///< the interference is from that to this; 0: it is one
   double hub_outer = 0, length = 0;
   double shaft_length = 0;      ///< 0: three times the hub's
   double bore = 0;              ///< of the shaft; 0: solid

@@ -178,8 +178,13 @@ class FitReport {
       f.refuse_others();
     });
     if (!complaint_.empty()) return;
-    if (!wanted_.empty() ? count != wanted_.size() : count != 1 && !(roughness_ && count == 3))
+    if (!wanted_.empty() ? count != wanted_.size() : count != 1 && count != 3)
       find(fmt::format("cases has {} items", count));
+    if (count == 3 && !(interferences_[0] < interferences_[2]))
+      find("cases[0].interference_um is not below that of the last case");
+    if (count == 3)
+      hold("cases[1].interference_um", interferences_[1], (interferences_[0] + interferences_[2]) / 2,
+           2 * kShown);
   }
 
   void check_case(ReportFields& f, const std::string& path, std::size_t index) {
@@ -429,13 +434,15 @@ class FitReport {
   }
 
   /// The diameter of the surface before pressing; of a shaft that of the middle of its limits, or above a
-  /// bore of the nominal diameter by the interference before smoothing.
+  /// bore of the nominal diameter by the mean interference before smoothing.
   [[nodiscard]] double nominal_of_surface() const {
     if (surface_ == TurnedSurface::bore) return rings_[0].inner;
     if (surface_ == TurnedSurface::outside) return rings_.back().outer;
     if (shaft_middle_) return rings_[0].outer + *shaft_middle_ / 1000;
     const double rz = roughness_ ? (*roughness_)[0] + (*roughness_)[1] : 0;
-    return rings_[0].outer + (interferences_[0] + kMostSmoothed * rz) / 1000;
+    const double least = interferences_.front() + kMostSmoothed * rz,
+                 most = interferences_.back() + kLeastSmoothed * rz;
+    return rings_[0].outer + (least + most) / 2000;
   }
 
   void check_turned(const std::vector<TurnedGrowth>& turned, double nominal, std::size_t at,
