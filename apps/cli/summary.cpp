@@ -193,12 +193,22 @@ bool has_maxima(const io::SolidDocument& d) {
   return d.demands && std::any_of(d.demands->features.begin(), d.demands->features.end(),
                                   [](const io::SolidFeature& one) { return one.maximum.has_value(); });
 }
+bool has_finished(const io::SolidDocument& d) {
+  return d.demands && std::any_of(d.demands->features.begin(), d.demands->features.end(),
+                                  [](const io::SolidFeature& one) { return one.finished.has_value(); });
+}
 
 /// Names what of the place of the part a placement has to keep, beside what is demanded; nothing if there is
 /// nothing.
 std::string kept_of(const io::SolidDocument& d) {
-  const bool datums = d.demands && !d.demands->datums.empty(), maxima = has_maxima(d);
-  return datums && maxima ? "the datums and maxima" : datums ? "the datums" : maxima ? "the maxima" : "";
+  std::vector<std::string> kept;
+  if (d.demands && !d.demands->datums.empty()) kept.emplace_back("datums");
+  if (has_maxima(d)) kept.emplace_back("maxima");
+  if (has_finished(d)) kept.emplace_back("finished faces");
+  std::string text;
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    text += (k == 0 ? "the " : k + 1 < kept.size() ? ", " : " and ") + kept[k];
+  return text;
 }
 std::string kept_with(const char* words, const io::SolidDocument& d) {
   const std::string kept = kept_of(d);
@@ -226,13 +236,19 @@ std::string headline(const io::SolidDocument& d) {
   return fmt::format("The placement that --method {} found; it proves nothing about others.", d.method);
 }
 
-/// Says why no pose of such a part counts as inside.
-const char* why_not_inside(const io::SolidDocument& d) {
-  if (d.demands && !std::all_of(d.demands->datums.begin(), d.demands->datums.end(),
-                                [](const io::SolidDatumRecord& one) { return one.kept(); }))
-    return "a datum is not kept";
-  return d.demands && !d.demands->keeps_maxima() ? "a maximum is not kept"
-                                                 : "the part is not inside the blank";
+/// Says why no pose of such a part counts as inside: the datum that is missed by the most comes first.
+std::string why_not_inside(const io::SolidDocument& d) {
+  const io::SolidDatumRecord* worst = nullptr;
+  if (d.demands)
+    for (const io::SolidDatumRecord& one : d.demands->datums)
+      if (!one.kept() && (worst == nullptr || one.missed() > worst->missed())) worst = &one;
+  if (worst != nullptr)
+    return fmt::format("the datum \"{}\" is missed by {}", worst->name, mm_up(worst->missed()));
+  if (d.demands && !d.demands->keeps_maxima())
+    return !has_finished(d) ? "a maximum is not kept"
+           : has_maxima(d)  ? "a maximum or a finished face is not kept"
+                            : "a finished face is too far from the blank's surface";
+  return "the part is not inside the blank";
 }
 
 /// The rotation as people turn things: by an angle about an axis.
@@ -256,8 +272,10 @@ std::string datum_lines(const io::SolidDocument& d) {
   std::string text;
   if (d.demands)
     for (const io::SolidDatumRecord& one : d.demands->datums)
-      text += fmt::format("  datum              \"{}\" is {} within {} mm: the part is off it by up to {}\n",
-                          one.name, one.kept() ? "kept" : "not kept", one.within, mm_up(one.off));
+      text +=
+          fmt::format("  datum              \"{}\" is {} within {} mm: the part is off it by up to {}{}\n",
+                      one.name, one.kept() ? "kept" : "not kept", one.within, mm_up(one.off),
+                      one.kept() ? "" : fmt::format(", {} too much", mm_up(one.missed())));
   return text;
 }
 
@@ -270,6 +288,10 @@ std::string maximum_lines(const io::SolidDocument& d) {
       if (one.maximum)
         text += fmt::format("  maximum            \"{}\" {} {} mm: its largest allowance is {}\n", one.name,
                             largest <= *one.maximum ? "keeps" : "is above", *one.maximum, mm_up(largest));
+      if (one.finished)
+        text += fmt::format(
+            "  finished           \"{}\" is {} {} mm of the blank's surface: the farthest point is {} off\n",
+            one.name, largest <= *one.finished ? "within" : "not within", *one.finished, mm_up(largest));
     }
   return text;
 }

@@ -234,9 +234,11 @@ TEST_F(Solids, DatumsAreKeptAndTold) {
   const Ran none = placed("higher.json");
   EXPECT_EQ(none.status, 1) << none.err;
   EXPECT_EQ(none.json()["status"], "infeasible");
+  const auto seat = none.json()["demands"]["datums"][0];
+  EXPECT_NEAR(seat["missed"], seat["off"].get<double>() - seat["within"].get<double>(), 1e-9);
   for (const char* words :
        {"No placement in the window meets the demands and keeps the datums; this is proved.",
-        "none: a datum is not kept", "\"seat\" is not kept within 0.1 mm"})
+        "none: the datum \"seat\" is missed by ", "\"seat\" is not kept within 0.1 mm"})
     EXPECT_NE(none.err.find(words), std::string::npos) << none.err;
   EXPECT_EQ(verify("r.json").status, 0);
 }
@@ -260,6 +262,33 @@ TEST_F(Solids, MaximaAreKeptAndTold) {
   const Ran none = placed("less.json");
   EXPECT_EQ(none.status, 1) << none.err;
   EXPECT_NE(none.err.find("none: a maximum is not kept"), std::string::npos) << none.err;
+  EXPECT_EQ(verify("r.json").status, 0);
+}
+
+TEST_F(Solids, FinishedFacesLieInTheSurfaceOfTheBlank) {
+  // The blank's top is 1 mm over the part's, and may be cut into by 0.2.
+  const auto placed = [&](const std::string& others) {
+    write_bytes(folder_ / "f.json", R"({"as_cast": true, "features": [
+      {"name": "top", "plane": {"normal": [0, 0, 1], "at": 10, "within": 0.001}, "finished": 0.2},
+      {"name": "underside", "plane": {"normal": [0, 0, 1], "at": -10, "within": 0.001}, )" +
+                                        others + "]}");
+    return locate({"--features", "f.json", "--json", "-o", "r.json"});
+  };
+  const Ran ran = placed(R"("minimum": 1.5})");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.err.find("finished           \"top\" is within 0.2 mm of the blank's surface: the farthest"),
+            std::string::npos)
+      << ran.err;
+  EXPECT_NE(ran.err.find("that keeps the finished faces has a margin above"), std::string::npos) << ran.err;
+  EXPECT_LE(ran.json()["demands"]["features"][0]["largest"], 0.2);
+  EXPECT_EQ(verify("r.json").status, 0);
+  // The blank is 4 mm higher than the part.
+  const Ran none = placed(R"("finished": 0.2}, {"name": "end", "minimum": 0, "plane":
+    {"normal": [1, 0, 0], "at": 20, "within": 0.001}})");
+  EXPECT_EQ(none.status, 1) << none.err;
+  EXPECT_EQ(none.json()["status"], "infeasible");
+  EXPECT_NE(none.err.find("none: a finished face is too far from the blank's surface"), std::string::npos)
+      << none.err;
   EXPECT_EQ(verify("r.json").status, 0);
 }
 

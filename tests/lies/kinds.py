@@ -191,6 +191,11 @@ def touched_box(x, y, z, directions=False):
 MAXIMA = """{"units": "mm", "minimum": 0.5, "features": [
   {"name": "top", "plane": {"normal": [0, 0, 1], "at": 9, "within": 0.001}, "minimum": 0.25, "maximum": 1.5}]}
 """
+# The top may stick out of the blank, by no more than half a millimetre.
+FINISHED = """{"units": "mm", "as_cast": true, "features": [
+  {"name": "top", "plane": {"normal": [0, 0, 1], "at": 9, "within": 0.001}, "finished": 0.5},
+  {"name": "underside", "plane": {"normal": [0, 0, 1], "at": 2, "within": 0.001}, "minimum": 0.5}]}
+"""
 
 
 def of_solids():
@@ -258,6 +263,11 @@ def of_solids():
          "--features", "f.json", "--gap", "0.05", "-o", "r.json"]])
     yield shallow("placement, solids, maxima", inputs=list(deep))
     yield shallow("maxima of solids", target="f.json", oracle=solids.features, report_of="r.json")
+    smooth = functools.partial(placed, files=[], written=dict(deep, **{"f.json": FINISHED}), commands=[
+        ["locate", "--part", "part.obj", "--blank", "blank.obj", "--freedom", "xyz", "--shift", "4", "--features", "f.json",
+         "--gap", "0.05", "-o", "r.json"]])
+    yield smooth("placement, solids, finished", inputs=list(deep))
+    yield smooth("finished faces of solids", target="f.json", oracle=solids.features, report_of="r.json")
     for role, file in (("part", "part.stl"), ("blank", "casting.stl")):
         yield Kind(f"placement, solids, another {role}", meshes, [start, turned + ["--gap", "0.1"]], file, of_r,
                    solids.mesh(role), form="stl", report_of="r.json")

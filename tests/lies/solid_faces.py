@@ -35,6 +35,11 @@ def farthest(triangles, surface, within):
     return low, -open_[0][0]
 
 
+def allowed(feature):
+    """How far its points may be from the blank's surface, or None."""
+    return feature.get("maximum", feature.get("finished"))
+
+
 class Faces:
     """The demands on a part, and where it is to lie."""
 
@@ -48,11 +53,11 @@ class Faces:
         self.minimum = None if file.get("as_cast") else max(float(self.unit) * float(file.get("minimum", 0)), float(least))
 
     def feature(self, one):
-        rough, most = one.get("as_cast", False), one.get("maximum")
-        more = {} if most is None else {"maximum": float(self.unit) * float(most)}
+        more = {key: float(self.unit) * float(one[key]) for key in ("maximum", "finished") if one.get(key) is not None}
+        rough = one.get("as_cast", False) or "finished" in more
         return more | {"name": one["name"], "triangles": len(asked.triangles_of(one, self.unit, self.part.all)),
                 "minimum": None if rough else float(self.unit) * float(one.get("minimum", 0)),
-                "scale": None if rough else float(one.get("scale", 1)), "as_cast": rough}
+                "scale": None if rough else float(one.get("scale", 1)), "as_cast": one.get("as_cast", False)}
 
     def are_told(self, said):
         def same(one, other):
@@ -60,7 +65,7 @@ class Faces:
                 value == other[key] if isinstance(value, (str, bool)) or None in (value, other[key])
                 else float(value) == float(other[key]) for key, value in one.items())
         datums = [(datum["name"], float(datum["within"])) for datum in said["datums"]]
-        if any(("largest" in one) != ("maximum" in one) for one in said["features"]):
+        if any(("largest" in one) != ("maximum" in one or "finished" in one) for one in said["features"]):
             return False
         features = [{key: value for key, value in one.items() if key != "largest"} for one in said["features"]]
         return (same({"minimum": self.minimum}, {"minimum": said["minimum"]}) and len(said["features"]) == len(self.features) and
@@ -72,6 +77,9 @@ class Faces:
         for said, datum in zip(document["demands"]["datums"], self.datums):
             ways = [asked.straight_off(datum, sub(place(document, p), datum["through"])) for p in datum["points"].values()]
             most = max(dot(way, way) for way in ways)
+            missed = max(F(0), said["off"] - said["within"])
+            if ("missed" in said) != (missed > 0) or abs(said.get("missed", 0) - missed) > (said["off"] + said["within"]) / 10 ** 15:
+                return False
             if said["off"] < 0 or said["off"] ** 2 < most or max(F(0), said["off"] - slack) ** 2 > most:
                 return False
         return not document["inside"] or self.are_kept(document)
@@ -79,18 +87,19 @@ class Faces:
     def are_kept(self, document):
         said = document["demands"]
         return all(one["off"] <= datum["within"] for one, datum in zip(said["datums"], self.datums)) and all(
-            one["largest"] <= F(one["maximum"]) for one in said["features"] if "maximum" in one)
+            one["largest"] <= F(allowed(one)) for one in said["features"] if allowed(one) is not None)
 
     def are_far(self, document, place, surface):
-        """The points of each feature with a maximum are as far from the blank's surface as is said."""
+        """The points of each feature with a maximum, or that is finished, are as far from the blank's surface as is said."""
         for said, feature in zip(document["demands"]["features"], self.features):
-            if "maximum" not in feature:
+            within = allowed(feature)
+            if within is None:
                 continue
-            most, allowed = float(said["largest"]), feature["maximum"]
+            most = float(said["largest"])
             low, high = farthest([[list(map(float, place(document, p))) for p in self.part.all[f]]
                                   for f in asked.triangles_of(self.file[said["name"]], self.unit, self.part.all)],
-                                 [[list(map(float, p)) for p in t] for t in surface], max(allowed * 1e-4, 1e-9))
-            if most < low * (1 - 1e-12) or most > high + allowed / 32:
+                                 [[list(map(float, p)) for p in t] for t in surface], max(within * 1e-4, 1e-9))
+            if most < low * (1 - 1e-12) or most > high + within / 32:
                 return False
         return not document["inside"] or self.are_kept(document)
 

@@ -131,6 +131,27 @@ TEST(SolidMaxima, TheLowerFaceOfAStepDrawsTheUpperOneUp) {
   }
 }
 
+TEST(SolidMaxima, AFinishedFaceMayStickOutAsFar) {
+  // The underside alone demands something; the top lies in the middle of a wide blank's.
+  SolidProblem problem;
+  problem.part = cases::block({-5, -5, -5}, {5, 5, 5});
+  problem.blank = cases::block({-20, -20, -6}, {20, 20, 6});
+  problem.shift = 4, problem.turn = 0.02;
+  const auto is_top = [](Vector p) { return p.z > 4.9; };
+  hold(problem, 0.8, [](Vector p) { return p.z > 4.9; });
+  for (std::uint32_t k = 0; k < problem.part.triangles.size(); ++k) {
+    const auto& v = problem.part.vertices;
+    const auto& [a, b, c] = problem.part.triangles[k];
+    if (std::max({v[a].z, v[b].z, v[c].z}) > -4.9) problem.demands[k].reset();
+  }
+  // It is 2.8 above the blank's then.
+  expect_optimum(problem, 2.8, 0.01, 300);
+  // And no deeper than that below it.
+  problem.blank = cases::block({-20, -20, -9}, {20, 20, 9});
+  problem.shift = 1;
+  EXPECT_EQ(located(problem, 0.01).status, Status::infeasible);
+}
+
 TEST(SolidMaxima, WhatNoPoseKeepsIsProved) {
   // Top and bottom have 2 mm together.
   SolidProblem problem = cube_in_cube();

@@ -36,7 +36,7 @@ def demands(file, mesh, least):
     others = None if file.get("as_cast") else (max(mm(file.get("minimum", 0)), F(float(least))), F(1))
     of = [others] * len(mesh)
     for feature in file.get("features", []):
-        one = None if feature.get("as_cast") else (mm(feature.get("minimum", 0)), F(float(feature.get("scale", 1))))
+        one = None if feature.get("as_cast") or feature.get("finished") is not None else (mm(feature.get("minimum", 0)), F(float(feature.get("scale", 1))))
         for f in triangles_of(feature, unit, mesh): of[f] = one
     return of
 
@@ -44,8 +44,9 @@ def maxima(file, mesh):
     """Of each triangle how far its points may be from the blank's surface, the double nearest to it, or None."""
     unit, of = UNITS[file.get("units", "mm")], [None] * len(mesh)
     for feature in file.get("features", []):
-        if feature.get("maximum") is not None:
-            for f in triangles_of(feature, unit, mesh): of[f] = F(float(unit) * float(feature["maximum"]))
+        most = feature.get("maximum") if feature.get("finished") is None else feature["finished"]
+        if most is not None:
+            for f in triangles_of(feature, unit, mesh): of[f] = F(float(unit) * float(most))
     return of
 
 def datums(file, mesh):

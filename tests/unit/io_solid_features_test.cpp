@@ -71,17 +71,20 @@ TEST(SolidFeatures, DemandsAndUnits) {
       R"({"units": "inch", "minimum": 0.1, "features": [
         {"name": "a", "triangles": [0], "minimum": 2, "maximum": 3, "scale": 0.5},
         {"name": "b", "box": [[-1, -1, 0.39370], [2, 1, 0.39371]]},
-        {"name": "c", "triangles": [4], "as_cast": true}]})",
+        {"name": "c", "triangles": [4], "as_cast": true},
+        {"name": "d", "triangles": [5], "finished": 0.1}]})",
       block());
   ASSERT_TRUE(all) << all.error().message;
-  ASSERT_EQ(all->size(), 3u);
+  ASSERT_EQ(all->size(), 4u);
   EXPECT_DOUBLE_EQ((*all)[0].demand->minimum, 50.8);
   EXPECT_EQ((*all)[0].demand->scale, 0.5);
   EXPECT_NEAR((*all)[0].maximum.value_or(0), 76.2, 1e-12);
   EXPECT_FALSE((*all)[1].maximum);
   EXPECT_EQ((*all)[1].triangles, (Numbers{2, 3}));
   EXPECT_EQ((*all)[1].demand, locate::SolidDemand{});
-  EXPECT_FALSE((*all)[2].demand);
+  EXPECT_FALSE((*all)[2].demand || (*all)[2].within());
+  EXPECT_FALSE((*all)[3].demand);
+  EXPECT_NEAR((*all)[3].within().value_or(0), 2.54, 1e-12);
   const auto file = parse_solid_features(R"({"minimum": 0.1})", "f.json", SolidUnit::metre);
   EXPECT_DOUBLE_EQ(file->minimum.value(), 100);
 }
@@ -108,6 +111,13 @@ TEST(SolidFeatures, WhatCannotBeUnderstoodIsRefused) {
             R"(f.json, feature "a": no triangle of the part is of it)");
   EXPECT_EQ(refusal_of(R"("plane": {"normal": [0, 0, 0], "at": 0, "within": 1})"),
             R"(f.json, feature "a", plane: "normal" must be a direction [x, y, z])");
+  EXPECT_EQ(
+      refusal_of(R"("triangles": [0], "finished": 0)"),
+      R"(f.json, feature "a": "finished" is how far its points may lie from the blank's surface, above 0)");
+  EXPECT_EQ(refusal_of(R"("triangles": [0], "finished": 1, "scale": 2)"),
+            R"(f.json, feature "a": a feature that is finished has no "scale")");
+  EXPECT_EQ(refusal_of(R"("triangles": [0], "finished": 1, "as_cast": true)"),
+            R"(f.json, feature "a": a feature is not both as cast and finished)");
   EXPECT_EQ(refusal_of(R"("triangles": [0], "minimum": -1)"),
             R"(f.json, feature "a": "minimum" must be a length that is not negative)");
   EXPECT_EQ(refusal_of(R"("triangles": [0], "scale": 0)"),

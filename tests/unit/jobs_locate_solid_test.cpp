@@ -482,8 +482,8 @@ TEST(JobsLocateSolid, FilesOfFeaturesThatMakeNoSenseAreRefused) {
     "box": [[-99, -99, -99], [99, 99, 99]]}]})"};
   EXPECT_EQ(
       refusal(job).message,
-      "features.json: all of the part is as cast, so no placement is better than another; leave triangles "
-      "that demand an allowance");
+      "features.json: all of the part is as cast or finished, so no placement is better than another; leave "
+      "triangles that demand an allowance");
 }
 
 TEST(JobsLocateSolid, ASearchThatIsStoppedHasItsBoundProved) {

@@ -130,10 +130,18 @@ SolidResultFiles not_inside(const Held& held) {
 TEST(SolidDatums, APoseThatDoesNotKeepThemIsNotInside) {
   Held off;
   off.at[2] = 0, off.of_result["off"] = 0.5;
+  EXPECT_TRUE(says(not_inside(off).told(),
+                   "datum \"seat\": it is off by 0.5 mm of 0.25, so that missed has to be there"));
+  off.of_result["missed"] = 0.25 + 1e-12;
+  EXPECT_TRUE(says(not_inside(off).told(), "datum \"seat\": missed is not off less within"));
+  off.of_result["missed"] = 0.25;
   EXPECT_EQ(not_inside(off).told(), "confirmed");
+  Held kept;
+  kept.of_result["missed"] = 0;
+  EXPECT_TRUE(says(kept.told(), "so that missed has to be left out"));
   EXPECT_TRUE(says(off.told(), "inside is true, but a datum is not kept"));
   EXPECT_TRUE(
-      says(not_inside(Held{}).told(), "inside is false, but all of the part that is not as cast lies in"));
+      says(not_inside(Held{}).told(), "inside is false, but all of the part that demands something lies in"));
 }
 
 TEST(SolidDatums, WhatTheResultSaysOfThemIsHeldAgainstTheFile) {

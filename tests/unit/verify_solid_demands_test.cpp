@@ -236,7 +236,7 @@ TEST(SolidDemands, WhatIsAsCastMayStickOut) {
   files.result["demands"]["margin"] = files.result["demands"]["margin_gap"] = nullptr;
   files.result["status"] = "stopped";
   EXPECT_TRUE(
-      says(in(shorter), "inside is false, but all of the part that is not as cast lies in the blank"));
+      says(in(shorter), "inside is false, but all of the part that demands something lies in the blank"));
   EXPECT_EQ(in(cases::block({-4, -6, -6}, {4, 6, 6})), "confirmed");
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include "support/solid_results.hpp"
 
@@ -24,21 +25,24 @@ bool says(const std::string& text, const std::string& words) { return text.find(
 struct Deep {
   double maximum = 0.75, largest = 0.75, bound = 0.75, margin = 0.7499, multiplier = 1;
   bool inside = true;
+  /// The top may stick out by 0.75, too. What holds the part is the edge of the face x = 5 below it.
+  bool finished = false;
   std::array<double, 3> at{0, 0, 0.25 + 0x1p-20};
   Json body = {-5, -5, 0, 10, 0, 0, 0, 10, 0, 0, 0, 5.25, 0.75};
   Json on_part = {2, 0.25, 0.5};
-  int side = 5;
+  int side = 5, bounded = 0;
 
   [[nodiscard]] SolidResultFiles files() const {
     const Json features{
         {"minimum", 0},
-        {"features", Json::array({Json{{"name", "top"}, {"triangles", {2, 3}}, {"maximum", maximum}}})}};
-    Json certificate = one_leaf(Json::array({{"point_plane", 0, 0, 1}, {"near", 0, side, multiplier}}),
+        {"features", Json::array({Json{{"name", "top"}, {"triangles", {2, 3}}, {word(), maximum}}})}};
+    Json certificate = one_leaf(Json::array({{"point_plane", bounded, 0, 1}, {"near", 0, side, multiplier}}),
                                 Json::array(), Json::array(), Json::array({{0, 0, -1, -6}}));
-    certificate["part_points"] = Json::array({on_part});
+    certificate["part_points"] = Json::array({on_part, Json{10, 0, 1}});
     certificate["bodies"] = Json::array({body});
-    Json of_result = demand_of_result("top", 2, 0, 1);
-    of_result["maximum"] = maximum, of_result["largest"] = largest;
+    Json of_result = demand_of_result("top", 2, finished ? Json() : Json(0), finished ? Json() : Json(1));
+    of_result["as_cast"] = false;
+    of_result[word()] = maximum, of_result["largest"] = largest;
     SolidResultFiles made =
         cases::with_demands(features, Json::array({of_result}), certificate, margin, bound);
     made.result["clearance"] = margin;
@@ -51,6 +55,7 @@ struct Deep {
     }
     return made;
   }
+  [[nodiscard]] const char* word() const { return finished ? "finished" : "maximum"; }
   [[nodiscard]] std::string told() const { return files().told(); }
 };
 
@@ -135,7 +140,50 @@ TEST(SolidMaxima, APoseThatBreaksOneIsNotInside) {
   Deep kept;
   kept.inside = false;
   EXPECT_TRUE(
-      says(kept.told(), "inside is false, but all of the part that is not as cast lies in the blank"));
+      says(kept.told(), "inside is false, but all of the part that demands something lies in the blank"));
+}
+
+TEST(SolidMaxima, AFinishedFaceIsHeldAndDemandsNothing) {
+  Deep deep;
+  deep.finished = true, deep.bounded = 1;
+  EXPECT_EQ(deep.told(), "confirmed");
+  Deep less = deep;
+  less.bound = 0.75 - 1e-12, less.margin = 0.7;
+  EXPECT_TRUE(says(less.told(), "do not prove"));
+  // Nothing is demanded of its points.
+  Deep of_top = deep;
+  of_top.bounded = 0;
+  EXPECT_TRUE(says(of_top.told(), "has a term of the part's triangle 2, which is as cast or finished"));
+  Deep far = deep;
+  far.at[2] = 0.2, far.largest = 0.75;
+  EXPECT_TRUE(says(far.told(), "feature \"top\": its distance from the blank's surface is said to be 0.75"))
+      << far.told();
+  far.largest = 0.8001;
+  EXPECT_TRUE(says(far.told(), "inside is true, but a finished face is too far from the blank's surface"))
+      << far.told();
+  SolidResultFiles files = deep.files();
+  Json& feature = files.result["demands"]["features"][0];
+  feature["as_cast"] = true;
+  EXPECT_TRUE(says(files.told(), "\"top\" has 2 triangles that are finished")) << files.told();
+  feature["as_cast"] = false, feature["finished"] = 0.8;
+  EXPECT_TRUE(says(files.told(), "demands.features[0] is finished to 0.8, but features.json says 0.75"));
+  feature["maximum"] = 0.75;
+  EXPECT_TRUE(says(files.told(), "has a maximum and is finished"));
+}
+
+TEST(SolidMaxima, TheFileOfFeaturesSaysOneThing) {
+  for (const auto& [key, value, words] :
+       {std::tuple<const char*, Json, const char*>{"minimum", 1, "minimum is a demand on what is finished"},
+        {"as_cast", true, "finished is a demand on what is as cast"},
+        {"finished", 0, "finished is not above 0"}}) {
+    Deep deep;
+    deep.finished = true;
+    SolidResultFiles files = deep.files();
+    Json features = Json::parse(*files.features);
+    features["features"][0][key] = value;
+    files.features = features.dump();
+    EXPECT_TRUE(says(files.told(), words)) << files.told();
+  }
 }
 
 TEST(SolidMaxima, TheResultSaysWhatTheFileSays) {

@@ -556,8 +556,8 @@ void add_search_options(Form& form, LocateWords& w) {
   add("--lock-x", w.lock_x, "MM", "x of the placement is given");
   add("--lock-y", w.lock_y, "MM", "y of the placement is given");
   add("--features", w.features, "FILE",
-      "Demands by feature: minimum, target, maximum, scale, finished; of solids minimum, scale, as cast "
-      "(JSON)");
+      "Demands by feature: minimum, target, maximum, scale, finished; of solids minimum, maximum, scale, "
+      "finished, as cast, datums (JSON)");
   add("--criterion", w.criterion, locate::criterion_names("|"),
       fmt::format("After the largest smallest allowance: {} [{}]",
                   later_criteria(&locate::Criterion::favours, ", or "), locate::criteria().front().name)

@@ -64,7 +64,7 @@ class SpecReader {
     where_ = fmt::format("{}, feature {}", name_, index);
     LEKALO_CHECK(detail::expect_object(json, where_,
                                        {"name", "triangles", "label", "faces", "patch", "box", "plane",
-                                        "minimum", "maximum", "scale", "as_cast"}));
+                                        "minimum", "maximum", "scale", "as_cast", "finished"}));
     SolidFeatureSpec spec;
     const auto name = json.find("name");
     if (!name || !is_word(*name)) return refuse(where_, "\"name\" must be a text");
@@ -75,7 +75,10 @@ class SpecReader {
     LEKALO_CHECK(detail::take_length(json, "minimum", scale_, where_, [&](double v) { demand.minimum = v; }));
     LEKALO_CHECK(detail::take_scale(json, where_, [&](double v) { demand.scale = v; }));
     LEKALO_TRY(const bool as_cast, take_as_cast(json, where_));
-    if (!as_cast) {
+    LEKALO_CHECK(detail::take_length(json, "finished", scale_, where_, [&](double v) { spec.finished = v; }));
+    if (spec.finished && !(*spec.finished > 0))
+      return refuse(where_, "\"finished\" is how far its points may lie from the blank's surface, above 0");
+    if (!as_cast && !spec.finished) {
       LEKALO_CHECK(detail::take_length(json, "maximum", scale_, where_, [&](double v) { spec.maximum = v; }));
       if (spec.maximum && !(*spec.maximum > demand.minimum))
         return refuse(where_, fmt::format("\"maximum\" is {} mm; it must be above the minimum, {} mm",
@@ -83,9 +86,11 @@ class SpecReader {
       spec.demand = demand;
       return spec;
     }
+    if (as_cast && spec.finished) return refuse(where_, "a feature is not both as cast and finished");
     for (const char* other : {"minimum", "maximum", "scale"})
       if (json.find(other))
-        return refuse(where_, fmt::format("a feature that is as cast has no \"{}\"", other));
+        return refuse(where_, fmt::format("a feature that is {} has no \"{}\"",
+                                          as_cast ? "as cast" : "finished", other));
     return spec;
   }
 
@@ -511,7 +516,7 @@ Result<std::vector<SolidFeature>> find_solid_features(const SolidFeatureFile& fi
                                          features[owner[t]].name));
       owner[t] = number;
     }
-    features.push_back({spec.name, std::move(triangles), spec.demand, spec.maximum});
+    features.push_back({spec.name, std::move(triangles), spec.demand, spec.maximum, spec.finished});
   }
   return features;
 }

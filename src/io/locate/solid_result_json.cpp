@@ -86,9 +86,10 @@ void write(JsonWriter& json, const SolidFeature& feature, double largest) {
                               {"triangles", feature.triangles.size()},
                               {"minimum", minimum},
                               {"scale", scale},
-                              {"as_cast", !feature.demand}});
+                              {"as_cast", !feature.demand && !feature.finished}});
   // Others have none, and not the words either.
-  if (feature.maximum) json.fields({{"maximum", *feature.maximum}, {"largest", largest}});
+  if (feature.within())
+    json.fields({{feature.finished ? "finished" : "maximum", *feature.within()}, {"largest", largest}});
   json.end();
 }
 
@@ -101,7 +102,9 @@ void write(JsonWriter& json, const SolidDemandRecord& demands) {
     write(json, one, demands.largest[static_cast<std::size_t>(&one - demands.features.data())]);
   });
   list_of_lines(json.key("datums"), demands.datums, [&](const SolidDatumRecord& one) {
-    json.object({{"name", one.name}, {"within", one.within}, {"off", one.off}});
+    json.begin_object().fields({{"name", one.name}, {"within", one.within}, {"off", one.off}});
+    if (!one.kept()) json.field("missed", one.missed());
+    json.end();
   });
   json.fields({{"margin", demands.margin}, {"margin_bound", demands.margin_bound}, {"margin_gap", gap}})
       .end();
@@ -172,9 +175,11 @@ void write_proof(JsonWriter& json, const SolidDocument& d) {
 
 }  // namespace
 
+double SolidDatumRecord::missed() const noexcept { return kept() ? 0 : difference_rounded_up(off, within); }
+
 bool SolidDemandRecord::keeps_maxima() const noexcept {
   for (std::size_t k = 0; k < features.size(); ++k)
-    if (features[k].maximum && largest[k] > *features[k].maximum) return false;
+    if (const auto within = features[k].within(); within && largest[k] > *within) return false;
   return true;
 }
 

@@ -113,19 +113,19 @@ Result<void> read_features(const SolidLocateJob& job, const io::SolidFile& part,
   return {};
 }
 
-/// Tells which triangles that were placed have a maximum.
+/// Tells which triangles that were placed have a maximum, or are finished.
 void set_nears(SolidInputs& in) {
   const auto& features = in.demands->features;
   std::vector<std::optional<std::size_t>> feature_of(in.part.triangles);
   for (std::size_t k = 0; k < features.size(); ++k)
-    if (features[k].maximum)
+    if (features[k].within())
       for (const std::uint32_t t : features[k].triangles) feature_of[t] = k;
   std::vector<std::vector<std::uint32_t>> triangles(features.size());
   for (std::uint32_t t = 0; t < in.part.numbers.size(); ++t)
     if (const auto feature = feature_of[in.part.numbers[t]]) triangles[*feature].push_back(t);
   for (std::size_t k = 0; k < features.size(); ++k) {
     if (triangles[k].empty()) continue;
-    in.problem.nears.push_back({std::move(triangles[k]), *features[k].maximum});
+    in.problem.nears.push_back({std::move(triangles[k]), *features[k].within()});
     in.near_features.push_back(k);
   }
 }
@@ -143,8 +143,8 @@ Result<void> set_demands(const SolidLocateJob& job, SolidInputs& in) {
   const auto& demands = in.problem.demands;
   if (std::any_of(demands.begin(), demands.end(), [](const auto& one) { return one.has_value(); })) return {};
   return failure(ErrorCode::bad_input,
-                 fmt::format("{}: all of the part is as cast, so no placement is better than another; leave "
-                             "triangles that demand an allowance",
+                 fmt::format("{}: all of the part is as cast or finished, so no placement is better than "
+                             "another; leave triangles that demand an allowance",
                              job.features->name));
 }
 

@@ -272,10 +272,11 @@ class TreeCheck {
     if (place != PartBounds::kAsCast)
       term.bound = &bounds_->bounds[place];
     else if (is_of_part_ball(term.kind))
-      findings_.push_back(fmt::format("{} has a part ball, but something of the part is as cast", name()));
+      findings_.push_back(
+          fmt::format("{} has a part ball, but something of the part is as cast or finished", name()));
     else
-      findings_.push_back(fmt::format("{} has a term of the part's triangle {}, which is as cast", name(),
-                                      frame_.part.numbers[triangle]));
+      findings_.push_back(fmt::format("{} has a term of the part's triangle {}, which is as cast or finished",
+                                      name(), frame_.part.numbers[triangle]));
   }
 
   /// Reads a whole number below a count.

@@ -115,6 +115,7 @@ class SolidCheck {
   void check_datums(const SolidMesh& blank);
   void check_nears(const SolidMesh& part, const SolidMesh& blank);
   [[nodiscard]] bool keeps_datums() const;
+  [[nodiscard]] bool keeps_maximum(std::size_t feature) const;
   [[nodiscard]] bool keeps_maxima() const;
   [[nodiscard]] std::optional<SolidDemand> demand_of(std::size_t feature) const;
   [[nodiscard]] PartBounds bounds_of(const SolidMesh& part) const;
@@ -211,15 +212,21 @@ Result<void> SolidCheck::read_demands(const SolidReading& part) {
     const WrittenSolidDemands::Feature& one = said.features[k];
     std::optional<double> minimum, scale;
     if (feature.demand) minimum = feature.demand->minimum, scale = feature.demand->scale;
-    if (!same(one.maximum, feature.within))
-      find("demands.features[{}] has the maximum {}, but {} says {}", k,
-           told(one.maximum ? std::optional(approximate(*one.maximum)) : std::nullopt),
-           inputs_.features->name, told(feature.within));
+    for (const bool finished : {false, true}) {
+      const auto& told_within = finished ? one.finished : one.maximum;
+      const std::optional<double> within = feature.finished == finished ? feature.within : std::nullopt;
+      if (!same(told_within, within))
+        find("demands.features[{}] {} {}, but {} says {}", k, finished ? "is finished to" : "has the maximum",
+             told(told_within ? std::optional(approximate(*told_within)) : std::nullopt),
+             inputs_.features->name, told(within));
+    }
     if (one.name != feature.name || one.triangles != feature.triangles || !same(one.minimum, minimum) ||
-        !same(one.scale, scale) || one.as_cast == feature.demand.has_value())
+        !same(one.scale, scale) || one.as_cast != feature.as_cast())
       find("demands.features[{}] is not what {} says: \"{}\" has {} triangles{}", k, inputs_.features->name,
            feature.name, feature.triangles,
-           feature.demand ? fmt::format(", minimum {} and scale {}", *minimum, *scale) : " as cast");
+           feature.demand     ? fmt::format(", minimum {} and scale {}", *minimum, *scale)
+           : feature.finished ? " that are finished"
+                              : " as cast");
   }
   return {};
 }
@@ -231,17 +238,20 @@ bool SolidCheck::keeps_datums() const {
   return true;
 }
 
-/// Says the same of maxima.
+/// Says the same of the maximum of a feature, or of its distance if it is finished; and of all of them.
+bool SolidCheck::keeps_maximum(std::size_t feature) const {
+  const auto& within = demands_->features[feature].within;
+  const auto& largest = d_.demands->features[feature].largest;
+  return !within || !largest || to_fraction(*largest) <= Fraction(*within);
+}
 bool SolidCheck::keeps_maxima() const {
-  for (std::size_t k = 0; k < demands_->features.size(); ++k) {
-    const auto& within = demands_->features[k].within;
-    const auto& largest = d_.demands->features[k].largest;
-    if (within && largest && to_fraction(*largest) > Fraction(*within)) return false;
-  }
+  for (std::size_t k = 0; k < demands_->features.size(); ++k)
+    if (!keeps_maximum(k)) return false;
   return true;
 }
 
-/// Holds how far the points of features with a maximum are said to be from the blank's surface against them.
+/// Holds how far the points of features with a maximum, or that are finished, are said to be from the blank's
+/// surface against them.
 void SolidCheck::check_nears(const SolidMesh& part, const SolidMesh& blank) {
   /// More than this part of the maximum is no largest allowance any more.
   constexpr double kSlack = 1.0 / 32;
@@ -255,21 +265,24 @@ void SolidCheck::check_nears(const SolidMesh& part, const SolidMesh& blank) {
       if (demands_->feature_of[part.numbers[t]] == k + 1) triangles.push_back(t);
     if (triangles.empty()) continue;
     const Span said = enclosed(*largest);
+    const char* const what = feature.finished ? "distance from the blank's surface" : "largest allowance";
     // A maximum far below all distances is not worth a search to its last digits.
     const double slack = kSlack * std::max(*feature.within, 0x1p-10 * said.low);
     const FarthestOf is = farthest_of(placed, triangles, around, said.low, slack / 16);
     if (is.low > said.low || said.high > is.high + slack) {
-      find("feature \"{}\": its largest allowance is said to be {}, but it is {}", feature.name, said.low,
+      find("feature \"{}\": its {} is said to be {}, but it is {}", feature.name, what, said.low,
            is.low > said.low ? is.low : is.high);
     } else if (is.open) {
       open_ = true;
-      note(fmt::format(
-          "feature \"{}\": its largest allowance was not rechecked to the end, for the meshes are "
-          "too fine",
-          feature.name));
+      note(fmt::format("feature \"{}\": its {} was not rechecked to the end, for the meshes are too fine",
+                       feature.name, what));
     }
   }
-  if (d_.inside && !keeps_maxima()) find("inside is true, but a maximum is not kept");
+  for (std::size_t k = 0; k < demands_->features.size(); ++k)
+    if (d_.inside && !keeps_maximum(k))
+      find("inside is true, but a {}", demands_->features[k].finished
+                                           ? "finished face is too far from the blank's surface"
+                                           : "maximum is not kept");
 }
 
 /// Holds how far the part is said to be off its datums against its points.
@@ -292,6 +305,14 @@ void SolidCheck::check_datums(const SolidMesh& blank) {
     if (is_farther || said.low > step_up(most + slack))
       find("datum \"{}\": the part is said to be off it by up to {} mm, but it is by {}", datum.name,
            approximate(d_.demands->datums[k].off), most);
+  }
+  for (const WrittenSolidDemands::Datum& one : d_.demands->datums) {
+    const Fraction off = to_fraction(one.off), within = to_fraction(one.within);
+    if (one.missed.has_value() != (off > within))
+      find("datum \"{}\": it is off by {} mm of {}, so that missed has to be {}", one.name,
+           approximate(one.off), approximate(one.within), off > within ? "there" : "left out");
+    else if (one.missed && !is_near(*one.missed, off - within, abs(off) + within))
+      find("datum \"{}\": missed is not off less within", one.name);
   }
   if (d_.inside && !keeps_datums()) find("inside is true, but a datum is not kept");
 }
@@ -491,10 +512,10 @@ Result<void> SolidCheck::check_margin(const SolidPair& pair, const SolidMesh& pa
     else if (answer.open)
       fault = whose + "it touches the blank's surface";
   }
-  if (!any) find("all of the part is as cast, so that there is no margin");
+  if (!any) find("all of the part is as cast or finished, so that there is no margin");
   if (!d_.inside) {
     if (!fault && keeps_datums() && keeps_maxima())
-      find("inside is false, but all of the part that is not as cast lies in the blank");
+      find("inside is false, but all of the part that demands something lies in the blank");
     return {};
   }
   tell_clearance(least);

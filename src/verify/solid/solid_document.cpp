@@ -172,15 +172,20 @@ class Reader {
       of.require({"minimum", "scale"});
       demands.features.push_back({of.text("name"), of.index("triangles"), of.number_or_null("minimum"),
                                   of.number_or_null("scale"), truth(of, "as_cast")});
-      if (of.get("maximum").text.empty() != of.get("largest").text.empty())
+      const auto has = [&](const char* key) { return !of.get(key).text.empty(); };
+      if (has("maximum") && has("finished"))
+        of.complain(fmt::format("field {} has a maximum and is finished", path));
+      if ((has("maximum") || has("finished")) != has("largest"))
         of.complain(fmt::format("field {} has one of a maximum and a largest allowance", path));
-      if (of.get("maximum").text.empty()) return;
-      demands.features.back().maximum = length(of, "maximum");
+      if (!has("largest")) return;
+      if (has("maximum")) demands.features.back().maximum = length(of, "maximum");
+      if (has("finished")) demands.features.back().finished = length(of, "finished");
       demands.features.back().largest = length(of, "largest");
     });
     fields.each("datums", [&](Json item, const std::string& path) {
       Fields of(item, path, complaint_);
       demands.datums.push_back({of.text("name"), length(of, "within"), length(of, "off")});
+      if (!of.get("missed").text.empty()) demands.datums.back().missed = length(of, "missed");
     });
     fields.require({"margin", "margin_bound", "margin_gap"});
     demands.margin = fields.number_or_null("margin");

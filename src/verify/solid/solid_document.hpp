@@ -93,14 +93,16 @@ struct WrittenSolidDemands {
   struct Feature {
     std::string name;
     std::size_t triangles = 0;
-    std::optional<Decimal> minimum, scale;  ///< of what is not as cast
+    std::optional<Decimal> minimum, scale;  ///< of what is neither as cast nor finished
     bool as_cast = false;
-    /// None of one without a maximum.
-    std::optional<Decimal> maximum = std::nullopt, largest = std::nullopt;
+    /// The first of one with a maximum, the second of one that is finished, and the last of both.
+    std::optional<Decimal> maximum = std::nullopt, finished = std::nullopt, largest = std::nullopt;
   };
   struct Datum {
     std::string name;
     Decimal within, off;
+    /// One that is not kept has it.
+    std::optional<Decimal> missed = std::nullopt;
   };
   std::optional<Decimal> minimum;
   std::vector<Feature> features;

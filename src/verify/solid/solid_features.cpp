@@ -243,9 +243,14 @@ class FeatureReader {
   void add(Json item, const std::string& path, SolidDemands& demands) {
     Fields fields(item, path, complaint_);
     refuse_other_words(fields, {"name", "triangles", "label", "faces", "patch", "box", "plane", "minimum",
-                                "maximum", "scale", "as_cast"});
+                                "maximum", "scale", "as_cast", "finished"});
     SolidFeature feature{fields.text("name"), demand(fields), 0};
-    if (is_said(fields, "maximum")) {
+    if (is_said(fields, "finished")) {
+      feature.finished = true;
+      feature.within = length(fields, "finished");
+      if (!(*feature.within > 0))
+        fields.complain(fmt::format("field {} is not above 0", fields.name("finished")));
+    } else if (is_said(fields, "maximum")) {
       feature.within = length(fields, "maximum");
       if (feature.demand && !(*feature.within > feature.demand->minimum))
         fields.complain(fmt::format("field {} is not above the minimum", fields.name("maximum")));
@@ -331,7 +336,13 @@ class FeatureReader {
   }
 
   std::optional<SolidDemand> demand(Fields& fields) {
-    if (is_as_cast(fields, {"minimum", "maximum", "scale"})) return std::nullopt;
+    if (is_as_cast(fields, {"minimum", "maximum", "scale", "finished"})) return std::nullopt;
+    if (is_said(fields, "finished")) {
+      for (const char* one : {"minimum", "maximum", "scale"})
+        if (has(fields, one))
+          fields.complain(fmt::format("field {} is a demand on what is finished", fields.name(one)));
+      return std::nullopt;
+    }
     SolidDemand made{.minimum = length(fields, "minimum")};
     if (has(fields, "scale")) made.scale = approximate(fields.number("scale"));
     if (!(made.scale > 0 && std::isfinite(made.scale)))

@@ -18,10 +18,12 @@ struct SolidDemand {
 
 struct SolidFeature {
   std::string name;
-  std::optional<SolidDemand> demand;  ///< none: as cast
+  std::optional<SolidDemand> demand;  ///< none: as cast, or finished
   std::size_t triangles{};            ///< of the file
-  /// No point of it is farther from the blank's surface, mm: its maximum.
+  /// No point of it is farther from the blank's surface, mm: its maximum, or within what it is finished.
   std::optional<double> within = std::nullopt;
+  bool finished = false;
+  [[nodiscard]] bool as_cast() const { return !demand && !finished; }
 };
 
 struct SolidDemands {

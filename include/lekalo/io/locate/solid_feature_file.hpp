@@ -42,9 +42,12 @@ struct SolidFeatureSpec {
   };
   std::string name;
   std::variant<Numbers, Label, Faces, Patch, Box, Plane> which;
-  std::optional<locate::SolidDemand> demand;  ///< none: as cast
+  std::optional<locate::SolidDemand> demand;  ///< none: as cast, or finished
   /// No point of it has more allowance, mm; above the minimum.
   std::optional<double> maximum = std::nullopt;
+  /// It is finished, so that no point of it is farther than this from the blank's surface, on either side,
+  /// mm, > 0; then it demands nothing.
+  std::optional<double> finished = std::nullopt;
 };
 
 /// A datum, as the file says it: what of the part lies on what of the blank.
@@ -68,20 +71,21 @@ struct SolidFeatureFile {
 };
 
 /// `{"units", "minimum", "as_cast", "features": [{"name", "triangles" | "label" | "faces" | "patch" | "box" |
-/// "plane", "minimum", "maximum", "scale", "as_cast"}, ...], "datums": [{"name", "feature" | "points",
-/// "plane" | "axis" | "point", "within"},
-/// ...]}`. `unit` applies where the file does not say.
+/// "plane", "minimum", "maximum", "scale", "as_cast", "finished"}, ...], "datums": [{"name", "feature" |
+/// "points", "plane" | "axis" | "point", "within"}, ...]}`. `unit` applies where the file does not say.
 ///
 /// Fails with ErrorCode::bad_input, naming file and feature or datum: words it does not know, numbers out of
-/// range, a feature without exactly one of the six, a demand on what is as cast.
+/// range, a feature without exactly one of the six, a demand on what is as cast or finished.
 [[nodiscard]] Result<SolidFeatureFile> parse_solid_features(std::string_view bytes, const std::string& name,
                                                             std::optional<SolidUnit> unit);
 
 struct SolidFeature {
   std::string name;
   std::vector<std::uint32_t> triangles;       ///< as the part's file counts them, ascending
-  std::optional<locate::SolidDemand> demand;  ///< none: as cast
-  std::optional<double> maximum = std::nullopt;
+  std::optional<locate::SolidDemand> demand;  ///< none: as cast, or finished
+  std::optional<double> maximum = std::nullopt, finished = std::nullopt;
+  /// No point of it is to be farther from the blank's surface, mm.
+  [[nodiscard]] std::optional<double> within() const noexcept { return finished ? finished : maximum; }
 };
 
 /// The features with their triangles in the file of a part. bad_input, naming the feature, for one that has

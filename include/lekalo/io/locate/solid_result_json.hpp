@@ -64,6 +64,8 @@ struct SolidDatumRecord {
   std::string name;
   double within = 0, off = 0;
   [[nodiscard]] bool kept() const noexcept { return off <= within; }
+  /// It is missed by so much, mm, rounded up; 0 where it is kept.
+  [[nodiscard]] double missed() const noexcept;
 };
 
 /// The demands of triangles, and how well they are met.
@@ -71,7 +73,8 @@ struct SolidDemandRecord {
   /// That of triangles of no feature, mm; none where they are as cast.
   std::optional<double> minimum = 0;
   std::vector<SolidFeature> features;
-  /// No point of each feature has more allowance, mm; counts for those with a maximum.
+  /// No point of each feature is farther from the blank's surface, mm; counts for those with a maximum, or
+  /// that are finished.
   std::vector<double> largest = {};
   std::vector<SolidDatumRecord> datums;
   [[nodiscard]] bool keeps_maxima() const noexcept;
