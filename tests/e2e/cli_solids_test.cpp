@@ -292,6 +292,18 @@ TEST_F(Solids, FinishedFacesLieInTheSurfaceOfTheBlank) {
   EXPECT_EQ(verify("r.json").status, 0);
 }
 
+TEST_F(Solids, TheExampleOfAFinishedBoreIsMet) {
+  // The bore's edge demands nothing: with less stock left there than is asked for the top.
+  const fs::path solids = fs::path(cases::source_dir()) / "examples" / "solid";
+  const Ran ran =
+      run(folder_.path(), {"locate", "--part", solids / "part.stl", "--blank", solids / "casting.stl",
+                           "--features", solids / "finished.json", "--gap", "0.2", "-o", "r.json", "--json"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(ran.json()["status"], "optimal");
+  EXPECT_EQ(ran.json()["demands"]["features"][0]["rim"], 2.5);
+  EXPECT_EQ(verify("r.json").status, 0);
+}
+
 TEST_F(Solids, ADemandThatIsMissedIsExitStatusOne) {
   const Ran ran = locate({"--min-allowance", "3", "--method", "climb", "-o", "r.json"});
   EXPECT_EQ(ran.status, 1);

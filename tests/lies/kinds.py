@@ -191,9 +191,9 @@ def touched_box(x, y, z, directions=False):
 MAXIMA = """{"units": "mm", "minimum": 0.5, "features": [
   {"name": "top", "plane": {"normal": [0, 0, 1], "at": 9, "within": 0.001}, "minimum": 0.25, "maximum": 1.5}]}
 """
-# The top may stick out of the blank, by no more than half a millimetre.
-FINISHED = """{"units": "mm", "as_cast": true, "features": [
-  {"name": "top", "plane": {"normal": [0, 0, 1], "at": 9, "within": 0.001}, "finished": 0.5},
+# The top may stick out of the blank, by no more than half a millimetre, and so may what is near it.
+FINISHED = """{"units": "mm", "minimum": 0.25, "features": [
+  {"name": "top", "plane": {"normal": [0, 0, 1], "at": 9, "within": 0.001}, "finished": 0.5, "rim": 3},
   {"name": "underside", "plane": {"normal": [0, 0, 1], "at": 2, "within": 0.001}, "minimum": 0.5}]}
 """
 

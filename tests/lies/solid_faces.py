@@ -7,7 +7,13 @@ import heapq
 import math
 
 import solid_demands as asked
+from exact_bodies import of_segments
 from exact_solids import F, dot, normal, squared_distance, sub
+
+
+def of_triangles(s, t):
+    corners = [squared_distance(p, t) for p in s] + [squared_distance(p, s) for p in t]
+    return min(corners + [of_segments(s[k - 1], s[k], t[j - 1], t[j]) for k in range(3) for j in range(3)])
 
 
 def farthest(triangles, surface, within):
@@ -35,6 +41,49 @@ def farthest(triangles, surface, within):
     return low, -open_[0][0]
 
 
+def beside_rim(triangle, face, rim):
+    """Pieces of a triangle that have all its points which are no nearer to a face than its rim is wide, and few others."""
+    kept, open_, square = [], [(triangle, 0)], rim * rim
+
+    def between(a, b, share):
+        return [x + share * (y - x) for x, y in zip(a, b)]
+
+    def last(a, b, g):  # in the rim, on the way from a to b
+        if squared_distance(b, g) < square:
+            return b
+        low, high = F(0), F(1)
+        for _ in range(40):
+            middle = (low + high) / 2
+            low, high = (middle, high) if squared_distance(between(a, b, middle), g) < square else (low, middle)
+        return between(a, b, low)
+    while open_:
+        t, cuts = open_.pop()
+        if t[0] == t[1] or t[1] == t[2] or t[2] == t[0]:
+            continue
+        far = [[squared_distance(p, g) for p in t] for g in face]
+        if any(max(row) < square for row in far):
+            continue
+        well = [[one < square * F(4095, 4096) for one in row] for row in far]
+        best = max(range(len(face)), key=lambda k: sum(well[k]))
+        if cuts == 30 or sum(well[best]) == 0 and min(of_triangles(t, g) for g in face) >= square * F(999, 1000):
+            kept.append(t)
+        elif sum(well[best]) == 0:
+            k = max(range(3), key=lambda k: float(dot(sub(t[k], t[k - 1]), sub(t[k], t[k - 1]))))
+            a, b, c = t[k - 1], t[k], t[k - 2]
+            m = between(a, b, F(1, 2))
+            open_ += [([a, m, c], cuts + 1), ([m, b, c], cuts + 1)]
+        else:
+            two = sum(well[best]) == 2
+            k = next(k for k in range(3) if well[best][k] != two)
+            a, b, c = t[k], t[k - 2], t[k - 1]
+            if two:
+                open_.append(([a, last(b, a, face[best]), last(c, a, face[best])], cuts + 1))
+            else:
+                p, q = last(a, b, face[best]), last(a, c, face[best])
+                open_ += [([p, b, c], cuts + 1), ([p, c, q], cuts + 1)]
+    return kept
+
+
 def allowed(feature):
     """How far its points may be from the blank's surface, or None."""
     return feature.get("maximum", feature.get("finished"))
@@ -49,12 +98,16 @@ class Faces:
         self.features = [self.feature(one) for one in file.get("features", [])]
         self.of = asked.demands(file, part.all, least)
         self.datums, self.within = asked.datums(file, part.all), asked.maxima(file, part.all)
+        self.rims = [([part.all[f] for f in asked.triangles_of(one, self.unit, part.all)], F(told["rim"]))
+                     for one, told in zip(file.get("features", []), self.features) if "rim" in told]
         self.names = [one["name"] for one in file.get("datums", [])]
         self.minimum = None if file.get("as_cast") else max(float(self.unit) * float(file.get("minimum", 0)), float(least))
 
     def feature(self, one):
         more = {key: float(self.unit) * float(one[key]) for key in ("maximum", "finished") if one.get(key) is not None}
         rough = one.get("as_cast", False) or "finished" in more
+        if float(one.get("rim") or 0) > 0:
+            more["rim"] = float(self.unit) * float(one["rim"])
         return more | {"name": one["name"], "triangles": len(asked.triangles_of(one, self.unit, self.part.all)),
                 "minimum": None if rough else float(self.unit) * float(one.get("minimum", 0)),
                 "scale": None if rough else float(one.get("scale", 1)), "as_cast": one.get("as_cast", False)}
@@ -108,8 +161,28 @@ class Faces:
         groups = {}
         for demand, triangle in zip(self.of, self.part.all):
             if demand and any(normal(triangle)):
-                groups.setdefault(demand, []).append(triangle)
+                groups.setdefault(demand, []).extend(self.beside_rims(triangle))
         return groups
+
+    def beside_rims(self, triangle):
+        pieces = [triangle]
+        for face, rim in self.rims:
+            pieces = [one for piece in pieces for one in beside_rim(piece, face, rim)]
+        return pieces
+
+    def in_rim(self, kind, number, certificate):
+        """The part of a term may demand nothing."""
+        if kind in ("part_face", "edges"):
+            t = self.part.all[int(number) // (3 if kind == "edges" else 1)]
+            return any(of_triangles(t, g) < rim * rim for face, rim in self.rims for g in face)
+        if kind not in ("point", "point_plane", "point_face"):
+            return False
+        f, u, v = certificate["part_points"][int(number)]
+        if f != int(f) or not 0 <= f < len(self.part.all):
+            return True
+        a, b, c = self.part.all[int(f)]
+        p = [x + u * (y - x) + v * (z - x) for x, y, z in zip(a, b, c)]
+        return any(squared_distance(p, g) < rim * rim for face, rim in self.rims for g in face)
 
     def bounds(self, bound):
         return [one and one[0] + one[1] * bound for one in self.of]

@@ -24,8 +24,8 @@ import exact_solids as space
 import solid_faces
 import touches
 import truth
-from exact_bodies import of_segments
 from exact_solids import cross, dot, plus, sub, times
+from solid_faces import of_triangles
 
 INFORMATION = [r"/(seed|work|version|method|run|warnings|start|symmetry)(/.*)?$", r"/inputs/\d+/path$",
                r"/certificate_file/path$",
@@ -134,11 +134,6 @@ def pierces(a, b, t, slack):
     way = sub(b, a)
     sides = [dot(cross(sub(t[k - 2], t[k]), way), sub(t[k], a)) for k in range(3)]
     return max(sides) <= room or min(sides) >= -room
-
-
-def of_triangles(s, t):
-    corners = [space.squared_distance(p, t) for p in s] + [space.squared_distance(p, s) for p in t]
-    return min(corners + [of_segments(s[k - 1], s[k], t[j - 1], t[j]) for k in range(3) for j in range(3)])
 
 
 def sides_of(t):
@@ -524,6 +519,8 @@ class Solids:
             one, other = first.get(kind, certificate["part_balls"]), second.get(kind, certificate["blank_balls"])
             if kind not in ("ball", "plane", "face", *first) or m < 0 or any(
                     k != int(k) or not 0 <= k < len(rows) for k, rows in ((i, one), (j, other))):
+                return False
+            if faces and m > 0 and faces.in_rim(kind, i, certificate):
                 return False
             used.append((kind, str(one[int(i)]), str(other[int(j)]), m))
         asked = str((faces.of, faces.datums, faces.within)) if faces else ""

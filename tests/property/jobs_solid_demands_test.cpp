@@ -45,10 +45,14 @@ std::string features_of(const solid::Mesh& part, bool as_cast, Random& random) {
   // One feature may have a maximum.
   const std::string maximum =
       random.below(3) != 0 ? "" : fmt::format(R"("maximum": {:.3f}, )", random.uniform(1.1, 3));
+  // It may be finished, too.
+  const std::string rough = random.below(2) == 0 ? R"("as_cast": true)"
+                                                 : fmt::format(R"("finished": {:.3f}, "rim": {:.3f})",
+                                                               random.uniform(1, 5), random.uniform(0, 0.5));
   for (std::size_t k = 0; k < 3; ++k)
     features += fmt::format(
         R"({}{{"name": "{}", "triangles": [{}], {}}})", k == 0 ? "" : ", ", k, numbers[k],
-        k == 2 && as_cast ? std::string(R"("as_cast": true)")
+        k == 2 && as_cast ? rough
                           : fmt::format(R"({}"minimum": {:.3f}, "scale": {:.2f})", k == 0 ? maximum : "",
                                         random.uniform(0, 1), random.uniform(0.5, 2)));
   return fmt::format(R"({{"minimum": {:.3f}, "features": [{}], "datums": [{}]}})", random.uniform(0, 0.5),

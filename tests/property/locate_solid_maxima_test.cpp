@@ -137,7 +137,6 @@ TEST(SolidMaxima, AFinishedFaceMayStickOutAsFar) {
   problem.part = cases::block({-5, -5, -5}, {5, 5, 5});
   problem.blank = cases::block({-20, -20, -6}, {20, 20, 6});
   problem.shift = 4, problem.turn = 0.02;
-  const auto is_top = [](Vector p) { return p.z > 4.9; };
   hold(problem, 0.8, [](Vector p) { return p.z > 4.9; });
   for (std::uint32_t k = 0; k < problem.part.triangles.size(); ++k) {
     const auto& v = problem.part.vertices;
@@ -150,6 +149,69 @@ TEST(SolidMaxima, AFinishedFaceMayStickOutAsFar) {
   problem.blank = cases::block({-20, -20, -9}, {20, 20, 9});
   problem.shift = 1;
   EXPECT_EQ(located(problem, 0.01).status, Status::infeasible);
+}
+
+/// A cube whose top is finished, with a rim, in a blank that is wider by 3 and as high.
+SolidProblem flush_cube(double rim) {
+  SolidProblem problem;
+  problem.part = cases::block({-5, -5, -5}, {5, 5, 5});
+  problem.blank = cases::block({-8, -8, -8}, {8, 8, 5});
+  problem.shift = 1, problem.turn = 0.02;
+  hold(problem, 0.2, [](Vector p) { return p.z > 4.9; });
+  problem.nears.front().rim = rim;
+  for (const std::uint32_t k : problem.nears.front().triangles) problem.demands[k].reset();
+  return problem;
+}
+
+TEST(SolidMaxima, ARimDemandsNothing) {
+  // The sides have 3 where they are farther from the top than that.
+  expect_optimum(flush_cube(3.5), 3, 0.01, 300);
+  // A narrow rim is as near to the top of the blank, and the cube may lie 0.2 deeper.
+  expect_optimum(flush_cube(2), 2.2, 0.01, 300);
+}
+
+TEST(SolidMaxima, ARimThatHasAllOfThePartIsRefused) {
+  EXPECT_EQ(locate_solid(flush_cube(20), {}).error().message,
+            "nothing that demands an allowance is left beside the finished faces and their rims; make the "
+            "rims narrower");
+}
+
+TEST(SolidMaxima, NothingBesideARimHasLess) {
+  Random random(cases::seed(), 112);
+  for (std::uint64_t k = 0; k < cases::case_count(2); ++k) {
+    const cases::SolidCase pair =
+        k % 2 == 0 ? cases::convex_in_convex(random, 12, 1.5) : cases::wavy_part(random, 5);
+    SolidProblem problem{pair.part, pair.blank, {}};
+    const Vector way = cases::direction(random);
+    const solid::Box box = box_of(problem.part.vertices);
+    const Vector middle = 0.5 * (box.low + box.high);
+    hold(problem, 4, [&](Vector p) { return dot(way, p - middle) > 0.8 * norm(p - middle); });
+    SolidNear& near = problem.nears.front();
+    if (near.triangles.empty()) continue;
+    for (const std::uint32_t t : near.triangles) problem.demands[t].reset();
+    near.rim = random.uniform(0.5, 4);
+    const SolidPlacement found = place_solid(problem, {}).value();
+    if (!found.inside) continue;
+    const Motion motion = motion_of(found.pose);
+    const solid::TriangleTree blank(problem.blank);
+    solid::Mesh face{problem.part.vertices, {}};
+    for (const std::uint32_t t : near.triangles) face.triangles.push_back(problem.part.triangles[t]);
+    const solid::TriangleTree finished(face);
+    double least = 1e9;
+    for (std::uint32_t t = 0; t < problem.part.triangles.size(); ++t) {
+      if (!problem.demands[t]) continue;
+      const auto& [a, b, c] = problem.part.triangles[t];
+      const auto& v = problem.part.vertices;
+      for (int i = 0; i <= 10; ++i)
+        for (int j = 0; i + j <= 10; ++j) {
+          const Vector p = v[a] + 0.1 * i * (v[b] - v[a]) + 0.1 * j * (v[c] - v[a]);
+          if (finished.nearest(p)->low < near.rim) continue;
+          EXPECT_TRUE(blank.holds(motion(p)));
+          least = std::min(least, blank.nearest(motion(p))->high);
+        }
+    }
+    EXPECT_LE(found.margin, least);
+  }
 }
 
 TEST(SolidMaxima, WhatNoPoseKeepsIsProved) {

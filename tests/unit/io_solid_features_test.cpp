@@ -72,7 +72,7 @@ TEST(SolidFeatures, DemandsAndUnits) {
         {"name": "a", "triangles": [0], "minimum": 2, "maximum": 3, "scale": 0.5},
         {"name": "b", "box": [[-1, -1, 0.39370], [2, 1, 0.39371]]},
         {"name": "c", "triangles": [4], "as_cast": true},
-        {"name": "d", "triangles": [5], "finished": 0.1}]})",
+        {"name": "d", "triangles": [5], "finished": 0.1, "rim": 1}]})",
       block());
   ASSERT_TRUE(all) << all.error().message;
   ASSERT_EQ(all->size(), 4u);
@@ -85,6 +85,7 @@ TEST(SolidFeatures, DemandsAndUnits) {
   EXPECT_FALSE((*all)[2].demand || (*all)[2].within());
   EXPECT_FALSE((*all)[3].demand);
   EXPECT_NEAR((*all)[3].within().value_or(0), 2.54, 1e-12);
+  EXPECT_DOUBLE_EQ((*all)[3].rim, 25.4);
   const auto file = parse_solid_features(R"({"minimum": 0.1})", "f.json", SolidUnit::metre);
   EXPECT_DOUBLE_EQ(file->minimum.value(), 100);
 }
@@ -111,6 +112,9 @@ TEST(SolidFeatures, WhatCannotBeUnderstoodIsRefused) {
             R"(f.json, feature "a": no triangle of the part is of it)");
   EXPECT_EQ(refusal_of(R"("plane": {"normal": [0, 0, 0], "at": 0, "within": 1})"),
             R"(f.json, feature "a", plane: "normal" must be a direction [x, y, z])");
+  EXPECT_EQ(
+      refusal_of(R"("triangles": [0], "rim": 1)"),
+      R"(f.json, feature "a": "rim" is of a feature that is finished: what is nearer to it demands nothing)");
   EXPECT_EQ(
       refusal_of(R"("triangles": [0], "finished": 0)"),
       R"(f.json, feature "a": "finished" is how far its points may lie from the blank's surface, above 0)");

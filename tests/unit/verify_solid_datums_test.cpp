@@ -234,6 +234,7 @@ TEST(SolidDatums, TermsOfThemAloneProveThatNoPoseKeepsThem) {
     Held held;
     held.datum = seat(z, within), held.of_result["within"] = within;
     held.at[2] = 0, held.of_result["off"] = -5 - z, held.bound = -0.01;
+    held.of_result["missed"] = -5 - z - within;
     SolidResultFiles files = not_inside(held);
     files.result["status"] = "infeasible";
     files.result["certificate"]["trees"][0]["nodes"][0] = Json::array({{"datum", 0, 0, 1}});

@@ -171,6 +171,53 @@ TEST(SolidMaxima, AFinishedFaceIsHeldAndDemandsNothing) {
   EXPECT_TRUE(says(files.told(), "has a maximum and is finished"));
 }
 
+/// The cube whose top is finished, 0.75 below the blank's. Its sides have 1 below a rim of half a millimetre;
+/// the certificate has a point of two of them, and the half-spaces in front.
+struct Rimmed {
+  double rim = 0.5, of_result = 0.5, margin = 0.9999, at = 0.95;
+  Json on_part = {10, 0, at};
+
+  [[nodiscard]] std::string told() const {
+    Json top{{"name", "top"}, {"triangles", {2, 3}}, {"finished", 0.75}};
+    if (rim != 0) top["rim"] = rim;
+    Json certificate = one_leaf(Json::array({{"point_plane", 0, 0, 1}, {"point_plane", 1, 1, 1}}),
+                                Json::array(), Json::array(), Json::array({{-1, 0, 0, -6}, {1, 0, 0, -6}}));
+    certificate["part_points"] = Json::array({on_part, Json{8, 0.5, 0}});
+    Json said{{"name", "top"},    {"triangles", 2},   {"minimum", nullptr}, {"scale", nullptr},
+              {"as_cast", false}, {"finished", 0.75}, {"largest", 0.75}};
+    if (of_result != 0) said["rim"] = of_result;
+    SolidResultFiles made = cases::with_demands({{"minimum", 0}, {"features", Json::array({top})}},
+                                                Json::array({said}), certificate, margin, 1);
+    made.result["clearance"] = margin;
+    made.result["contacts"] = Json::array();
+    made.result["z"] = 0.25 + 0x1p-20;
+    return made.told();
+  }
+};
+
+TEST(SolidMaxima, ARimDemandsNothing) {
+  EXPECT_EQ(Rimmed{}.told(), "confirmed");
+  // Right below it there is 1.25, so that more than the sides have may be asked for there, and not above.
+  Rimmed narrow;
+  narrow.rim = narrow.of_result = 0.25 + 0x1p-8;
+  EXPECT_EQ(narrow.told(), "confirmed");
+  narrow.rim = narrow.of_result = 0.2499;
+  EXPECT_TRUE(says(narrow.told(), "mm is above 0.99989904")) << narrow.told();
+  Rimmed none;
+  none.rim = none.of_result = 0;
+  EXPECT_TRUE(says(none.told(), "the clearance 0.9999 mm is above 0.7")) << none.told();
+  none.of_result = 0.5;
+  EXPECT_TRUE(says(none.told(), "demands.features[0] has the rim 0.5, but features.json says 0"));
+}
+
+TEST(SolidMaxima, ATermOfARimProvesNothing) {
+  // The point is half a millimetre from the top, to the last digit.
+  Rimmed nearer;
+  nearer.on_part = {10, 0, 0.9500000001};
+  EXPECT_TRUE(says(nearer.told(), "has a term of the part's triangle 10 in the rim of a finished face"))
+      << nearer.told();
+}
+
 TEST(SolidMaxima, TheFileOfFeaturesSaysOneThing) {
   for (const auto& [key, value, words] :
        {std::tuple<const char*, Json, const char*>{"minimum", 1, "minimum is a demand on what is finished"},

@@ -61,6 +61,9 @@ struct SolidDatum {
 struct SolidNear {
   std::vector<std::uint32_t> triangles;
   double within = 0;  ///< mm, > 0
+  /// Points of other triangles that are nearer than this to these demand nothing, mm, >= 0: the rim of a
+  /// finished face, which may stick out as the face does.
+  double rim = 0;
   /// Measurements may say this much more than is there; poses are looked for that leave four times that, mm.
   [[nodiscard]] double slack() const noexcept { return std::min(0x1p-12 * within, 0x1p-10); }
 };

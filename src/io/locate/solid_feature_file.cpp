@@ -64,7 +64,7 @@ class SpecReader {
     where_ = fmt::format("{}, feature {}", name_, index);
     LEKALO_CHECK(detail::expect_object(json, where_,
                                        {"name", "triangles", "label", "faces", "patch", "box", "plane",
-                                        "minimum", "maximum", "scale", "as_cast", "finished"}));
+                                        "minimum", "maximum", "scale", "as_cast", "finished", "rim"}));
     SolidFeatureSpec spec;
     const auto name = json.find("name");
     if (!name || !is_word(*name)) return refuse(where_, "\"name\" must be a text");
@@ -78,6 +78,9 @@ class SpecReader {
     LEKALO_CHECK(detail::take_length(json, "finished", scale_, where_, [&](double v) { spec.finished = v; }));
     if (spec.finished && !(*spec.finished > 0))
       return refuse(where_, "\"finished\" is how far its points may lie from the blank's surface, above 0");
+    if (json.find("rim") && !spec.finished)
+      return refuse(where_, "\"rim\" is of a feature that is finished: what is nearer to it demands nothing");
+    LEKALO_CHECK(detail::take_length(json, "rim", scale_, where_, [&](double v) { spec.rim = v; }));
     if (!as_cast && !spec.finished) {
       LEKALO_CHECK(detail::take_length(json, "maximum", scale_, where_, [&](double v) { spec.maximum = v; }));
       if (spec.maximum && !(*spec.maximum > demand.minimum))
@@ -516,7 +519,7 @@ Result<std::vector<SolidFeature>> find_solid_features(const SolidFeatureFile& fi
                                          features[owner[t]].name));
       owner[t] = number;
     }
-    features.push_back({spec.name, std::move(triangles), spec.demand, spec.maximum, spec.finished});
+    features.push_back({spec.name, std::move(triangles), spec.demand, spec.maximum, spec.finished, spec.rim});
   }
   return features;
 }

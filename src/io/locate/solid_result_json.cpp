@@ -90,6 +90,7 @@ void write(JsonWriter& json, const SolidFeature& feature, double largest) {
   // Others have none, and not the words either.
   if (feature.within())
     json.fields({{feature.finished ? "finished" : "maximum", *feature.within()}, {"largest", largest}});
+  if (feature.rim > 0) json.field("rim", feature.rim);
   json.end();
 }
 

@@ -125,7 +125,7 @@ void set_nears(SolidInputs& in) {
     if (const auto feature = feature_of[in.part.numbers[t]]) triangles[*feature].push_back(t);
   for (std::size_t k = 0; k < features.size(); ++k) {
     if (triangles[k].empty()) continue;
-    in.problem.nears.push_back({std::move(triangles[k]), *features[k].within()});
+    in.problem.nears.push_back({std::move(triangles[k]), *features[k].within(), features[k].rim});
     in.near_features.push_back(k);
   }
 }

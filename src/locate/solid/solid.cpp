@@ -77,7 +77,8 @@ Result<void> check_datums(const std::vector<SolidDatum>& datums) {
 Result<void> check_nears(const SolidProblem& problem) {
   const std::size_t triangles = problem.part.triangles.size();
   for (const SolidNear& near : problem.nears)
-    if (near.triangles.empty() || !(near.within > 0) || !(near.within <= limits::kLargestCoordinate) ||
+    if (near.triangles.empty() || !(near.rim >= 0) || !(near.rim <= limits::kLargestCoordinate) ||
+        !(near.within > 0) || !(near.within <= limits::kLargestCoordinate) ||
         std::any_of(near.triangles.begin(), near.triangles.end(),
                     [&](std::uint32_t t) { return t >= triangles; }))
       return failure(
@@ -86,7 +87,13 @@ Result<void> check_nears(const SolidProblem& problem) {
               "{} triangles of the part's {} that are to be within {} mm of the blank's surface make no "
               "sense: there must be some, all of the part, and the distance above 0 up to {:g} mm",
               near.triangles.size(), triangles, near.within, limits::kLargestCoordinate));
-  return {};
+  const std::optional<CutPart> cut = CutPart::of(problem);
+  if (!cut || std::any_of(cut->demands().begin(), cut->demands().end(),
+                          [](const auto& demand) { return demand.has_value(); }))
+    return {};
+  return failure(ErrorCode::bad_input,
+                 "nothing that demands an allowance is left beside the finished faces and their rims; "
+                 "make the rims narrower");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "solid_bound.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lekalo::locate {
@@ -205,20 +206,53 @@ std::optional<SolidFace> SolidBounds::face(const Side& side, std::uint32_t trian
   return made;
 }
 
-/// Makes the part's point of contact known, as a certificate can name it.
-void SolidBounds::set_point(const SolidContact& contact, const Motion& start, KnownSolid& made) const {
+/// A place on a triangle of the part, as a certificate can name it.
+SolidPoint SolidBounds::point_of(std::uint32_t triangle, Vector place) const {
   // Places on a triangle are whole numbers of this part of its sides, which decimals hold.
   constexpr double kSteps = 1e9;
-  const auto& t = part_.mesh.triangles[contact.demanded_triangle];
-  const Vector from = part_.mesh.vertices[t[0]], a = part_.mesh.vertices[t[1]] - from,
-               b = part_.mesh.vertices[t[2]] - from, w = contact.part - from;
+  const solid::Mesh& mesh = meter_.cut() != nullptr ? meter_.cut()->part() : part_.mesh;
+  const std::uint32_t number = meter_.number(triangle);
+  const auto& t = mesh.triangles[number];
+  const Vector from = mesh.vertices[t[0]], a = mesh.vertices[t[1]] - from, b = mesh.vertices[t[2]] - from,
+               w = place - from;
   const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), whole = aa * bb - ab * ab;
   const auto share = [&](double of) { return whole > 0 ? std::clamp(of / whole, 0.0, 1.0) : 0; };
   const double u = std::round(kSteps * share(bb * dot(a, w) - ab * dot(b, w))),
                v = std::min(std::round(kSteps * share(aa * dot(b, w) - ab * dot(a, w))), kSteps - u);
-  made.on_part = {contact.demanded_triangle, u / kSteps, v / kSteps};
+  return {number, u / kSteps, v / kSteps};
+}
+
+Vector SolidBounds::place_of(const SolidPoint& point) const {
+  const solid::Mesh& mesh = meter_.cut() != nullptr ? meter_.cut()->part() : part_.mesh;
+  const auto& t = mesh.triangles[point.triangle];
+  const Vector from = mesh.vertices[t[0]];
+  return from + point.u * (mesh.vertices[t[1]] - from) + point.v * (mesh.vertices[t[2]] - from);
+}
+
+/// The point of a contact, or one beside it that lies in no rim.
+std::optional<SolidPoint> SolidBounds::demanded_point(const SolidContact& contact) const {
+  const std::uint32_t triangle = contact.demanded_triangle;
+  SolidPoint found = point_of(triangle, contact.part);
+  const CutPart* const cut = meter_.cut();
+  if (cut == nullptr || cut->is_clear(place_of(found))) return found;
+  // The nearest ones that are clear are looked for on the ways to the corners of the piece.
+  std::array<Vector, 3> ways{};
+  for (std::size_t k = 0; k < 3; ++k)
+    ways[k] = part_.mesh.vertices[part_.mesh.triangles[triangle][k]] - contact.part;
+  for (double share = 0x1p-24; share <= 1; share *= 2)
+    for (const Vector way : ways) {
+      found = point_of(triangle, contact.part + share * way);
+      if (cut->is_clear(place_of(found))) return found;
+    }
+  return std::nullopt;
+}
+
+/// Makes a point of the part known.
+void SolidBounds::set_point(const SolidContact& contact, SolidPoint on_part, const Motion& start,
+                            KnownSolid& made) const {
+  made.on_part = on_part;
   made.demand = contact.demand;
-  const Vector place = from + made.on_part.u * a + made.on_part.v * b;
+  const Vector place = place_of(on_part);
   made.point = {{place, 0}, start.turned(place - meter_.frame().pivot), off(part_, place)};
 }
 
@@ -272,7 +306,7 @@ std::optional<SolidEdges> SolidBounds::edges(const SolidContact& contact, const 
   const auto of_part = edge_at(part_.mesh, contact.part_triangle, contact.part),
              of_blank = edge_at(blank_.mesh, contact.blank_triangle, contact.blank);
   if (!of_part || !of_blank) return std::nullopt;
-  return SolidEdges{of_part->number,
+  return SolidEdges{3 * meter_.number(of_part->number / 3) + of_part->number % 3,
                     of_blank->number,
                     start.turned(of_part->from - meter_.frame().pivot),
                     start.turned(of_part->along),
@@ -316,7 +350,7 @@ std::optional<KnownSolid> SolidBounds::away(const SolidContact& contact, const M
   const auto body = body_beside(meter_.bare_clearance(), meter_.blank_points(), point, apart, error, scale_);
   if (!body) return std::nullopt;
   KnownSolid made;
-  set_point(contact, start, made);
+  set_point(contact, point_of(contact.demanded_triangle, contact.part), start, made);
   made.away = SolidAway{made.point->seen, made.point->loss, *body, sides_of(*body)};
   made.point.reset();
   return made;
@@ -355,7 +389,8 @@ std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const 
   const Vector n = contact.normal;
   KnownSolid made;
   const auto seen = [&](Vector p) { return start.turned(p - frame.pivot); };
-  if (meter_.has_demands()) set_point(contact, start, made);
+  if (meter_.has_demands())
+    if (const auto point = demanded_point(contact)) set_point(contact, *point, start, made);
   // Balls in the part count with the least demand, so where more is asked for they say little.
   const auto make_part = [&](double largest) {
     for (const SolidBall& one :
@@ -376,9 +411,13 @@ std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const 
     if (within > 0) made.blank.insert(made.blank.begin(), {contact.blank, within});
   }
   if ((made.part.empty() && !made.point) || made.blank.empty()) return std::nullopt;
-  made.part_face = face(part_, contact.part_triangle);
   made.blank_face = face(blank_, contact.blank_triangle);
-  made.edges = edges(contact, start);
+  // No certificate names pieces of triangles.
+  if (meter_.cut() == nullptr || contact.part_triangle == kNoTriangle ||
+      meter_.cut()->is_clear(contact.part_triangle)) {
+    made.part_face = face(part_, contact.part_triangle);
+    made.edges = edges(contact, start);
+  }
   if (made.blank_face)
     made.blank_face->width = std::max(0.0, meter_.width(contact.blank_triangle) - meter_.width_error());
   Vector across = n;
@@ -390,6 +429,7 @@ std::optional<KnownSolid> SolidBounds::known(const SolidContact& contact, const 
   set_plane(across, made);
   if (made.part_face) {
     SolidFace& f = *made.part_face;
+    f.triangle = meter_.number(f.triangle);
     f.normal = start.turned(f.normal);
     for (std::size_t k = 0; k < 3; ++k) {
       f.corner[k] = seen(f.corner[k]);

@@ -138,7 +138,11 @@ class SolidBounds {
   [[nodiscard]] std::optional<std::uint16_t> side_in_doubt(const SolidAway& away, const CellView& cell) const;
   [[nodiscard]] PoseForm form_of(const SolidAway& away, std::uint16_t side, const CellView& cell) const;
   void close(SolidForm& term, const CellView& cell) const;
-  void set_point(const SolidContact& contact, const solid::Motion& start, KnownSolid& made) const;
+  [[nodiscard]] SolidPoint point_of(std::uint32_t triangle, solid::Vector place) const;
+  [[nodiscard]] solid::Vector place_of(const SolidPoint& point) const;
+  [[nodiscard]] std::optional<SolidPoint> demanded_point(const SolidContact& contact) const;
+  void set_point(const SolidContact& contact, SolidPoint on_part, const solid::Motion& start,
+                 KnownSolid& made) const;
   [[nodiscard]] double least_margin(double allowance, const SolidDemand* demand) const;
 
   const SolidMeter& meter_;

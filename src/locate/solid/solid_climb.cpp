@@ -263,8 +263,8 @@ std::vector<SolidTouch> holding_contacts(const SolidMeter& meter, const Measured
   for (std::size_t j = 0; j < solution.rows; ++j) {
     const SolidContact& c = contacts[solution.row[j]];
     if (c.of_place()) continue;
-    touches.push_back(
-        {c.part_triangle, c.blank_triangle, c.part, c.blank, c.distance, solution.multiplier[j]});
+    touches.push_back({meter.number(c.part_triangle), c.blank_triangle, c.part, c.blank, c.distance,
+                       solution.multiplier[j]});
   }
   return touches;
 }

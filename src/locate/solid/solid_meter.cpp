@@ -151,13 +151,14 @@ SolidDemand demand_in(const std::vector<std::optional<SolidDemand>>& demands, st
 SolidMeter::SolidMeter(const SolidProblem& problem, const SolidFrame& frame, unsigned threads)
     : frame_(frame),
       threads_(threads),
-      part_(problem.part),
+      cut_(CutPart::of(problem)),
+      part_(cut_ ? cut_->mesh() : problem.part),
       blank_(problem.blank),
       widths_(problem.blank_widths),
-      clearance_(problem.part, problem.blank, problem.blank_widths, threads),
-      demand_of_(problem.demands),
+      clearance_(part_, problem.blank, problem.blank_widths, threads),
+      demand_of_(cut_ ? cut_->demands() : problem.demands),
       datums_(problem.datums),
-      part_error_(kDiagonal * problem.part_coordinate_error),
+      part_error_(kDiagonal * problem.part_coordinate_error + (cut_ ? cut_->error() : 0)),
       blank_error_(kDiagonal * problem.blank_coordinate_error),
       width_error_(problem.blank_width_error) {
   if (problem.blank_widths.empty() && problem.demands.empty() && problem.datums.empty() &&
@@ -173,7 +174,7 @@ SolidMeter::SolidMeter(const SolidProblem& problem, const SolidFrame& frame, uns
   }
   far_ = 2 * (clearance_.part().largest() + clearance_.blank().largest()) + norm(frame.window.middle().at) +
          norm(frame.window.half().at);
-  for (const SolidNear& near : problem.nears) nears_.emplace_back(near, part_);
+  for (const SolidNear& near : cut_ ? cut_->nears() : problem.nears) nears_.emplace_back(near, part_);
   prepare_datums();
 }
 

@@ -7,6 +7,7 @@
 #include "lekalo/solid/mesh_clearance.hpp"
 #include "solid_frame.hpp"
 #include "solid_near.hpp"
+#include "solid_rims.hpp"
 
 namespace lekalo::locate {
 
@@ -72,6 +73,12 @@ class SolidMeter {
   [[nodiscard]] const SolidFrame& frame() const noexcept { return frame_; }
   [[nodiscard]] const solid::MeshClearance& clearance() const noexcept { return clearance_; }
   [[nodiscard]] const solid::Mesh& part() const noexcept { return part_; }
+  /// The part's triangles are pieces of those of the problem where rims are left out. Triangles of contacts
+  /// are pieces; number() tells those of the problem.
+  [[nodiscard]] const CutPart* cut() const noexcept { return cut_ ? &*cut_ : nullptr; }
+  [[nodiscard]] std::uint32_t number(std::uint32_t triangle) const {
+    return cut_ && triangle != kNoTriangle ? cut_->number(triangle) : triangle;
+  }
   [[nodiscard]] const solid::Mesh& blank() const noexcept { return blank_; }
   /// A length of part and blank together that rounding follows, mm.
   [[nodiscard]] double far() const noexcept { return far_; }
@@ -190,6 +197,7 @@ class SolidMeter {
 
   SolidFrame frame_;
   unsigned threads_;
+  std::optional<CutPart> cut_;
   const solid::Mesh &part_, &blank_;
   const std::vector<double>& widths_;
   solid::MeshClearance clearance_;

@@ -121,8 +121,8 @@ constexpr Known kSolidTrees[] = {{"quaternion"}, {"x"},      {"y"},      {"z"},
 constexpr Known kSolidCertificate[] = {{"pivot"},        {"part_balls"}, {"part_points"},
                                        {"datum_points"}, {"directions"}, {"blank_balls"},
                                        {"planes"},       {"bodies"},     {"trees", kSolidTrees}};
-constexpr Known kSolidFeatures[] = {{"name"},  {"triangles"}, {"minimum"},  {"maximum"},
-                                    {"scale"}, {"as_cast"},   {"finished"}, {"largest"}};
+constexpr Known kSolidFeatures[] = {{"name"},    {"triangles"}, {"minimum"}, {"maximum"}, {"scale"},
+                                    {"as_cast"}, {"finished"},  {"rim"},     {"largest"}};
 constexpr Known kSolidDatums[] = {{"name"}, {"within"}, {"off"}, {"missed"}};
 constexpr Known kSolidDemands[] = {
     {"minimum"},   {"features", kSolidFeatures}, {"datums", kSolidDatums}, {"margin"}, {"margin_bound"},

@@ -264,12 +264,22 @@ class TreeCheck {
     return true;
   }
 
+  /// Says whether it may be of a point that demands nothing.
+  [[nodiscard]] bool in_rim(const LeafTerm& term, std::uint32_t triangle) const {
+    if (bounds_->rims == nullptr || is_of_part_ball(term.kind)) return false;
+    return is_of_point(term.kind) ? !bounds_->rims->spare(as<Fraction>(term.part_ball->centre))
+                                  : !bounds_->rims->spare(triangle);
+  }
+
   /// Gives the term the bound of what its side of the part demands; a finding where that is nothing.
   void set_bound(LeafTerm& term, std::uint32_t triangle) {
     if (bounds_ == nullptr) return;
     std::uint32_t place = bounds_->least.value_or(PartBounds::kAsCast);
     if (!is_of_part_ball(term.kind)) place = bounds_->of[triangle];
-    if (place != PartBounds::kAsCast)
+    if (place != PartBounds::kAsCast && in_rim(term, triangle))
+      findings_.push_back(fmt::format("{} has a term of the part's triangle {} in the rim of a finished face",
+                                      name(), frame_.part.numbers[triangle]));
+    else if (place != PartBounds::kAsCast)
       term.bound = &bounds_->bounds[place];
     else if (is_of_part_ball(term.kind))
       findings_.push_back(

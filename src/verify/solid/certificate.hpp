@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "solid_datum.hpp"
+#include "rims.hpp"
 #include "solid_document.hpp"
+#include "solid_features.hpp"
 #include "solid_number.hpp"
 
 namespace lekalo::verify {
@@ -22,6 +23,8 @@ struct PartBounds {
   /// No point of each triangle may be farther from the blank's surface, mm; infinite where it may. Empty
   /// where all may.
   std::vector<double> within;
+  /// Points in them demand nothing; null where there are none.
+  const Rims* rims = nullptr;
 };
 
 /// The proof that no pose of a window has more clearance than a bound: a subdivision of a box of poses around

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "placed_solid.hpp"
-#include "solid_datum.hpp"
+#include "solid_features.hpp"
 #include "solid_near.hpp"
 #include "solid_number.hpp"
 #include "verify/read/json.hpp"

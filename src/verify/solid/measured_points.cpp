@@ -1,4 +1,4 @@
-#include "measured_points.hpp"
+#include "scan_widths.hpp"
 
 #include <fmt/core.h>
 

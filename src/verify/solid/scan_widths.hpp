@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "solid_document.hpp"
@@ -19,5 +21,11 @@ struct ScanWidths {
 
 /// Cost: O(n); fractions decide only of triangles nearly as wide as the radius, and of small ones.
 [[nodiscard]] ScanWidths scan_widths(const SolidMesh& mesh, const WrittenSolidScan& scan);
+
+/// Says what is not so: every corner of the mesh, but for those of the underside, is one of the points but
+/// for the rounding of inches, and no point but those left out lies deeper in what counts as material than
+/// points are uncertain by. \pre the blank has its widths
+[[nodiscard]] std::vector<std::string> faults_of_points(const std::vector<std::array<double, 3>>& points,
+                                                        const SolidMesh& blank, const WrittenSolidScan& scan);
 
 }  // namespace lekalo::verify

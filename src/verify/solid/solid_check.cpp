@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "certificate.hpp"
-#include "measured_points.hpp"
+#include "rims.hpp"
 #include "scan_widths.hpp"
 #include "solid_document.hpp"
 #include "solid_features.hpp"
@@ -118,7 +118,8 @@ class SolidCheck {
   [[nodiscard]] bool keeps_maximum(std::size_t feature) const;
   [[nodiscard]] bool keeps_maxima() const;
   [[nodiscard]] std::optional<SolidDemand> demand_of(std::size_t feature) const;
-  [[nodiscard]] PartBounds bounds_of(const SolidMesh& part) const;
+  [[nodiscard]] Rims rims_of(const SolidMesh& part) const;
+  [[nodiscard]] PartBounds bounds_of(const SolidMesh& part, const Rims& rims) const;
   void check_contacts(const SolidPair& pair, const SolidMesh& part, const SolidMesh& blank);
   Result<void> check_certificate(Json certificate, const SolidMesh& part, const SolidMesh& blank);
   void check_pose();
@@ -220,6 +221,10 @@ Result<void> SolidCheck::read_demands(const SolidReading& part) {
              told(told_within ? std::optional(approximate(*told_within)) : std::nullopt),
              inputs_.features->name, told(within));
     }
+    if (!same(one.rim, feature.rim > 0 ? std::optional(feature.rim) : std::nullopt))
+      find("demands.features[{}] has the rim {}, but {} says {}", k,
+           told(one.rim ? std::optional(approximate(*one.rim)) : std::nullopt), inputs_.features->name,
+           feature.rim);
     if (one.name != feature.name || one.triangles != feature.triangles || !same(one.minimum, minimum) ||
         !same(one.scale, scale) || one.as_cast != feature.as_cast())
       find("demands.features[{}] is not what {} says: \"{}\" has {} triangles{}", k, inputs_.features->name,
@@ -458,26 +463,6 @@ void SolidCheck::check_clearance(const SolidPair& pair) {
   if (answer.open) find("inside is true, but the part touches the blank's surface");
 }
 
-/// Returns the triangles of a part with one demand, as a mesh of their own, and the vertices that they have.
-SolidMesh part_of(const SolidMesh& mesh, const std::vector<std::uint32_t>& triangles) {
-  SolidMesh made;
-  std::vector<std::uint32_t> becomes(mesh.near.size(), 0xffffffff);
-  for (const std::uint32_t t : triangles) {
-    std::array<std::uint32_t, 3> corners = mesh.triangles[t];
-    for (std::uint32_t& v : corners) {
-      if (becomes[v] == 0xffffffff) {
-        becomes[v] = static_cast<std::uint32_t>(made.near.size());
-        made.near.push_back(mesh.near[v]);
-        if (!mesh.written.empty()) made.written.push_back(mesh.written[v]);
-      }
-      v = becomes[v];
-    }
-    made.triangles.push_back(corners);
-    made.numbers.push_back(mesh.numbers[t]);
-  }
-  return made;
-}
-
 /// The triangles of each demand are looked at for themselves.
 Result<void> SolidCheck::check_margin(const SolidPair& pair, const SolidMesh& part, const SolidMesh& blank) {
   std::vector<std::vector<std::uint32_t>> of_feature(demands_->features.size() + 1);
@@ -485,13 +470,13 @@ Result<void> SolidCheck::check_margin(const SolidPair& pair, const SolidMesh& pa
     of_feature[demands_->feature_of[part.numbers[t]]].push_back(t);
   const Fraction clearance = d_.clearance ? to_fraction(*d_.clearance) : Fraction(0),
                  deviation = to_fraction(deviation_);
+  const Rims rims = rims_of(part);
   std::optional<std::string> fault = pair.swallowed();
   Span least{kInfinity, kInfinity};
   bool any = false;
   for (std::size_t k = 0; k < of_feature.size(); ++k) {
     const auto demand = demand_of(k);
-    if (!demand || of_feature[k].empty()) continue;
-    any = true;
+    if (!demand) continue;
     Both needed{std::max(clearance, Fraction(0))};
     if (d_.demands->margin) {
       const Fraction margin = to_fraction(*d_.demands->margin);
@@ -501,16 +486,26 @@ Result<void> SolidCheck::check_margin(const SolidPair& pair, const SolidMesh& pa
     // It is demanded of the bodies, and looked for at the triangles.
     needed.exact += deviation;
     needed.near = enclosed(needed.exact);
-    const SolidMesh surface = part_of(part, of_feature[k]);
-    LEKALO_TRY(const SolidPair of_surface, SolidPair::make(surface, blank, d_.pose));
-    const SolidAnswer answer = of_surface.check_surface(needed);
-    least = {std::min(least.low, answer.least.low), std::min(least.high, answer.least.high)};
-    if (fault) continue;
-    const std::string whose = k == 0 ? "" : fmt::format("feature \"{}\": ", demands_->features[k - 1].name);
-    if (answer.fault)
-      fault = whose + *answer.fault;
-    else if (answer.open)
-      fault = whose + "it touches the blank's surface";
+    std::vector<std::uint32_t> whole, in_rims;
+    for (const std::uint32_t t : of_feature[k]) (rims.spare(t) ? whole : in_rims).push_back(t);
+    for (const bool cut : {false, true}) {
+      const SolidMesh surface = cut ? rims.rest(in_rims) : part_of(part, whole);
+      if (surface.triangles.empty()) continue;
+      any = true;
+      if (cut) {
+        needed.exact += Fraction(rims.off());
+        needed.near = enclosed(needed.exact);
+      }
+      LEKALO_TRY(const SolidPair of_surface, SolidPair::make(surface, blank, d_.pose));
+      const SolidAnswer answer = of_surface.check_surface(needed);
+      least = {std::min(least.low, answer.least.low), std::min(least.high, answer.least.high)};
+      if (fault) continue;
+      const std::string whose = k == 0 ? "" : fmt::format("feature \"{}\": ", demands_->features[k - 1].name);
+      if (answer.fault)
+        fault = whose + *answer.fault;
+      else if (answer.open)
+        fault = whose + "it touches the blank's surface";
+    }
   }
   if (!any) find("all of the part is as cast or finished, so that there is no margin");
   if (!d_.inside) {
@@ -523,8 +518,21 @@ Result<void> SolidCheck::check_margin(const SolidPair& pair, const SolidMesh& pa
   return {};
 }
 
-PartBounds SolidCheck::bounds_of(const SolidMesh& part) const {
+Rims SolidCheck::rims_of(const SolidMesh& part) const {
+  Rims made(part);
+  for (std::size_t k = 0; k < demands_->features.size(); ++k) {
+    if (!(demands_->features[k].rim > 0)) continue;
+    std::vector<std::uint32_t> triangles;
+    for (std::uint32_t t = 0; t < part.triangles.size(); ++t)
+      if (demands_->feature_of[part.numbers[t]] == k + 1) triangles.push_back(t);
+    if (!triangles.empty()) made.add(triangles, demands_->features[k].rim);
+  }
+  return made;
+}
+
+PartBounds SolidCheck::bounds_of(const SolidMesh& part, const Rims& rims) const {
   PartBounds made;
+  if (rims.any()) made.rims = &rims;
   const Fraction bound = to_fraction(*d_.demands->bound);
   for (std::size_t k = 0; k <= demands_->features.size(); ++k) {
     const SolidDemand demand = demand_of(k).value_or(SolidDemand{});
@@ -568,7 +576,8 @@ void SolidCheck::check_contacts(const SolidPair& pair, const SolidMesh& part, co
 
 Result<void> SolidCheck::check_certificate(Json certificate, const SolidMesh& part, const SolidMesh& blank) {
   PartBounds bounds;
-  if (demands_) bounds = bounds_of(part);
+  std::optional<Rims> rims;
+  if (demands_) bounds = bounds_of(part, rims.emplace(rims_of(part)));
   // It is about the triangles; with demands their bounds are.
   const Decimal of_meshes = demands_ ? *bound() : *bound() - deviation_;
   const std::vector<SolidDatum> none;

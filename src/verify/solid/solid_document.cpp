@@ -177,7 +177,10 @@ class Reader {
         of.complain(fmt::format("field {} has a maximum and is finished", path));
       if ((has("maximum") || has("finished")) != has("largest"))
         of.complain(fmt::format("field {} has one of a maximum and a largest allowance", path));
+      if (has("rim") && !has("finished"))
+        of.complain(fmt::format("field {} has a rim and is not finished", path));
       if (!has("largest")) return;
+      if (has("rim")) demands.features.back().rim = length(of, "rim");
       if (has("maximum")) demands.features.back().maximum = length(of, "maximum");
       if (has("finished")) demands.features.back().finished = length(of, "finished");
       demands.features.back().largest = length(of, "largest");

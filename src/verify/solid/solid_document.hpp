@@ -97,6 +97,8 @@ struct WrittenSolidDemands {
     bool as_cast = false;
     /// The first of one with a maximum, the second of one that is finished, and the last of both.
     std::optional<Decimal> maximum = std::nullopt, finished = std::nullopt, largest = std::nullopt;
+    /// One that is finished may have it.
+    std::optional<Decimal> rim = std::nullopt;
   };
   struct Datum {
     std::string name;

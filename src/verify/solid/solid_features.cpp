@@ -243,18 +243,21 @@ class FeatureReader {
   void add(Json item, const std::string& path, SolidDemands& demands) {
     Fields fields(item, path, complaint_);
     refuse_other_words(fields, {"name", "triangles", "label", "faces", "patch", "box", "plane", "minimum",
-                                "maximum", "scale", "as_cast", "finished"});
+                                "maximum", "scale", "as_cast", "finished", "rim"});
     SolidFeature feature{fields.text("name"), demand(fields), 0};
     if (is_said(fields, "finished")) {
       feature.finished = true;
       feature.within = length(fields, "finished");
       if (!(*feature.within > 0))
         fields.complain(fmt::format("field {} is not above 0", fields.name("finished")));
+      feature.rim = length(fields, "rim");
     } else if (is_said(fields, "maximum")) {
       feature.within = length(fields, "maximum");
       if (feature.demand && !(*feature.within > feature.demand->minimum))
         fields.complain(fmt::format("field {} is not above the minimum", fields.name("maximum")));
     }
+    if (has(fields, "rim") && !feature.finished)
+      fields.complain(fmt::format("field {} is of what is not finished", fields.name("rim")));
     std::vector<std::uint32_t> triangles = triangles_of(fields);
     if (!complaint_.empty()) return;
     std::ranges::sort(triangles);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "solid_datum.hpp"
 #include "solid_mesh.hpp"
+#include "solid_number.hpp"
 
 namespace lekalo::verify {
 
@@ -23,8 +23,34 @@ struct SolidFeature {
   /// No point of it is farther from the blank's surface, mm: its maximum, or within what it is finished.
   std::optional<double> within = std::nullopt;
   bool finished = false;
+  /// Points of other triangles that are nearer to a finished one than this demand nothing, mm.
+  double rim = 0;
   [[nodiscard]] bool as_cast() const { return !demand && !finished; }
 };
+
+/// A demand on the place of a part: none of its points is farther from a plane, a line or a point of the
+/// blank's frame than `within`.
+struct SolidDatum {
+  enum class On : std::uint8_t { plane, axis, point };
+  std::string name;
+  On on = On::plane;
+  Both3 through{};    ///< a point of the plane or the line, or the point
+  Both3 direction{};  ///< across the plane or along the line, of any length but 0
+  double within{};    ///< mm; the double nearest to the decimal
+  /// The triangles whose corners are the points, in ascending order; none where the points are given.
+  std::vector<std::uint32_t> triangles = {};
+  std::vector<Both3> points = {};  ///< three of each triangle, or those given; part coordinates
+};
+
+/// Returns the part of a vector that goes straight away from the datum: for that of a place from `through` it
+/// is as long as the place is off.
+template <class Number>
+[[nodiscard]] Of3<Number> straight_off(const SolidDatum& datum, const Of3<Number>& way) {
+  if (datum.on == SolidDatum::On::point) return way;
+  const Of3<Number> n = as<Number>(datum.direction);
+  const Of3<Number> along = n * Number(dot(way, n) / dot(n, n));
+  return datum.on == SolidDatum::On::plane ? along : way - along;
+}
 
 struct SolidDemands {
   /// That of triangles of no feature, mm; none where they are as cast.

@@ -48,6 +48,7 @@ struct SolidFeatureSpec {
   /// It is finished, so that no point of it is farther than this from the blank's surface, on either side,
   /// mm, > 0; then it demands nothing.
   std::optional<double> finished = std::nullopt;
+  double rim = 0;  ///< points of others nearer to one that is finished demand nothing, mm
 };
 
 /// A datum, as the file says it: what of the part lies on what of the blank.
@@ -71,8 +72,8 @@ struct SolidFeatureFile {
 };
 
 /// `{"units", "minimum", "as_cast", "features": [{"name", "triangles" | "label" | "faces" | "patch" | "box" |
-/// "plane", "minimum", "maximum", "scale", "as_cast", "finished"}, ...], "datums": [{"name", "feature" |
-/// "points", "plane" | "axis" | "point", "within"}, ...]}`. `unit` applies where the file does not say.
+/// "plane", "minimum", "maximum", "scale", "as_cast", "finished", "rim"}, ...], "datums": [{"name", "feature"
+/// | "points", "plane" | "axis" | "point", "within"}, ...]}`. `unit` applies where the file does not say.
 ///
 /// Fails with ErrorCode::bad_input, naming file and feature or datum: words it does not know, numbers out of
 /// range, a feature without exactly one of the six, a demand on what is as cast or finished.
@@ -84,6 +85,7 @@ struct SolidFeature {
   std::vector<std::uint32_t> triangles;       ///< as the part's file counts them, ascending
   std::optional<locate::SolidDemand> demand;  ///< none: as cast, or finished
   std::optional<double> maximum = std::nullopt, finished = std::nullopt;
+  double rim = 0;
   /// No point of it is to be farther from the blank's surface, mm.
   [[nodiscard]] std::optional<double> within() const noexcept { return finished ? finished : maximum; }
 };
