@@ -56,7 +56,7 @@ struct Conduction::Model {
 };
 
 void Conduction::Model::shape(const Body& body) {
-  FlowLevel& level = system.finest();
+  Flow<double>& level = system.finest();
   const auto [nx, ny, nz] = grid.count;
   const std::array<double, 3> pitch = grid.pitches();
   const double volume = grid.volume();
@@ -88,7 +88,7 @@ void Conduction::Model::shape(const Body& body) {
 }
 
 double Conduction::Model::stored() const {
-  const FlowLevel& level = system.finest();
+  const Flow<double>& level = system.finest();
   return sum_of_rows(level.lattice, threads, [&](std::size_t first, std::size_t end) {
     double sum = 0;
     for (std::size_t r = first; r < end; ++r) {
@@ -104,7 +104,7 @@ double Conduction::Model::stored() const {
 /// surroundings get meanwhile.
 Result<void> Conduction::Model::stage(const Numbers& heat, const Numbers& base, Numbers& rates,
                                       double seconds, double part) {
-  const FlowLevel& level = system.finest();
+  const Flow<double>& level = system.finest();
   const double per_second = 1 / (kGamma * seconds);
   Numbers b(base.size(), 0.0);
   system.flow(base, b);

@@ -101,7 +101,7 @@ struct Expansion::Model {
 /// Expansion at a voxel's middle, and how it grows along each axis: to its faces, by neighbours with
 /// material.
 std::array<double, 4> Expansion::Model::coefficients(std::size_t i, std::size_t j, std::size_t k) const {
-  const ElasticLevel& level = system.finest();
+  const auto& level = system.finest();
   const std::array<std::size_t, 3> at{i, j, k}, cells{1, grid.count[0], grid.count[0] * grid.count[1]};
   const std::size_t cell = grid.cell(i, j, k), node = level.nodes.index(i, j, k);
   std::array<double, 4> by{elastic.expansion_per_k * temperature[cell], 0, 0, 0};
@@ -118,7 +118,7 @@ std::array<double, 4> Expansion::Model::coefficients(std::size_t i, std::size_t 
 }
 
 Field Expansion::Model::load() const {
-  const ElasticLevel& level = system.finest();
+  const auto& level = system.finest();
   const Lattice& nodes = level.nodes;
   Field load;
   for (Numbers& numbers : load) numbers.assign(nodes.size, 0.0);
@@ -133,7 +133,7 @@ Field Expansion::Model::load() const {
           const std::size_t a = low + (n & 1U) + (n >> 1U & 1U) * nodes.row + (n >> 2U) * nodes.layer;
           if (!(level.inverse[a] > 0)) continue;
           for (std::size_t c = 0; c < kComponents; ++c) {
-            const auto& row = level.element.load[3 * n + c];
+            const auto& row = system.element().load[3 * n + c];
             load[c][a] += share * (row[0] * by[0] + row[1] * by[1] + row[2] * by[2] + row[3] * by[3]);
           }
         }
@@ -142,7 +142,7 @@ Field Expansion::Model::load() const {
 }
 
 Three Expansion::Model::displacement(Place p) const {
-  const ElasticLevel& level = system.finest();
+  const auto& level = system.finest();
   const auto voxel = grid.voxel_of(p);
   const Three low = place(voxel[0], voxel[1], voxel[2]), at{p.x, p.y, p.z};
   const std::size_t base = level.nodes.index(voxel[0], voxel[1], voxel[2]);
@@ -170,7 +170,7 @@ Three Expansion::Model::displacement(Place p) const {
 }
 
 void Expansion::Model::take_rigid_motion_out() {
-  const ElasticLevel& level = system.finest();
+  const auto& level = system.finest();
   const Lattice& nodes = level.nodes;
   const auto all_of = [&](std::size_t layers) {
     std::vector<Moved> all;
@@ -208,7 +208,7 @@ Expansion& Expansion::operator=(Expansion&&) noexcept = default;
 
 void Expansion::follow(const Body& body) {
   Model& m = *model_;
-  ElasticLevel& level = m.system.finest();
+  auto& level = m.system.finest();
   for (std::size_t k = 0; k < m.grid.count[2]; ++k)
     for (std::size_t j = 0; j < m.grid.count[1]; ++j)
       for (std::size_t i = 0; i < m.grid.count[0]; ++i) {
@@ -240,7 +240,7 @@ Place Expansion::moved(Place place) const {
 
 std::vector<double> Expansion::mises() const {
   const Model& m = *model_;
-  const ElasticLevel& level = m.system.finest();
+  const auto& level = m.system.finest();
   std::vector<double> all(m.grid.size(), 0);
   if (m.temperature.empty()) return all;
   for (std::size_t k = 0; k < m.grid.count[2]; ++k)
@@ -254,10 +254,10 @@ std::vector<double> Expansion::mises() const {
               low + (n & 1U) + (n >> 1U & 1U) * level.nodes.row + (n >> 2U) * level.nodes.layer;
           for (std::size_t c = 0; c < kComponents; ++c)
             for (std::size_t s = 0; s < 6; ++s)
-              strain[s] += level.element.strain[s][3 * n + c] * m.moved[c][a];
+              strain[s] += m.system.element().strain[s][3 * n + c] * m.moved[c][a];
         }
         for (std::size_t s = 0; s < 3; ++s) strain[s] -= m.elastic.expansion_per_k * m.temperature[cell];
-        all[cell] = level.element.mises(strain);
+        all[cell] = m.system.element().mises(strain);
       }
   return all;
 }

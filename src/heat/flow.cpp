@@ -10,35 +10,49 @@ namespace {
 constexpr int kIterations = 400;
 // All eigenvalues of the matrix scaled by its diagonal lie below 2, since no row's other entries add up to
 // more than its diagonal; what changes from voxel to voxel along an axis lies above a third.
-constexpr double kMost = 2, kLeast = 1.0 / 3;
+constexpr float kMost = 2, kLeast = 1.0F / 3;
 constexpr int kSmoothings = 2;
 constexpr std::size_t kCost = 4;  // nanoseconds a voxel
 
 /// Joints of a coarse face: the four fine ones side by side, over twice the way.
-constexpr double kLongerWay = 0.5;
+constexpr float kLongerWay = 0.5F;
+
+template <class Real>
+void make_room(Flow<Real>& flow, const std::array<std::size_t, 3>& count) {
+  flow.lattice = Lattice(count);
+  for (auto* numbers :
+       {&flow.capacity, &flow.loss, &flow.joint[0], &flow.joint[1], &flow.joint[2], &flow.diagonal})
+    numbers->assign(flow.lattice.size, 0);
+}
 
 }  // namespace
 
 FlowSystem::FlowSystem(const std::array<std::size_t, 3>& count, unsigned threads) : threads_(threads) {
+  make_room(finest_, count);
   for (std::array<std::size_t, 3> n = count;; n = {halved(n[0]), halved(n[1]), halved(n[2])}) {
     FlowLevel level;
-    level.lattice = Lattice(n);
-    for (Numbers* numbers :
-         {&level.capacity, &level.loss, &level.joint[0], &level.joint[1], &level.joint[2], &level.diagonal,
-          &level.inverse, &level.right, &level.x, &level.way, &level.rest})
-      numbers->assign(level.lattice.size, 0.0);
+    make_room(level.flow, n);
+    for (auto* numbers : {&level.inverse, &level.right, &level.x, &level.way, &level.rest})
+      numbers->assign(level.flow.lattice.size, 0.0F);
     levels_.push_back(std::move(level));
     if (n[0] * n[1] * n[2] == 1) break;
   }
 }
 
 void FlowSystem::coarsen() {
+  const auto rounded = [](const Numbers& from, std::vector<float>& to) {
+    std::transform(from.begin(), from.end(), to.begin(), [](double v) { return static_cast<float>(v); });
+  };
+  Flow<float>& first = levels_.front().flow;
+  rounded(finest_.capacity, first.capacity);
+  rounded(finest_.loss, first.loss);
+  for (std::size_t axis = 0; axis < 3; ++axis) rounded(finest_.joint[axis], first.joint[axis]);
   for (std::size_t n = 1; n < levels_.size(); ++n) {
-    const FlowLevel& fine = levels_[n - 1];
-    FlowLevel& level = levels_[n];
+    const Flow<float>& fine = levels_[n - 1].flow;
+    Flow<float>& level = levels_[n].flow;
     const Lattice &from = fine.lattice, &to = level.lattice;
-    for (Numbers* numbers : {&level.capacity, &level.loss, &level.joint[0], &level.joint[1], &level.joint[2]})
-      std::fill(numbers->begin(), numbers->end(), 0.0);
+    for (auto* numbers : {&level.capacity, &level.loss, &level.joint[0], &level.joint[1], &level.joint[2]})
+      std::fill(numbers->begin(), numbers->end(), 0.0F);
     for (std::size_t k = 0; k < from.count[2]; ++k)
       for (std::size_t j = 0; j < from.count[1]; ++j)
         for (std::size_t i = 0; i < from.count[0]; ++i) {
@@ -52,32 +66,39 @@ void FlowSystem::coarsen() {
   }
 }
 
+template <class Real>
+void FlowSystem::set_diagonal(Flow<Real>& flow, Real per_second) const {
+  const Lattice& lattice = flow.lattice;
+  const auto steps = lattice.steps();
+  each_rows(lattice, threads_, kCost, [&](std::size_t first, std::size_t end) {
+    for (std::size_t r = first; r < end; ++r)
+      for (std::size_t a = lattice.begin_of_row(r), last = a + lattice.count[0]; a < last; ++a) {
+        Real sum = per_second * flow.capacity[a] + flow.loss[a];
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          sum += flow.joint[axis][a] + flow.joint[axis][a + steps[axis]];
+        flow.diagonal[a] = sum;
+      }
+  });
+}
+
 void FlowSystem::scale(double per_second) {
+  set_diagonal(finest_, per_second);
   for (FlowLevel& level : levels_) {
-    const Lattice& lattice = level.lattice;
-    const auto steps = lattice.steps();
-    each_rows(lattice, threads_, kCost, [&](std::size_t first, std::size_t end) {
-      for (std::size_t r = first; r < end; ++r)
-        for (std::size_t a = lattice.begin_of_row(r), last = a + lattice.count[0]; a < last; ++a) {
-          double sum = per_second * level.capacity[a] + level.loss[a];
-          for (std::size_t axis = 0; axis < 3; ++axis)
-            sum += level.joint[axis][a] + level.joint[axis][a + steps[axis]];
-          level.diagonal[a] = sum;
-          level.inverse[a] = sum > 0 ? 1 / sum : 0;
-        }
-    });
+    set_diagonal(level.flow, static_cast<float>(per_second));
+    std::transform(level.flow.diagonal.begin(), level.flow.diagonal.end(), level.inverse.begin(),
+                   [](float sum) { return sum > 0 ? 1 / sum : 0; });
   }
 }
 
-template <class Write>
-void FlowSystem::product(const FlowLevel& level, const Numbers& x, const Write& write) const {
+template <class Real, class Write>
+void FlowSystem::product(const Flow<Real>& level, const std::vector<Real>& x, const Write& write) const {
   const Lattice& lattice = level.lattice;
   const std::size_t up = lattice.row, over = lattice.layer;
   each_rows(lattice, threads_, kCost, [&](std::size_t first, std::size_t end) {
     for (std::size_t r = first; r < end; ++r) {
       const std::size_t begin = lattice.begin_of_row(r);
-      const double *v = &x[begin], *d = &level.diagonal[begin], *gx = &level.joint[0][begin],
-                   *gy = &level.joint[1][begin], *gz = &level.joint[2][begin];
+      const Real *v = &x[begin], *d = &level.diagonal[begin], *gx = &level.joint[0][begin],
+                 *gy = &level.joint[1][begin], *gz = &level.joint[2][begin];
       for (std::size_t i = 0; i < lattice.count[0]; ++i)
         write(begin + i, d[i] * v[i] - gx[i] * *(v + i - 1) - gx[i + 1] * v[i + 1] - gy[i] * *(v + i - up) -
                              gy[i + up] * v[i + up] - gz[i] * *(v + i - over) - gz[i + over] * v[i + over]);
@@ -85,14 +106,14 @@ void FlowSystem::product(const FlowLevel& level, const Numbers& x, const Write& 
   });
 }
 
-void FlowSystem::residual(const FlowLevel& level, const Numbers& b, const Numbers& x, Numbers& out) const {
-  const double* right = b.data();
-  double* left = out.data();
-  product(level, x, [right, left](std::size_t n, double of_x) { left[n] = right[n] - of_x; });
+void FlowSystem::residual(FlowLevel& level) const {
+  const float* right = level.right.data();
+  float* left = level.rest.data();
+  product(level.flow, level.x, [right, left](std::size_t n, float of_x) { left[n] = right[n] - of_x; });
 }
 
 void FlowSystem::flow(const Numbers& t, Numbers& out) const {
-  const FlowLevel& level = levels_.front();
+  const Flow<double>& level = finest_;
   const Lattice& lattice = level.lattice;
   const auto steps = lattice.steps();
   each_rows(lattice, threads_, kCost, [&](std::size_t first, std::size_t end) {
@@ -111,26 +132,24 @@ void FlowSystem::flow(const Numbers& t, Numbers& out) const {
 /// Chebyshev's polynomial of the second degree in the scaled matrix, the same before and after the coarser
 /// levels, so that the cycle is symmetric.
 void FlowSystem::smooth(FlowLevel& level, bool from_zero) const {
-  const double middle = (kMost + kLeast) / 2, half = (kMost - kLeast) / 2;
-  double rho = half / middle;
-  if (from_zero)
-    level.rest = level.right;
-  else
-    residual(level, level.right, level.x, level.rest);
-  const std::size_t size = level.lattice.size;
+  constexpr float middle = (kMost + kLeast) / 2, half = (kMost - kLeast) / 2;
+  float rho = half / middle;
+  const std::size_t size = level.flow.lattice.size;
   for (int step = 0; step < kSmoothings; ++step) {
-    double of_way = 0, of_rest = 1 / middle;
-    if (step > 0) {
-      const double next = 1 / (2 * middle / half - rho);
+    const bool first = step == 0, zero = first && from_zero;
+    float of_way = 0, of_rest = 1 / middle;
+    if (!first) {
+      const float next = 1 / (2 * middle / half - rho);
       of_way = next * rho, of_rest = 2 * next / half;
       rho = next;
-      residual(level, level.right, level.x, level.rest);
     }
-    const bool first = step == 0;
+    if (!zero) residual(level);
+    const float *rest = (zero ? level.right : level.rest).data(), *inverse = level.inverse.data();
+    float *way = level.way.data(), *x = level.x.data();
     for (std::size_t n = 0; n < size; ++n) {
-      const double change = of_rest * level.inverse[n] * level.rest[n];
-      level.way[n] = first ? change : of_way * level.way[n] + change;
-      level.x[n] = first && from_zero ? level.way[n] : level.x[n] + level.way[n];
+      const float change = of_rest * inverse[n] * rest[n];
+      way[n] = first ? change : of_way * way[n] + change;
+      x[n] = zero ? way[n] : x[n] + way[n];
     }
   }
 }
@@ -138,14 +157,14 @@ void FlowSystem::smooth(FlowLevel& level, bool from_zero) const {
 void FlowSystem::cycle(std::size_t n) {
   FlowLevel& level = levels_[n];
   if (n + 1 == levels_.size()) {  // one voxel
-    for (std::size_t a = 0; a < level.lattice.size; ++a) level.x[a] = level.inverse[a] * level.right[a];
+    for (std::size_t a = 0; a < level.x.size(); ++a) level.x[a] = level.inverse[a] * level.right[a];
     return;
   }
   smooth(level, true);
-  residual(level, level.right, level.x, level.rest);
+  residual(level);
   FlowLevel& coarse = levels_[n + 1];
-  const Lattice &from = level.lattice, &to = coarse.lattice;
-  std::fill(coarse.right.begin(), coarse.right.end(), 0.0);
+  const Lattice &from = level.flow.lattice, &to = coarse.flow.lattice;
+  std::fill(coarse.right.begin(), coarse.right.end(), 0.0F);
   const auto each = [&](const auto& act) {
     for (std::size_t r = 0; r < from.rows(); ++r) {
       const std::size_t begin = from.begin_of_row(r), j = r % from.count[1], k = r / from.count[1];
@@ -159,36 +178,40 @@ void FlowSystem::cycle(std::size_t n) {
   smooth(level, false);
 }
 
-double FlowSystem::dot(const Numbers& a, const Numbers& b) const {
-  const Lattice& lattice = levels_.front().lattice;
+template <class Real>
+double FlowSystem::dot(const Numbers& a, const std::vector<Real>& b) const {
+  const Lattice& lattice = finest_.lattice;
   return sum_of_rows(lattice, threads_, [&](std::size_t first, std::size_t end) {
     double sum = 0;
     for (std::size_t r = first; r < end; ++r) {
       const std::size_t begin = lattice.begin_of_row(r);
-      for (std::size_t i = begin; i < begin + lattice.count[0]; ++i) sum += a[i] * b[i];
+      for (std::size_t i = begin; i < begin + lattice.count[0]; ++i) sum += a[i] * static_cast<double>(b[i]);
     }
     return sum;
   });
 }
 
 bool FlowSystem::solve(const Numbers& b, Numbers& x, double part) {
-  FlowLevel& finest = levels_.front();
-  const std::size_t size = finest.lattice.size;
+  FlowLevel& first = levels_.front();
+  const std::size_t size = finest_.lattice.size;
   const double aim = part * part * dot(b, b);
   Numbers left(size, 0.0), way(size, 0.0), image(size, 0.0);
-  residual(finest, b, x, left);
+  product(finest_, x, [&](std::size_t n, double of_x) { left[n] = b[n] - of_x; });
   double before = 0;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    if (dot(left, left) <= aim) return true;
-    const std::uint64_t unknowns = finest.lattice.rows() * finest.lattice.count[0];
+    const double square = dot(left, left);
+    if (square <= aim) return true;
+    const std::uint64_t unknowns = finest_.lattice.rows() * finest_.lattice.count[0];
     work_ += unknowns;
     ask(unknowns / 16);
-    finest.right = left;
+    // Single precision knows no number below 1e-38, so the cycle is given what is left as a part of itself.
+    const double scale = std::sqrt(square), inverse = 1 / scale;
+    for (std::size_t n = 0; n < size; ++n) first.right[n] = static_cast<float>(inverse * left[n]);
     cycle(0);
-    const double now = dot(left, finest.x);
+    const double now = scale * dot(left, first.x);
     const double keep = iteration == 0 ? 0 : now / before;
-    for (std::size_t n = 0; n < size; ++n) way[n] = finest.x[n] + keep * way[n];
-    product(finest, way, [to = image.data()](std::size_t n, double of_way) { to[n] = of_way; });
+    for (std::size_t n = 0; n < size; ++n) way[n] = scale * static_cast<double>(first.x[n]) + keep * way[n];
+    product(finest_, way, [to = image.data()](std::size_t n, double of_way) { to[n] = of_way; });
     const double curvature = dot(way, image);
     if (!(curvature > 0)) return false;
     const double length = now / curvature;

@@ -8,14 +8,21 @@
 
 namespace lekalo::heat {
 
-/// One level of a multigrid: how much voxels hold and pass on.
-struct FlowLevel {
+/// How much voxels hold and pass on.
+template <class Real>
+struct Flow {
   Lattice lattice;
-  Numbers capacity;              ///< J/K
-  Numbers loss;                  ///< W/K to the surroundings
-  std::array<Numbers, 3> joint;  ///< W/K to the lower neighbour along each axis
-  Numbers diagonal, inverse;     ///< of the system; 0 where a voxel has neither material nor joint
-  Numbers right, x, way, rest;   ///< of the cycle
+  std::vector<Real> capacity;              ///< J/K
+  std::vector<Real> loss;                  ///< W/K to the surroundings
+  std::array<std::vector<Real>, 3> joint;  ///< W/K to the lower neighbour along each axis
+  std::vector<Real> diagonal;              ///< of the system; 0 where a voxel has neither material nor joint
+};
+
+/// One level of a multigrid. Its cycle only shows the way to the solution, for which single precision does.
+struct FlowLevel {
+  Flow<float> flow;
+  std::vector<float> inverse;  ///< of the diagonal, 0 where that is
+  std::vector<float> right, x, way, rest;
 };
 
 /// The equations (scale capacity + flow) x = b of voxels in space, by conjugate gradients with one multigrid
@@ -24,8 +31,8 @@ class FlowSystem {
  public:
   explicit FlowSystem(const std::array<std::size_t, 3>& count, unsigned threads);
 
-  [[nodiscard]] FlowLevel& finest() noexcept { return levels_.front(); }
-  [[nodiscard]] const FlowLevel& finest() const noexcept { return levels_.front(); }
+  [[nodiscard]] Flow<double>& finest() noexcept { return finest_; }
+  [[nodiscard]] const Flow<double>& finest() const noexcept { return finest_; }
   /// Carries what the finest level has to the others.
   void coarsen();
   /// Sets the factor of the capacity, 1/s.
@@ -40,14 +47,18 @@ class FlowSystem {
 
  private:
   /// Calls write(place, value of the matrix times x).
-  template <class Write>
-  void product(const FlowLevel& level, const Numbers& x, const Write& write) const;
-  void residual(const FlowLevel& level, const Numbers& b, const Numbers& x, Numbers& out) const;
+  template <class Real, class Write>
+  void product(const Flow<Real>& flow, const std::vector<Real>& x, const Write& write) const;
+  template <class Real>
+  void set_diagonal(Flow<Real>& flow, Real per_second) const;
+  void residual(FlowLevel& level) const;
   /// Betters level.x for level.right; from zero where x is nothing yet.
   void smooth(FlowLevel& level, bool from_zero) const;
   void cycle(std::size_t n);
-  [[nodiscard]] double dot(const Numbers& a, const Numbers& b) const;
+  template <class Real>
+  [[nodiscard]] double dot(const Numbers& a, const std::vector<Real>& b) const;
 
+  Flow<double> finest_;
   std::vector<FlowLevel> levels_;
   unsigned threads_;
   std::uint64_t work_ = 0;
