@@ -57,7 +57,9 @@ struct HeatFound {
   WallErrors errors;          ///< at the middles
   heat::Interval largest_um;  ///< the largest distance of any wall from its place, over the intervals
   UniformScaling scaling;     ///< at the middles
-  heat::Interval warmest_k;   ///< of any voxel at any time, above the surroundings
+  /// The warmest of all voxels at the ends of steps, above the surroundings. Beside the tool it is too low,
+  /// because heat is spread over what the tool passes in a step; so is the stress.
+  heat::Interval warmest_k;
   /// Stress by von Mises, when walls were cut last.
   heat::Interval stress_mpa;
   heat::HeatBook book;      ///< at the middles, at the end of the program
