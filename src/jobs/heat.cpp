@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -30,6 +31,8 @@ constexpr double kSolid = 0.5;
 /// Heat looks for material this many half voxels out of the tool.
 constexpr int kLooksOut = 6;
 constexpr double kMicrometres = 1000;
+/// Displacements are solved to this part of the load.
+constexpr double kSolved = 1e-4;
 
 /// The figures of a material as the solver takes them.
 heat::Conductor conductor_of(const heat::Material& m) {
@@ -50,17 +53,17 @@ heat::Films films_of(double film, const heat::Holding& holding) {
   return films;
 }
 
-/// The events between two times: heat of cuts, then their material, then walls that were cut last.
+/// The events between two times: heat of cuts, then their material, then walls that the tool is beside.
 struct Span {
   double begin = 0, end = 0;  ///< s
   std::vector<const heat::CutStep*> steps;
   std::vector<const heat::ToolPiece*> strokes;
-  std::vector<std::size_t> walls;
+  std::vector<std::pair<std::size_t, double>> walls;  ///< the number of a place, and when
 };
 
 /// One run with all of the work as heat: everything is in proportion to the share.
 struct Run {
-  std::vector<double> errors_um;
+  std::vector<double> errors_um, decided;  ///< of each place, and the time of the visit that decided, s
   double warmest_k = 0, stress_mpa = 0, not_placed_j = 0;
   heat::HeatBook book;
   std::uint64_t work = 0;
@@ -68,7 +71,7 @@ struct Run {
 
 class Follower {
  public:
-  Follower(const HeatJob& job, const HeatFound& found)
+  Follower(const HeatJob& job, const HeatFound& found, const std::vector<std::vector<double>>& visits)
       : job_(job),
         found_(found),
         radius_(job.source.machining.tool_diameter / 2),
@@ -83,7 +86,8 @@ class Follower {
     for (const heat::ToolPiece& p : found.source.pieces)
       if (std::min(p.from[2], p.to[2]) < job.source.machining.top)
         span_of(p.start + p.seconds / 2).strokes.push_back(&p);
-    for (std::size_t i = 0; i < found.walls.size(); ++i) span_of(found.walls[i].seconds).walls.push_back(i);
+    for (std::size_t i = 0; i < visits.size(); ++i)
+      for (const double at : visits[i]) span_of(at).walls.emplace_back(i, at);
   }
 
   Result<Run> run(double film, const ProgressListener& progress) const {
@@ -94,7 +98,8 @@ class Follower {
                                 job_.threads);
     heat::Expansion expansion(found_.grid, elastic_of(job_.material), job_.holding, job_.threads);
     Run run;
-    run.errors_um.resize(found_.walls.size());
+    run.errors_um.assign(found_.walls.size(), -std::numeric_limits<double>::infinity());
+    run.decided.resize(found_.walls.size());
     for (std::size_t n = 0; n < spans_.size(); ++n) {
       ask();
       if (progress) progress({n, static_cast<double>(n) / static_cast<double>(spans_.size())});
@@ -108,14 +113,16 @@ class Follower {
       run.warmest_k = std::max(run.warmest_k, *std::ranges::max_element(temperatures));
       if (span.walls.empty()) continue;
       expansion.follow(body);
-      LEKALO_CHECK(expansion.solve(temperatures));
+      LEKALO_CHECK(expansion.solve(temperatures, kSolved));
       const std::vector<double> stress = expansion.mises();
       run.stress_mpa = std::max(run.stress_mpa, *std::ranges::max_element(stress));
-      for (const std::size_t i : span.walls) {
+      for (const auto& [i, at] : span.walls) {
         const WallPoint& w = found_.walls[i];
         const Place moved = expansion.moved({w.x, w.y, w.z});
-        // The tool cuts at its place whatever was there; when it is cold, that is where it came from.
-        run.errors_um[i] = -kMicrometres * (moved.x * w.outward[0] + moved.y * w.outward[1]);
+        // The tool cuts at its place whatever is there, and what it cuts comes from that place less the
+        // displacement. The visit counts that goes deepest into the cold workpiece.
+        const double error = -kMicrometres * (moved.x * w.outward[0] + moved.y * w.outward[1]);
+        if (error > run.errors_um[i]) run.errors_um[i] = error, run.decided[i] = at;
       }
     }
     run.book = conduction.book();
@@ -241,7 +248,7 @@ void take(const std::vector<Run>& runs, const Interval& factors, double middle, 
   std::vector<double> errors;
   for (std::size_t i = 0; i < found.walls.size(); ++i) {
     WallPoint& w = found.walls[i];
-    w.error_um = middle * usual.errors_um[i];
+    w.error_um = middle * usual.errors_um[i], w.seconds = usual.decided[i];
     w.errors_um = {w.error_um, w.error_um};
     for (const Run& run : runs)
       for (const double factor : {factors.least, factors.greatest})
@@ -288,7 +295,7 @@ Result<HeatFound> heat(const HeatJob& job, const PhaseListener& phases) {
   found.walls = std::move(walls.points), found.uncut = walls.uncut;
   std::vector<double> films{job.film.middle()};
   if (job.film.least < job.film.greatest) films = {job.film.least, job.film.middle(), job.film.greatest};
-  const Follower follower(job, found);
+  const Follower follower(job, found, walls.visits);
   std::vector<Run> runs;
   for (const double film : films) {
     LEKALO_TRY(Run run, follower.run(film, begin_phase(phases, "heating")));

@@ -16,6 +16,8 @@ namespace {
 constexpr double kAsNear = 0.03;
 /// A wall is cut where the tool's rim comes this near, mm.
 constexpr double kReached = 0.1;
+/// The tool has not left a place in this time, s.
+constexpr double kOneVisit = 0.2;
 /// A tip is as deep as a place within this, mm.
 constexpr double kAsDeep = 1e-6;
 
@@ -134,11 +136,20 @@ Result<CutWalls> cut_walls(const HeatSourceJob& job, const HeatSource& source, d
       }
       WallPoint point;
       point.x = station.at.x, point.y = station.at.y, point.z = z, point.outward = station.outward;
-      for (std::size_t i = down.size(); i-- > 0;)
-        if (is_deep(i) && distances[i] <= nearest + kAsNear) {
-          point.seconds = down[i]->start + down[i]->seconds / 2;
-          break;
+      // Pieces that follow one another are one visit, at its nearest.
+      std::vector<double> visits;
+      double best = 0, ended = -std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < down.size(); ++i) {
+        if (!is_deep(i) || !(distances[i] <= nearest + kAsNear)) continue;
+        const double at = down[i]->start + down[i]->seconds / 2;
+        if (down[i]->start > ended + kOneVisit) {
+          visits.push_back(at), best = distances[i];
+        } else if (distances[i] < best) {
+          visits.back() = at, best = distances[i];
         }
+        ended = down[i]->start + down[i]->seconds;
+      }
+      walls.visits.push_back(std::move(visits));
       walls.points.push_back(point);
     }
   }

@@ -9,7 +9,9 @@ namespace lekalo::jobs {
 
 /// The places of a pocket's walls that a program cuts.
 struct CutWalls {
-  std::vector<WallPoint> points;  ///< with place, direction and time; ordered by the outline, then by height
+  std::vector<WallPoint> points;  ///< with place and direction; ordered by the outline, then by height
+  /// The times at which the tool is beside each place, s, ascending.
+  std::vector<std::vector<double>> visits;
   std::size_t uncut = 0;
 };
 

@@ -91,6 +91,24 @@ TEST(JobsHeat, AWarmPocketIsTooSmallWhenItIsCold) {
   for (const WallPoint& w : found.walls) EXPECT_GT(w.seconds, 6);
 }
 
+TEST(JobsHeat, ThePassThatGoesDeepestIntoTheColdPartDecides) {
+  // Two levels. The pocket grows, so that the second does not reach the upper wall again.
+  HeatJob job = job_of();
+  std::string& program = job.source.program.bytes;
+  program = "G21 G90 G17\n";
+  for (const char* z : {"-2", "-4"})
+    program += std::string("G0 X3 Y3 Z5\nG1 Z") + z +
+               " F200\nG1 X17 F600\nG1 Y13\nG1 X3\nG1 Y3\nG1 Y8\nG1 X17\nG0 Z5\n";
+  const HeatFound found = run(job);
+  double upper = 0, lower = 1e9;
+  for (const WallPoint& w : found.walls) {
+    if (w.z > -2) upper = std::max(upper, w.seconds);
+    if (w.z < -2) lower = std::min(lower, w.seconds);
+  }
+  EXPECT_LT(upper, found.source.work.seconds / 2);
+  EXPECT_GT(lower, found.source.work.seconds / 2);
+}
+
 TEST(JobsHeat, HeatIsBooked) {
   const HeatFound& found = usual();
   const double into = found.source.work.work_j.middle() * 0.1;

@@ -31,7 +31,7 @@ struct HeatJob {
 struct WallPoint {
   double x = 0, y = 0, z = 0;       ///< mm
   std::array<double, 2> outward{};  ///< from the pocket into the workpiece, of length 1
-  double seconds = 0;               ///< when it was cut last
+  double seconds = 0;               ///< of the visit that decided
   /// How far the wall lies behind its place when the workpiece is cold again, um: the pocket is larger where
   /// it is above 0. At the middles of all intervals, and over all of them.
   double error_um = 0;
@@ -60,7 +60,7 @@ struct HeatFound {
   /// The warmest of all voxels at the ends of steps, above the surroundings. Beside the tool it is too low,
   /// because heat is spread over what the tool passes in a step; so is the stress.
   heat::Interval warmest_k;
-  /// Stress by von Mises, when walls were cut last.
+  /// Stress by von Mises, when the tool was beside walls.
   heat::Interval stress_mpa;
   heat::HeatBook book;      ///< at the middles, at the end of the program
   double not_placed_j = 0;  ///< heat of cuts about which no material is left, at the middles
@@ -68,12 +68,12 @@ struct HeatFound {
 };
 
 /// Follows the program in voxels: heat enters where the tool cuts, material goes away, and the displacement
-/// is known when each place of a wall is cut for the last time. docs/design/heat-walls.md.
+/// is known whenever the tool is beside a place of a wall. docs/design/heat-walls.md.
 ///
 /// Errors: bad_input for what heat_source() and heat::Grid::divide refuse, where no place of a wall is cut,
 /// and where the workpiece surely gets warmer than the material's figures hold; refuted where the equations
 /// are not solved. Phases: "following the program", "heating". Cost: about 300 steps in time for each of
-/// three films, and a displacement for each in which walls are cut last.
+/// three films, and a displacement for each in which the tool is beside a wall.
 [[nodiscard]] Result<HeatFound> heat(const HeatJob& job, const PhaseListener& phases = {});
 
 }  // namespace lekalo::jobs
