@@ -1,4 +1,4 @@
-// Corrected profiles: pressed again the surface is a cylinder, and the files say what is to be turned.
+// Corrected profiles: pressed again the surface is a cylinder.
 
 #include "lekalo/fit/corrected.hpp"
 
@@ -8,8 +8,6 @@
 #include <cmath>
 
 #include "lekalo/fit/closed_form.hpp"
-#include "lekalo/fit/turning.hpp"
-#include "verify/fit/turning_check.hpp"
 
 namespace lekalo::fit_corrected_test {
 namespace {
@@ -93,73 +91,6 @@ TEST(Corrected, ASolidShaftHasNoBore) {
   fit::Pressing pressing(solid);
   const std::vector<fit::Pressed> pressed{pressing.press({0.03}).value()};
   EXPECT_FALSE(fit::corrected(solid, {{0.03}}, pressed, 0, Surface::bore));
-}
-
-std::vector<verify::ProfilePoint> whole(const Corrected& c) {
-  std::vector<verify::ProfilePoint> points;
-  for (auto p = c.profile.rbegin(); p != c.profile.rend(); ++p) points.push_back({p->z, p->diameter});
-  for (std::size_t i = 1; i < c.profile.size(); ++i)
-    points.push_back({-c.profile[i].z, c.profile[i].diameter});
-  return points;
-}
-
-TEST(Corrected, FilesAreTheProfileAndChangedOnesAreNot) {
-  for (const Surface surface : {Surface::outside, Surface::bore, Surface::seat}) {
-    const Corrected c = made(8, 900, {0.04}, surface);
-    const std::vector<verify::ProfilePoint> points = whole(c);
-    const std::string table = fit::profile_csv(c), drawing = fit::profile_dxf(c);
-    EXPECT_EQ(verify::fault_of_profile_table(table, points), std::nullopt);
-    EXPECT_EQ(verify::fault_of_profile_drawing(drawing, points), std::nullopt);
-    std::vector<verify::ProfilePoint> other = points;
-    other[3].diameter += 0.0002;
-    EXPECT_NE(verify::fault_of_profile_table(table, other), std::nullopt);
-    EXPECT_NE(verify::fault_of_profile_drawing(drawing, other), std::nullopt);
-    for (const fit::Lathe control : {fit::Lathe::linuxcnc, fit::Lathe::fanuc})
-      for (const bool radius : {false, true}) {
-        const std::string program = fit::turning_program(c, {control, radius, 60, 1200});
-        const verify::TurningClaim claim{control == fit::Lathe::fanuc,
-                                         radius,
-                                         surface == Surface::bore   ? verify::TurnedSurface::bore
-                                         : surface == Surface::seat ? verify::TurnedSurface::seat
-                                                                    : verify::TurnedSurface::outside,
-                                         60,
-                                         1200,
-                                         surface == Surface::outside ? 9.0 : 27.0};
-        EXPECT_EQ(verify::fault_of_turning(program, points, claim), std::nullopt) << program.substr(0, 300);
-        EXPECT_NE(verify::fault_of_turning(program, other, claim), std::nullopt);
-        verify::TurningClaim lie = claim;
-        lie.feed = 61;
-        EXPECT_NE(verify::fault_of_turning(program, points, lie), std::nullopt);
-        lie = claim;
-        lie.face += 1;
-        EXPECT_NE(verify::fault_of_turning(program, points, lie), std::nullopt);
-        lie = claim;
-        lie.surface = surface == Surface::seat ? verify::TurnedSurface::outside : verify::TurnedSurface::seat;
-        EXPECT_NE(verify::fault_of_turning(program, points, lie), std::nullopt);
-        const auto changed = [&](const std::string& from, const std::string& to) {
-          std::string text = program;
-          const std::size_t at = text.find(from);
-          EXPECT_NE(at, std::string::npos) << from;
-          return text.replace(at, from.size(), to);
-        };
-        for (const auto& [from, to] : {std::pair{"G18 ", ""},
-                                       {"G18", "G17"},
-                                       {"G21", "G20"},
-                                       {"M3\n", "M4\n"},
-                                       {"G0 Z1.0000\nG0", "G0 Z-1.0000\nG0"},
-                                       {"G1 X", "G0 X"},
-                                       {"G1 X", "G2 X"},
-                                       {"M5\n", ""},
-                                       {"M30\n", ""},
-                                       {" F60.0", ""},
-                                       {"M30", "M30\nG0 X0"}})
-          EXPECT_NE(verify::fault_of_turning(changed(from, to), points, claim), std::nullopt) << from << to;
-        if (control == fit::Lathe::fanuc) continue;
-        EXPECT_NE(
-            verify::fault_of_turning(changed(radius ? "G8" : "G7", radius ? "G7" : "G8"), points, claim),
-            std::nullopt);
-      }
-  }
 }
 
 }  // namespace

@@ -1,50 +1,15 @@
-// Limits of ISO 286. Makers and checker have tables from different sources, and code of their own; here every
-// class at every size is compared. Makers: J. Wismeth, ITRechner (passungen.h), with the grades of Narayana,
-// Kannaiah and Venkata Reddy, Machine Drawing, tables 15.1 to 15.3. Checker: the tables of GB/T 1800
-// (querytolerence, GB1800.java). The sources differ in few entries, which a third decides: see
-// docs/design/fit.md, "Limits".
+// Limits of ISO 286 as the makers have them: J. Wismeth, ITRechner (passungen.h), with the grades of
+// Narayana, Kannaiah and Venkata Reddy, Machine Drawing, tables 15.1 to 15.3. The test
+// differential.verify_iso286 holds them against the checker's, of another source.
 
 #include "lekalo/fit/iso286.hpp"
 
-#include <fmt/core.h>
 #include <gtest/gtest.h>
-
-#include "verify/fit/iso286.hpp"
 
 namespace lekalo::fit_iso286_test {
 namespace {
 
 using fit::limits_of;
-
-constexpr std::array kZones{"a", "b", "c", "cd", "d", "e", "ef", "f", "fg", "g", "h", "js", "j",  "k",
-                            "m", "n", "p", "r",  "s", "t", "u",  "v", "x",  "y", "z", "za", "zb", "zc"};
-
-std::string capital(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
-
-TEST(Iso286, MakersAndCheckerHaveTheSameLimits) {
-  int known = 0;
-  for (const double size :
-       {0.5,   1.0,   2.0,   3.0,   3.001, 6.0,   8.0,   10.0,  12.0,  14.0,  16.0,  18.0,  19.0,
-        24.0,  25.0,  30.0,  35.0,  40.0,  45.0,  50.0,  60.0,  70.0,  90.0,  110.0, 130.0, 150.0,
-        170.0, 190.0, 210.0, 240.0, 260.0, 300.0, 330.0, 400.0, 420.0, 450.0, 475.0, 500.0})
-    for (const std::string zone : kZones)
-      for (const std::string& letters : {zone, capital(zone)})
-        for (int grade = -1; grade <= 18; ++grade) {
-          const std::string name = letters + (grade < 0 ? "01" : std::to_string(grade));
-          const auto ours = limits_of(size, name);
-          const auto theirs = verify::iso286_limits(size, name);
-          ASSERT_EQ(ours.has_value(), theirs.has_value()) << size << name;
-          if (!ours) continue;
-          ++known;
-          ASSERT_EQ(ours->lower_um, theirs->lower) << size << name;
-          ASSERT_EQ(ours->upper_um, theirs->upper) << size << name;
-          ASSERT_LT(ours->lower_um, ours->upper_um) << size << name;
-        }
-  EXPECT_GT(known, 30000);
-}
 
 struct Printed {
   double size;

@@ -318,6 +318,30 @@ TEST(VerifyReaders, ARowKnowsWhetherAnEmptyLineStandsBeforeIt) {
   EXPECT_EQ(gaps, "0101");
 }
 
+// A direction beside a point is one of space.
+TEST(VerifyReaders, SixFieldsAreAPointOfSpaceWithADirection) {
+  const auto fields = [](const std::string& line, bool in_space) {
+    std::size_t count = 0;
+    const auto read = read_text_rows(
+        {"p.xyz", line + "\n"},
+        [&](TextRow&& row) -> Result<void> {
+          count = row.count;
+          return {};
+        },
+        in_space);
+    return read ? std::to_string(count) : read.error().message;
+  };
+  EXPECT_EQ(fields("1 2 3 0 0 1", true), "6");
+  EXPECT_EQ(fields("1 2 3 0 0 1", false), "p.xyz:1: 6 fields where a point needs x and y: 1 2 3 0 0 1");
+  for (const char* line : {"1", "1 2 3 4", "1 2 3 4 5", "1 2 3 4 5 6 7"})
+    for (const bool in_space : {false, true})
+      EXPECT_NE(fields(line, in_space).find("fields where a point needs x and y"), std::string::npos) << line;
+  for (const bool in_space : {false, true}) {
+    EXPECT_EQ(fields("1 2", in_space), "2");
+    EXPECT_EQ(fields("1 2 3", in_space), "3");
+  }
+}
+
 TEST(VerifyReaders, AContourHasThreePointsAndAPointTwoOrThreeFields) {
   EXPECT_EQ(contour("c.csv", "1 2\n3 4\n"), "c.csv: 2 points; a contour has at least 3");
   EXPECT_EQ(contour("c.csv", "1 2\n3\n"), "c.csv:2: 1 fields where a point needs x and y: 3");

@@ -130,6 +130,49 @@ TEST(SolidMaxima, TheLargestAllowanceIsThatOfAllPoints) {
   EXPECT_TRUE(says(large.told(), "inside is true, but a maximum is not kept"));
 }
 
+// The first triangle of the part counts as the others do: the bottom is 1.25 deep here.
+TEST(SolidMaxima, TheFirstTriangleCounts) {
+  SolidResultFiles files = Deep{}.files();
+  const auto of = [&](double largest) {
+    files.features =
+        Json{{"minimum", 0},
+             {"features", Json::array({Json{{"name", "top"}, {"triangles", {0}}, {"maximum", 2}}})}}
+            .dump();
+    Json& feature = files.result["demands"]["features"][0];
+    feature = demand_of_result("top", 1, 0, 1);
+    feature["maximum"] = 2, feature["largest"] = largest;
+    return files.told();
+  };
+  EXPECT_TRUE(says(of(1.2), "its largest allowance is said to be 1.2, but it is 1.25")) << of(1.2);
+  EXPECT_FALSE(says(of(1.2500019), "its largest")) << of(1.2500019);
+  EXPECT_TRUE(says(of(1.9), "its largest allowance is said to be 1.9, but it is 1.25")) << of(1.9);
+}
+
+TEST(SolidMaxima, TermsNeedAPointABodyAndAMaximum) {
+  for (const auto& [part, body] : {std::pair{9, 5}, {0, 6}, {7, 5}, {0, 600}}) {
+    SolidResultFiles files = Deep{}.files();
+    files.result["certificate"]["trees"][0]["nodes"][0][1] = Json::array({"near", part, body, 1});
+    EXPECT_TRUE(says(files.told(), "has a term that is none")) << part << " " << body << files.told();
+  }
+  // A result without demands has no maximum that a body could stand for, nor has one without maxima.
+  SolidResultFiles without = Deep{}.files();
+  without.result["demands"] = nullptr, without.features.reset();
+  without.result["inputs"].erase(2);
+  without.result["upper_bound"] = 1, without.result["gap"] = 0.5;
+  EXPECT_TRUE(says(without.told(), "may be anyhow far from it")) << without.told();
+  SolidResultFiles none = Deep{}.files();
+  none.features =
+      Json{{"minimum", 0}, {"features", Json::array({Json{{"name", "top"}, {"triangles", {2, 3}}}})}}.dump();
+  none.result["demands"]["features"][0] = demand_of_result("top", 2, 0, 1);
+  EXPECT_TRUE(says(none.told(), "may be anyhow far from it")) << none.told();
+  // A maximum of null is none.
+  none.features =
+      Json{{"minimum", 0},
+           {"features", Json::array({Json{{"name", "top"}, {"triangles", {2, 3}}, {"maximum", nullptr}}})}}
+          .dump();
+  EXPECT_TRUE(says(none.told(), "may be anyhow far from it")) << none.told();
+}
+
 TEST(SolidMaxima, APoseThatBreaksOneIsNotInside) {
   Deep broken;
   broken.at[2] = 0, broken.largest = 1.0001, broken.inside = false;

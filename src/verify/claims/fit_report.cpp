@@ -15,7 +15,7 @@ namespace {
 
 /// Figures stand to 1e-6 of a micrometre, a megapascal or a newton.
 constexpr double kShown = 1.1e-6;
-/// Elements keep Betti's theorem to this part; the test unit.fit_report holds it over many fits.
+/// Elements keep Betti's theorem to this part; the test unit.verify_fit holds it over many fits.
 constexpr double kBetti = 1e-3;
 /// Differences of displacements where surfaces touch, um: two figures and what the iteration leaves.
 constexpr double kTouch = 1e-5;
@@ -288,7 +288,8 @@ class FitReport {
                          const std::vector<double>& pressures) {
     const std::optional<CheckedDin> din = checked_din(rings_, interference / 1000);
     const Json written = f.get("din_7190");
-    if (written.text.empty()) f.complain(fmt::format("field {}.din_7190 is missing", path));
+    if (!written.is_null() && !written.is_object())
+      f.complain(fmt::format("field {}.din_7190 is missing, or neither null nor an object", path));
     if (written.is_object()) {
       ReportFields d(written, path + ".din_7190", complaint_);
       const std::string state = d.text("state");

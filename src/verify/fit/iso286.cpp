@@ -141,6 +141,12 @@ std::string lowered(std::string_view zone) {
   return low;
 }
 
+std::string raised(std::string_view zone) {
+  std::string high(zone);
+  for (char& c : high) c = static_cast<char>(c & ~0x20);
+  return high;
+}
+
 /// The upper deviation of a hole from K to ZC: the shaft's mirrored, and in fine grades what the grade is
 /// wider than the next finer one.
 std::optional<double> upper_of_hole(double diameter, std::string_view zone, int grade, double shaft) {
@@ -181,9 +187,7 @@ std::optional<ClassLimits> iso286_limits(double diameter_mm, std::string_view to
     return hole ? ClassLimits{*one - *width, *one} : ClassLimits{*one, *one + *width};
   }
   std::optional<double> one = entry(kShafts, shaft, kSteps, diameter_mm);
-  if (!one ||
-      (hole ? zone != with(std::string(1, static_cast<char>(shaft[0] - 32)), zone.substr(1)) : zone != shaft))
-    return {};
+  if (!one || zone != (hole ? raised(shaft) : shaft)) return {};
   if (*one < 0) return hole ? ClassLimits{-*one, -*one + *width} : ClassLimits{*one - *width, *one};
   if (!hole) {
     if (shaft == "k" && (count < 4 || count > 7)) one = 0;

@@ -59,8 +59,6 @@ NearestTriangle nearest_to(const Vec3& p, const PlacedSolid& body) {
   return found;
 }
 
-Span larger(Span a, Span b) { return {std::max(a.low, b.low), std::max(a.high, b.high)}; }
-
 struct Piece {
   Triangle3 at{};
   double high = 0;
@@ -123,13 +121,13 @@ FarthestOf farthest_of(const PlacedSolid& part, const std::vector<std::uint32_t>
     ++looked;
     const Vec3 middle = (at[0] + at[1] + at[2]) * (just(1) / just(3));
     const NearestTriangle near = nearest_to(middle, blank);
-    Span of_corners{}, way{};
+    double of_corners = 0, way = 0;
     for (const Vec3& corner : at) {
-      of_corners = larger(of_corners, distance({corner, corner, corner}, blank.triangle(near.number)));
-      way = larger(way, length(corner - middle));
+      of_corners = std::max(of_corners, distance({corner, corner, corner}, blank.triangle(near.number)).high);
+      way = std::max(way, length(corner - middle).high);
     }
     made.low = std::max(made.low, near.distance.low);
-    open.push_back({at, std::min(of_corners.high, (near.distance + way).high)});
+    open.push_back({at, std::min(of_corners, (near.distance + just(way)).high)});
     std::ranges::push_heap(open, is_lower);
   };
   for (const std::uint32_t t : triangles) add(part.triangle(t));

@@ -1,0 +1,358 @@
+// The checker and results of `lekalo fit`: those of many fits hold, and lies about every figure that it can
+// make anew are refuted.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+
+#include "lekalo/jobs/fit.hpp"
+#include "lekalo/verify/claims.hpp"
+#include "support/cases.hpp"
+#include "support/json.hpp"
+
+namespace lekalo::verify_fit_test {
+namespace {
+
+using cases::Json;
+
+jobs::FitJob article() {
+  jobs::FitJob job;
+  job.fit = "18H8/z8";
+  job.hub_outer = 36, job.length = 18, job.shaft_length = 54, job.bore = 6;
+  job.material.name = "C45";
+  job.friction = {0.08, 0.12};
+  job.clearance_um = 18;
+  return job;
+}
+
+verify::ClaimReport judged(const std::string& bytes) {
+  return verify::verify_fit_report({"r.json", bytes}, {}).value();
+}
+
+TEST(VerifyFit, WhatManyFitsSayOfMeansHolds) {
+  struct One {
+    double bore, diameter, outer, length, shaft_length, interference, yield;
+  };
+  for (const One& f : {One{0, 18, 36, 18, 54, 0.02, 900},
+                       {6, 18, 36, 18, 54, 0.02, 900},
+                       {0, 18, 22, 40, 60, 0.01, 900},
+                       {16, 18, 60, 5, 100, 0.01, 2000},
+                       {0, 200, 260, 30, 30, 0.1, 900},
+                       {90, 100, 110, 200, 300, 0.05, 900},
+                       {0, 3, 9, 12, 12.5, 0.003, 900},
+                       {17, 18, 19, 10, 30, 0.005, 900},
+                       {0, 50, 500, 20, 60, 0.02, 900},
+                       {10, 18, 36, 18, 54, 0.06, 340}}) {
+    jobs::FitJob job;
+    job.diameter = f.diameter, job.interference = f.interference, job.hub_outer = f.outer,
+    job.length = f.length;
+    job.shaft_length = f.shaft_length, job.bore = f.bore;
+    job.material.name = "C45", job.material.yield_mpa = f.yield;
+    const auto made = jobs::fit(job);
+    ASSERT_TRUE(made) << f.diameter << ": " << made.error().message;
+    const verify::ClaimReport report = judged(made->json);
+    EXPECT_TRUE(report.findings.empty());
+    EXPECT_FALSE(report.unchecked.empty()) << "what is computed is named";
+  }
+  jobs::FitJob rings = article();
+  rings.fit.clear(), rings.diameter = 40, rings.interference = 0.02, rings.hub_outer = 60,
+                     rings.more = {{80, 0.03}};
+  ASSERT_TRUE(jobs::fit(rings)) << jobs::fit(rings).error().message;
+}
+
+/// An elastic fit: its finite elements are quick, and nearly all of its figures are rechecked.
+const Json& elastic() {
+  static const Json document = [] {
+    jobs::FitJob job = article();
+    job.material.yield_mpa = 2000;
+    return Json::parse(jobs::fit(job).value().json);
+  }();
+  return document;
+}
+
+/// A hub that yields and hardens, and a second one about it.
+const Json& hardening() {
+  static const Json document = [] {
+    jobs::FitJob job;
+    job.diameter = 18, job.interference = 0.04, job.hub_outer = 30, job.length = 9, job.shaft_length = 18;
+    job.material.name = "C45", job.material.yield_mpa = 300, job.material.hardening_mpa = 2000;
+    job.shaft_material = job.material;
+    job.shaft_material->yield_mpa = 900;
+    job.more = {{40, 0.01}};
+    return Json::parse(jobs::fit(job).value().json);
+  }();
+  return document;
+}
+
+bool refuted(const Json& honest, const std::function<void(Json&)>& change) {
+  Json document = honest;
+  change(document);
+  const auto report = verify::verify_fit_report({"r.json", document.dump()}, {});
+  return !report || !report->findings.empty();
+}
+
+/// The sentence of what is refused, or the first finding.
+std::string said(const Json& honest, const std::function<void(Json&)>& change) {
+  Json document = honest;
+  change(document);
+  const auto report = verify::verify_fit_report({"r.json", document.dump()}, {});
+  if (!report) return report.error().message;
+  return report->findings.empty() ? "" : report->findings[0];
+}
+
+bool is_number(const Json& value) {
+  try {
+    return (void)value.get<double>(), true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+/// Calls each(path) for every field and item, of lists for the first, the second and the last.
+void each_path(const Json& value, const std::string& path,
+               const std::function<void(const std::string&)>& each) {
+  if (!path.empty()) each(path);
+  if (value.is_object()) {
+    for (const std::string& key : value.keys()) each_path(value[key], path + "/" + key, each);
+  } else if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i)
+      if (i < 2 || i + 1 == value.size()) each_path(value[i], path + "/" + std::to_string(i), each);
+  }
+}
+
+bool one_of(const std::string& path, std::initializer_list<const char*> parts) {
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](const char* part) { return path.find(part) != path.npos; });
+}
+
+// Provenance and information, and what docs/formats.md says is not rechecked.
+bool is_free(const std::string& path) {
+  return one_of(path, {"/inputs", "/outputs", "/warnings", "/seed", "/work", "/version", "/run", "/units",
+                       "/material", "middle_pressure_mpa", "/released/"});
+}
+
+TEST(VerifyFit, NoFieldCanBeAbsentOrAnother) {
+  for (const Json* each : {&elastic(), &hardening()}) {
+    const Json& honest = *each;
+    EXPECT_FALSE(refuted(honest, [](Json&) {}));
+    std::size_t count = 0;
+    each_path(honest, "", [&](const std::string& path) {
+      if (one_of(path, {"/inputs", "/outputs", "/warnings", "/seed", "/work", "/run", "/version", "/units"}))
+        return;
+      const std::size_t slash = path.rfind('/');
+      const std::string key = path.substr(slash + 1);
+      const bool item = key.find_first_not_of("0123456789") == key.npos;
+      const auto parent = [&](Json& d) -> Json& { return slash == 0 ? d : d.at(path.substr(0, slash)); };
+      ++count;
+      if (!item) {
+        EXPECT_TRUE(refuted(honest, [&](Json& d) { parent(d).erase(key); })) << "without " << path;
+        EXPECT_TRUE(refuted(honest, [&](Json& d) { parent(d)[key + "_"] = 0; })) << "more beside " << path;
+      }
+      const bool was_null = honest.at(path).is_null();
+      for (const Json& other : {Json(), Json("x"), Json(true), Json(std::vector<Json>{})}) {
+        if (is_free(path) && other.dump() == "\"x\"") continue;
+        if (was_null && other.is_null()) continue;
+        if (path == "/fit" && other.is_null()) continue;  // interferences that are stated
+        if (one_of(path, {"/yields"}) && other.dump() == "true") continue;
+        EXPECT_TRUE(refuted(honest, [&](Json& d) { d.at(path) = other; })) << path << " " << other.dump();
+      }
+    });
+    EXPECT_GT(count, 60U);
+  }
+}
+
+TEST(VerifyFit, NoFigureCanBeAnother) {
+  for (const Json* each : {&elastic(), &hardening()}) {
+    const Json& honest = *each;
+    const bool all = each == &elastic();
+    std::size_t count = 0;
+    each_path(honest, "", [&](const std::string& path) {
+      if (!is_number(honest.at(path)) || is_free(path)) return;
+      // Of single rows what touches is held, and the means of what does not yield.
+      const bool of_row = path.find("/profile/") != path.npos;
+      if (path.find("/stresses/") != path.npos || path.find("yield_mpa") != path.npos) return;
+      if (one_of(path, {"hardening_mpa", "/rings/0/expansion", "/44/bore", "/44/shaft"})) return;
+      if (!all && (of_row || one_of(path, {"growth_um", "/poisson", "/expansion", "/youngs", "/length_mm",
+                                           "/seats/1/interference"})))
+        return;
+      ++count;
+      for (const double factor : {0.98, 1.02}) {
+        if (of_row && factor > 1 && path.find("hub_bore_um") != path.npos && path.find("/44/") == path.npos)
+          continue;
+        EXPECT_TRUE(refuted(honest,
+                            [&](Json& d) {
+                              Json& value = d.at(path);
+                              value = value.get<double>() * factor + (factor > 1 ? 0.01 : -0.01);
+                            }))
+            << path << " times " << factor;
+      }
+      if (!of_row) {
+        EXPECT_TRUE(refuted(honest, [&](Json& d) { d.at(path) = -1; })) << path;
+      }
+    });
+    EXPECT_GT(count, all ? 60U : 12U);
+  }
+}
+
+TEST(VerifyFit, LiesAreRefuted) {
+  for (const auto& lie :
+       std::initializer_list<std::pair<const char*, Json>>{{"/fit/hole", "H7"},
+                                                           {"/fit/hole", "h8"},
+                                                           {"/fit/shaft", "za8"},
+                                                           {"/fit/shaft", "Z8"},
+                                                           {"/fit/shaft", "x"},
+                                                           {"/status", "proved"},
+                                                           {"/cases/2/state", "plastic"},
+                                                           {"/cases/2/state", "full"},
+                                                           {"/cases/2/state", "stiff"},
+                                                           {"/cases/0/stresses/1/yields", true},
+                                                           {"/cases/0/stresses/1/plastic_part", 0.5},
+                                                           {"/cases/0/stresses/1/plastic_part", 2},
+                                                           {"/cases/0/stresses/1/largest_mises_mpa", 2000.1},
+                                                           {"/cases/0/stresses/1/middle_mises_mpa", 1999},
+                                                           {"/roughness_um", {1, 2}},
+                                                           {"/rings/0/name", "the hub"},
+                                                           {"/rings/1/name", "hub"},
+                                                           {"/format/name", "lekalo-fat"}})
+    EXPECT_TRUE(refuted(elastic(), [&](Json& d) { d.at(lie.first) = lie.second; })) << lie.first;
+  EXPECT_TRUE(refuted(elastic(), [](Json& d) { d["cases"].erase(1); }));
+  EXPECT_TRUE(refuted(elastic(), [](Json& d) {
+    d["fit"] = nullptr;
+    d["cases"][1] = d["cases"][2];
+  })) << "the case between two stated interferences is their mean";
+  EXPECT_TRUE(refuted(elastic(), [](Json& d) {
+    d["fit"] = nullptr;
+    d["cases"][0] = d["cases"][2], d["cases"][1] = d["cases"][2];
+  })) << "the first is the least";
+  EXPECT_TRUE(refuted(elastic(), [](Json& d) { d["cases"].push_back(d["cases"][2]); }));
+  EXPECT_TRUE(refuted(hardening(), [](Json& d) { d["cases"].push_back(d["cases"][0]); }));
+  EXPECT_TRUE(refuted(hardening(), [](Json& d) { d["cases"] = Json(std::vector<Json>{}); }));
+  EXPECT_TRUE(
+      refuted(elastic(), [](Json& d) { d["cases"][0]["seats"].push_back(d["cases"][0]["seats"][0]); }));
+  EXPECT_TRUE(
+      refuted(elastic(), [](Json& d) { d["cases"][0]["stresses"].push_back(d["cases"][0]["stresses"][1]); }));
+  EXPECT_TRUE(refuted(elastic(), [](Json& d) { d["friction"].push_back(1); }));
+  for (const std::size_t row : {0U, 1U, 5U, 44U})
+    EXPECT_TRUE(refuted(elastic(), [&](Json& d) { d["cases"][0]["profile"].erase(row); })) << row;
+}
+
+TEST(VerifyFit, WhatYieldsGoesWithTheState) {
+  EXPECT_EQ(hardening().at("/cases/0/state").get<std::string>(), "plastic");
+  const char* const state = "/cases/0/state";
+  EXPECT_TRUE(refuted(hardening(), [&](Json& d) { d.at(state) = "elastic"; }));
+  EXPECT_FALSE(refuted(hardening(), [&](Json& d) { d.at(state) = "full"; })) << "it hardens";
+  // Stresses above the yield stress are there where the metal yields and hardens alone.
+  EXPECT_FALSE(refuted(hardening(), [](Json& d) { d.at("/cases/0/stresses/1/largest_mises_mpa") = 1000; }));
+  EXPECT_TRUE(refuted(hardening(), [](Json& d) { d.at("/cases/0/stresses/0/largest_mises_mpa") = 1000; }));
+  EXPECT_FALSE(refuted(hardening(), [](Json& d) { d.at("/cases/0/stresses/0/largest_mises_mpa") = 900; }));
+  EXPECT_TRUE(
+      refuted(hardening(), [](Json& d) { d.at("/cases/0/stresses/0/largest_mises_mpa") = 900.00001; }));
+  EXPECT_TRUE(refuted(hardening(), [](Json& d) { d.at("/cases/0/stresses/0/plastic_part") = 0.1; }));
+  for (const double part : {0.0, 1.0})
+    EXPECT_FALSE(refuted(hardening(), [&](Json& d) { d.at("/cases/0/stresses/1/plastic_part") = part; }))
+        << part;
+  for (const double part : {-0.001, 1.001})
+    EXPECT_TRUE(refuted(hardening(), [&](Json& d) { d.at("/cases/0/stresses/1/plastic_part") = part; }))
+        << part;
+  EXPECT_TRUE(refuted(hardening(), [](Json& d) { d.at("/cases/0/stresses/1/middle_mises_mpa") = -1; }));
+  EXPECT_FALSE(refuted(hardening(), [](Json& d) { d.at("/cases/0/stresses/1/middle_mises_mpa") = 0; }));
+}
+
+TEST(VerifyFit, RingsAreThoseOfAFit) {
+  for (const auto& [path, value] :
+       std::initializer_list<std::pair<const char*, double>>{{"/rings/0/inner_diameter_mm", -1},
+                                                             {"/rings/0/inner_diameter_mm", 18},
+                                                             {"/rings/1/outer_diameter_mm", 18},
+                                                             {"/rings/1/length_mm", 0},
+                                                             {"/rings/1/youngs_mpa", 0},
+                                                             {"/rings/1/poisson", -0.1},
+                                                             {"/rings/1/poisson", 0.5},
+                                                             {"/rings/1/yield_mpa", 0},
+                                                             {"/rings/1/hardening_mpa", -1},
+                                                             {"/rings/1/expansion_per_k", -1}})
+    EXPECT_NE(
+        said(elastic(), [&, at = path, to = value](Json& d) { d.at(at) = to; }).find("is no ring of a fit"),
+        std::string::npos)
+        << path;
+  EXPECT_NE(said(elastic(), [](Json& d) { d["rings"].erase(1); }).find("fewer than two"), std::string::npos);
+  EXPECT_NE(said(elastic(), [](Json& d) { d.at("/rings/1/length_mm") = 54.1; }).find("longer than the shaft"),
+            std::string::npos);
+  EXPECT_NE(said(hardening(), [](Json& d) { d.at("/rings/2/length_mm") = 8; }).find("as long as the hub"),
+            std::string::npos);
+  EXPECT_NE(said(elastic(), [](Json& d) { d.at("/diameter_mm") = 18.001; }).find("not that of the shaft"),
+            std::string::npos);
+  EXPECT_NE(said(hardening(), [](Json& d) { d.at("/rings/2/name") = "the hub"; }).find("ring 2"),
+            std::string::npos);
+}
+
+/// Returns what was made.
+jobs::Fitted profiles_are_held(jobs::FitJob job, fit::Surface surface) {
+  job.cylindrical = surface;
+  job.table_as = "p.csv", job.drawing_as = "p.dxf", job.program_as = "p.ngc";
+  const jobs::Fitted made = jobs::fit(job).value();
+  const auto found = [&](const std::function<void(Json&)>& change, const std::string& program) {
+    Json document = Json::parse(made.json);
+    change(document);
+    const auto report = verify::verify_fit_report(
+        {"r.json", document.dump()}, {{"p.csv", made.table}, {"p.dxf", made.drawing}, {"p.ngc", program}});
+    return !report || !report->findings.empty();
+  };
+  const std::string after_path = fmt::format("/correction/remains/{}/after_um", made.cases.size() / 2);
+  EXPECT_FALSE(found([](Json&) {}, made.program));
+  EXPECT_TRUE(found([](Json&) {}, made.program + "G0 X0\n"));
+  for (const char* path : {"/correction/nominal_mm", "/correction/profile/0/diameter_mm",
+                           "/correction/profile/3/z_mm", "/correction/profile/0/pressed_um",
+                           "/correction/remains/0/before_um", "/correction/remains/0/interference_um",
+                           "/correction/turning/feed_mm_per_min", "/correction/turning/spindle_rpm"})
+    EXPECT_TRUE(found([&](Json& d) { d.at(path) = d.at(path).get<double>() + 1; }, made.program)) << path;
+  for (const auto& lie :
+       std::initializer_list<std::pair<const char*, Json>>{{"/correction/surface", "all"},
+                                                           {"/correction/case", 7},
+                                                           {"/correction/turning/control", "fanuc"},
+                                                           {"/correction/turning/x", "radius"},
+                                                           {"/correction/turning", nullptr},
+                                                           {"/correction", nullptr},
+                                                           {after_path.c_str(), 2},
+                                                           {"/outputs/0/role", "program"}})
+    EXPECT_TRUE(found([&](Json& d) { d.at(lie.first) = lie.second; }, made.program)) << lie.first;
+  for (const fit::Surface other : {fit::Surface::outside, fit::Surface::bore, fit::Surface::seat})
+    EXPECT_EQ(
+        found([&](Json& d) { d["correction"]["surface"] = std::string(fit::name_of(other)); }, made.program),
+        other != surface);
+  return made;
+}
+
+TEST(VerifyFit, ProfilesAndTheirFilesAreHeldAgainstTheGrowths) {
+  jobs::FitJob job = article();
+  job.fit.clear(), job.diameter = 18, job.interference = 0.04;
+  for (const fit::Surface surface : {fit::Surface::outside, fit::Surface::bore, fit::Surface::seat})
+    (void)profiles_are_held(job, surface);
+}
+
+// The shaft of a named fit is turned from the middle of its limits, and smoothing takes nothing off that.
+TEST(VerifyFit, SeatsAreTurnedFromTheShaftsOwnDiameter) {
+  jobs::FitJob job = article();
+  job.bore = 0;
+  EXPECT_NEAR(profiles_are_held(job, fit::Surface::seat).corrected->nominal, 18.0735, 1e-9);
+  job.fit.clear(), job.diameter = 18, job.interference = 0.05, job.roughness_um = {3, 4};
+  EXPECT_NEAR(profiles_are_held(job, fit::Surface::seat).corrected->nominal, 18.05, 1e-9);
+}
+
+TEST(VerifyFit, ClosedFormIsTheCheckersOwn) {
+  jobs::FitJob job = article();
+  job.bore = 0, job.material.yield_mpa = 2000;
+  const std::string honest = jobs::fit(job).value().json;
+  for (const char* key : {"pressure_mpa", "hub_outer_growth_um"})
+    for (const std::size_t i : {0U, 1U, 2U}) {
+      Json d = Json::parse(honest);
+      Json& value = d["cases"][i]["din_7190"][key];
+      value = value.get<double>() + 0.01;
+      EXPECT_FALSE(judged(d.dump()).findings.empty()) << key << i;
+    }
+}
+
+}  // namespace
+}  // namespace lekalo::verify_fit_test
