@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <sstream>
+#include <string_view>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/io/text/sha256.hpp"
 #include "lekalo/jobs/verify.hpp"
 #include "support/json.hpp"
@@ -484,6 +487,24 @@ TEST(JobsLocateSolid, FilesOfFeaturesThatMakeNoSenseAreRefused) {
       refusal(job).message,
       "features.json: all of the part is as cast or finished, so no placement is better than another; leave "
       "triangles that demand an allowance");
+}
+
+// The time of `--time` may be up while the result is checked.
+TEST(JobsLocateSolid, AStopWhileTheResultIsCheckedLosesNothing) {
+  const SolidLocateJob job = convex_job();
+  std::atomic<bool> stop = false;
+  RunControl run;
+  run.stop = &stop;
+  const auto located = stoppable(run, [&] {
+    return locate_solid(job, run, {}, [&](const char* phase) {
+      if (std::string_view(phase) == "checking what was found") stop = true;
+      return ProgressListener();
+    });
+  });
+  ASSERT_TRUE(located.has_value()) << located.error().what();
+  ASSERT_TRUE(located->has_value());
+  EXPECT_TRUE(stop);
+  EXPECT_EQ((*located)->result, made(job).result);
 }
 
 TEST(JobsLocateSolid, ASearchThatIsStoppedHasItsBoundProved) {

@@ -336,10 +336,9 @@ Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& r
   LEKALO_TRY(SolidInputs in, read_inputs(job, phases));
   double seconds = 0;
   LEKALO_TRY(Found found, searched(job.options, run, stopwatch, in, seconds));
-  // The findings are told to the end, whoever has asked for the stop.
+  // The findings are told to the end, whoever asks for the stop, and when: what has been found is not lost.
   const RunControl nobody;
-  std::optional<Listening> to_the_end;
-  if (run.stop_requested()) to_the_end.emplace(nobody);
+  const Listening to_the_end(nobody);
   std::optional<WordedPose> words;
   const double before = found.best.clearance;
   if (job.options.offset) {
