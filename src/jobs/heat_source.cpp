@@ -25,8 +25,6 @@ constexpr int kLooks = 9;
 /// Pieces of the path are this part of the tool's diameter.
 constexpr double kPiece = 0.125;
 
-tl::unexpected<Error> refused(const std::string& sentence) { return failure(ErrorCode::bad_input, sentence); }
-
 Result<HeatStock> stock_of(const HeatSourceJob& job) {
   HeatStock stock;
   if (job.stock.block) {
@@ -38,11 +36,13 @@ Result<HeatStock> stock_of(const HeatSourceJob& job) {
     return stock;
   }
   if (!job.stock.outline)
-    return refused(
+    return failure(
+        ErrorCode::bad_input,
         "no stock is stated; say its sides and, if the pocket is not in its middle, its lower left "
         "corner, as in 120x100x20@-10,5");
   if (!(job.stock.thickness > 0 && std::isfinite(job.stock.thickness)))
-    return refused(fmt::format("{}: the stock is {:g} mm thick; state a thickness above 0",
+    return failure(ErrorCode::bad_input,
+                   fmt::format("{}: the stock is {:g} mm thick; state a thickness above 0",
                                job.stock.outline->name, job.stock.thickness));
   LEKALO_TRY(io::ReadOutline read, io::read_outline(job.stock.outline->bytes, job.stock.outline->name, {}));
   stock.outline = std::move(read.outline.regions);
@@ -73,7 +73,8 @@ class Clip {
         const auto [least, greatest] = across(contact, x, y);
         if (greatest <= kOverBorder) continue;
         if (least < -kOverBorder)
-          return refused(
+          return failure(
+              ErrorCode::bad_input,
               fmt::format("{}:{}: the tool cuts {:.3f} mm beyond the stock's border, at X {:.3f} Y "
                           "{:.3f}; state the whole stock, or the pocket's open edge",
                           job_.program.name, piece.line, -least, x, y));
@@ -85,10 +86,12 @@ class Clip {
       cuts = cuts || !piece.rim.empty() || piece.floor_area > 0;
     }
     if (!cuts && outside)
-      return refused(fmt::format(
-          "{}: the program lies outside of the stock, which goes from X {:g} Y {:g} to "
-          "X {:g} Y {:g}; say where its lower left corner is, as in 120x100x20@-10,5",
-          job_.program.name, stock_.box.low_x, stock_.box.low_y, stock_.box.high_x, stock_.box.high_y));
+      return failure(
+          ErrorCode::bad_input,
+          fmt::format("{}: the program lies outside of the stock, which goes from X {:g} Y {:g} to "
+                      "X {:g} Y {:g}; say where its lower left corner is, as in 120x100x20@-10,5",
+                      job_.program.name, stock_.box.low_x, stock_.box.low_y, stock_.box.high_x,
+                      stock_.box.high_y));
     return {};
   }
 

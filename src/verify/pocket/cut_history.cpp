@@ -25,7 +25,7 @@ constexpr double kThinLayer = 1e-4;
 constexpr double kSameWidth = 1e-7;
 /// The floor below a tool is measured on so many rings.
 constexpr int kRings = 12;
-constexpr std::size_t kCutsToTell = 1000;
+constexpr std::size_t kPiecesToTell = 1000;
 
 /// Returns the height down to which a cut leaves nothing under the tool. Along a slope that is its upper end.
 double cleared_to(const Cut& cut) {
@@ -199,7 +199,7 @@ class HistoryMaker {
       wait(move_);
       double done = 0;
       for (; next < cuts_.size() && cuts_[next].move == move_; ++next) {
-        if (progress && next % kCutsToTell == 0)
+        if (progress && next % kPiecesToTell == 0)
           progress({next, static_cast<double>(next) / static_cast<double>(cuts_.size())});
         const Cut& cut = cuts_[next];
         add_air(done, cut.begin, cut.stroke.from);
