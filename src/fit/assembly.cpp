@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace lekalo::fit {
 namespace {
 
@@ -52,6 +55,10 @@ Result<void> check_ring(std::size_t index, const Ring& ring) {
 
 }  // namespace
 
+bool Assembly::symmetric() const {
+  return std::all_of(rings.begin(), rings.end(), [](const Ring& ring) { return ring.middle == 0; });
+}
+
 std::string ring_name(std::size_t ring) {
   return ring == 0 ? "the shaft" : ring == 1 ? "the hub" : fmt::format("ring {}", ring);
 }
@@ -67,6 +74,10 @@ Result<void> check_assembly(const Assembly& assembly) {
     if (i > 0 && rings[i].inner_diameter != rings[i - 1].outer_diameter)
       return refuse(i, fmt::format("its inner diameter is {} mm, and what it sits on has {} mm",
                                    rings[i].inner_diameter, rings[i - 1].outer_diameter));
+    if (i > 0 && rings[i].middle != 0) return refuse(i, "its middle is not at z = 0");
+    const double over = rings[i].length / 2 + std::abs(rings[0].middle) - rings[0].length / 2;
+    if (i > 0 && rings[0].middle != 0 && !(over <= 1e-9 * rings[0].length))
+      return refuse(i, fmt::format("it hangs over the end of the shaft by {:.6g} mm", over));
   }
   return {};
 }

@@ -91,7 +91,7 @@ Result<Corrected> corrected(const Assembly& assembly, const std::vector<std::vec
   made.nominal = surface == Surface::outside ? part.outer_diameter
                  : surface == Surface::bore  ? part.inner_diameter
                                              : seat_diameter;
-  made.face = part.length / 2;
+  made.face = part.middle + part.length / 2;
   std::vector<Growth> changes = growths(pressed[at], surface);
   if (surface == Surface::seat) {
     LEKALO_TRY(changes, seat_changes(assembly, interferences[at], pressed[at]));

@@ -9,6 +9,7 @@
 
 #include "element.hpp"
 #include "envelope.hpp"
+#include "lekalo/base/assert.hpp"
 #include "lekalo/base/stop.hpp"
 #include "ring_mesh.hpp"
 
@@ -27,12 +28,18 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 /// DIN 7190, by which the last fibre carries all it can. A solid shaft yields all at once.
 bool yields_through(const Ring& ring, const RingGrowth& grown) {
   if (!(grown.plastic_part > 1 - 1e-9)) return false;
-  const double strain = std::abs(grown.outer.front().diameter) / ring.outer_diameter;
+  const double strain = std::abs(in_middle(grown.outer).diameter) / ring.outer_diameter;
   return ring.inner_diameter == 0 ||
          strain >= 2 / std::numbers::sqrt3 * ring.material.yield_mpa / ring.material.youngs_mpa;
 }
 
 }  // namespace
+
+const Growth& in_middle(const std::vector<Growth>& surface) {
+  const auto at = std::find_if(surface.begin(), surface.end(), [](const Growth& g) { return g.z == 0; });
+  LEKALO_ASSERT(at != surface.end());
+  return *at;
+}
 
 std::string_view name_of(State state) noexcept {
   switch (state) {
@@ -116,10 +123,13 @@ Pressing::Model::Model(const Assembly& a, const Fineness& fineness, const std::v
   interference.resize(a.rings.size() - 1, 0.0);
   for (std::size_t seat = 0; seat + 1 < a.rings.size(); ++seat) {
     const std::vector<int>&inner = mesh.rings[seat].outer, &outer = mesh.rings[seat + 1].inner;
-    for (std::size_t i = 0; i < std::min(inner.size(), outer.size()); ++i) {
-      const double z = mesh.nodes[at(inner[i])].z;
-      pairs.push_back({inner[i], outer[i], seat,
-                       turned_at(turned, seat, true, z) - turned_at(turned, seat + 1, false, z)});
+    const std::size_t inner_first = mesh.rings[seat].first, outer_first = mesh.rings[seat + 1].first;
+    for (std::size_t k = std::max(inner_first, outer_first);
+         k < std::min(inner_first + inner.size(), outer_first + outer.size()); ++k) {
+      const int inside = inner[k - inner_first], outside = outer[k - outer_first];
+      const double z = mesh.nodes[at(inside)].z;
+      pairs.push_back(
+          {inside, outside, seat, turned_at(turned, seat, true, z) - turned_at(turned, seat + 1, false, z)});
     }
   }
   touching.resize(pairs.size(), 1);
@@ -130,8 +140,12 @@ Pressing::Model::Numbering Pressing::Model::number() const {
   n.of.assign(moved.size(), -2);
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     if (mesh.nodes[i].r == 0) n.of[2 * i] = -1;
-    if (mesh.nodes[i].z == 0) n.of[2 * i + 1] = -1;
+    if (mesh.half && mesh.nodes[i].z == 0) n.of[2 * i + 1] = -1;
   }
+  // Nothing pulls along the axis: one node holds each ring.
+  for (const RingSurfaces& ring : mesh.rings)
+    for (const int node : ring.outer)
+      if (mesh.nodes[at(node)].z == 0) n.of[2 * at(node) + 1] = -1;
   std::vector<int> same(mesh.nodes.size(), -1);  // the node whose r this node's follows
   for (std::size_t p = 0; p < pairs.size(); ++p)
     if (is_held(pairs[p]))
@@ -288,13 +302,17 @@ SeatLoad Pressing::Model::load_of(std::size_t seat) const {
   const double radius = assembly.rings[seat].outer_diameter / 2;
   const auto z_of = [&](std::size_t i) { return mesh.nodes[at(pairs[of[i]].shaft)].z; };
   const auto force_of = [&](std::size_t i) { return forces[2 * at(pairs[of[i]].hub)]; };
-  for (std::size_t i = 0; i < of.size(); ++i) load.force_n += 4 * std::numbers::pi * force_of(i);
-  load.pressure_mpa = load.force_n / (4 * std::numbers::pi * radius * z_of(of.size() - 1));
-  // The middle of the first side carries four sixths of its length.
-  load.middle_mpa = force_of(1) / (radius * z_of(2) * 2 / 3);
+  const double halves = mesh.half ? 2 : 1;
+  for (std::size_t i = 0; i < of.size(); ++i) load.force_n += 2 * halves * std::numbers::pi * force_of(i);
+  load.pressure_mpa =
+      load.force_n / (2 * halves * std::numbers::pi * radius * (z_of(of.size() - 1) - z_of(0)));
+  // The middle of a side carries four sixths of its length.
+  std::size_t middle = 0;
+  while (z_of(middle) != 0) middle += 2;
+  load.middle_mpa = force_of(middle + 1) / (radius * z_of(middle + 2) * 2 / 3);
   for (std::size_t i = 0; i + 2 < of.size(); i += 2)
     if (touching[of[i]] != 0 && touching[of[i + 1]] != 0 && touching[of[i + 2]] != 0)
-      load.touching_mm += 2 * (z_of(i + 2) - z_of(i));
+      load.touching_mm += halves * (z_of(i + 2) - z_of(i));
   return load;
 }
 

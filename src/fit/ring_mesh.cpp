@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lekalo::fit {
 namespace {
 
 constexpr double kRatio = 1.35;   // of neighbouring elements
 constexpr double kLongest = 0.4;  // element along z, as a part of the thinnest wall
+constexpr double kSameEnd = 1e-9;
 
 /// Divides the stretch from 0 to `length` into steps that grow from `least` by `ratio` up to `most`, away
 /// from the ends that are fine.
@@ -39,24 +41,50 @@ void append(std::vector<double>& places, double start, double end, const std::ve
 
 double wall_of(const Ring& ring) { return (ring.outer_diameter - ring.inner_diameter) / 2; }
 
-/// Places along z: fine on both sides of every ring's end but the longest's, where no edge presses.
-std::vector<double> stations_of(const Assembly& assembly, const Fineness& fineness) {
+/// A place where rings end, and how many of them.
+struct RingEnd {
+  double z = 0;
+  int rings = 0;
+};
+
+/// The ends of rings on one side of z = 0, outwards. Those that differ by rounding are one.
+std::vector<RingEnd> ends_on(const Assembly& assembly, double side) {
   std::vector<double> ends;
-  double thinnest = 1e300;
-  for (const Ring& ring : assembly.rings) {
-    ends.push_back(ring.length / 2);
-    thinnest = std::min({thinnest, wall_of(ring), ring.length / 2});
-  }
+  for (const Ring& ring : assembly.rings) ends.push_back(ring.length / 2 + side * ring.middle);
   std::sort(ends.begin(), ends.end());
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::vector<RingEnd> all;
+  for (const double z : ends)
+    if (!all.empty() && z - all.back().z <= kSameEnd * z)
+      ++all.back().rings;
+    else
+      all.push_back({z, 1});
+  return all;
+}
+
+/// Places along z on one side, outwards from 0: fine on both sides of every end but that of the longest ring,
+/// where no edge presses.
+std::vector<double> stations_on(const Assembly& assembly, const Fineness& fineness, double side) {
+  double thinnest = 1e300;
+  for (const Ring& ring : assembly.rings) thinnest = std::min({thinnest, wall_of(ring), ring.length / 2});
+  const std::vector<RingEnd> ends = ends_on(assembly, side);
   std::vector<double> places{0};
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    const double start = i == 0 ? 0 : ends[i - 1];
-    const bool edge = i + 1 < ends.size() || ends.size() == 1;
-    append(places, start, ends[i],
-           graded(ends[i] - start, std::min(fineness.least * thinnest, (ends[i] - start) / 2), kRatio,
-                  kLongest * thinnest, i > 0, edge));
+    const double start = i == 0 ? 0 : ends[i - 1].z, length = ends[i].z - start;
+    const bool edge = i + 1 < ends.size() || ends[i].rings > 1;
+    append(places, start, ends[i].z,
+           graded(length, std::min(fineness.least * thinnest, length / 2), kRatio, kLongest * thinnest, i > 0,
+                  edge));
   }
+  return places;
+}
+
+std::vector<double> stations_of(const Assembly& assembly, const Fineness& fineness) {
+  const std::vector<double> right = stations_on(assembly, fineness, 1);
+  if (assembly.symmetric()) return right;
+  const std::vector<double> left = stations_on(assembly, fineness, -1);
+  std::vector<double> places;
+  for (std::size_t i = left.size(); i-- > 1;) places.push_back(-left[i]);
+  places.insert(places.end(), right.begin(), right.end());
   return places;
 }
 
@@ -77,25 +105,37 @@ double half_place(const std::vector<double>& places, std::size_t half) {
 
 class Mesher {
  public:
-  Mesher(const Assembly& assembly, const Fineness& fineness) : stations_(stations_of(assembly, fineness)) {
+  Mesher(const Assembly& assembly, const Fineness& fineness)
+      : symmetric_(assembly.symmetric()), stations_(stations_of(assembly, fineness)) {
     for (std::size_t i = 0; i < assembly.rings.size(); ++i) {
       radii_.push_back(radii_of(assembly, i, fineness));
-      const auto end = std::find(stations_.begin(), stations_.end(), assembly.rings[i].length / 2);
-      columns_.push_back(2 * static_cast<std::size_t>(end - stations_.begin()) + 1);
+      const Ring& ring = assembly.rings[i];
+      columns_.emplace_back(symmetric_ ? 0 : column_at(ring.middle - ring.length / 2),
+                            column_at(ring.middle + ring.length / 2));
     }
   }
 
   RingMesh made() {
+    mesh_.half = symmetric_;
     mesh_.rings.resize(radii_.size());
+    for (std::size_t ring = 0; ring < radii_.size(); ++ring) mesh_.rings[ring].first = columns_[ring].first;
     index_.resize(radii_.size());
     for (std::size_t k = 0; k < 2 * stations_.size() - 1; ++k)
       for (std::size_t ring = 0; ring < radii_.size(); ++ring)
-        if (k < columns_[ring]) add_column(ring, k);
+        if (k >= columns_[ring].first && k <= columns_[ring].second) add_column(ring, k);
     for (std::size_t ring = 0; ring < radii_.size(); ++ring) add_elements(ring);
     return std::move(mesh_);
   }
 
  private:
+  /// The column at a ring's end.
+  [[nodiscard]] std::size_t column_at(double z) const {
+    const auto nearest = std::min_element(stations_.begin(), stations_.end(), [&](double a, double b) {
+      return std::abs(a - z) < std::abs(b - z);
+    });
+    return 2 * static_cast<std::size_t>(nearest - stations_.begin());
+  }
+
   void add_column(std::size_t ring, std::size_t k) {
     const std::size_t across = 2 * radii_[ring].size() - 1;
     std::vector<int>& column = index_[ring].emplace_back(across, -1);
@@ -117,10 +157,11 @@ class Mesher {
                                   static_cast<int>(ring)});
   }
 
+  bool symmetric_;
   std::vector<double> stations_;
   std::vector<std::vector<double>> radii_;
-  std::vector<std::size_t> columns_;
-  std::vector<std::vector<std::vector<int>>> index_;  // by ring, column and place across
+  std::vector<std::pair<std::size_t, std::size_t>> columns_;  // the first and the last of each ring
+  std::vector<std::vector<std::vector<int>>> index_;          // by ring, column and place across
   RingMesh mesh_;
 };
 

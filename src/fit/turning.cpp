@@ -10,6 +10,7 @@ constexpr double kLead = 1;  // mm
 /// Points of the whole part, from its right end (z > 0) to its left one.
 std::vector<TurnedPoint> whole(const Corrected& corrected) {
   std::vector<TurnedPoint> points(corrected.profile.rbegin(), corrected.profile.rend());
+  if (corrected.profile.front().z < 0) return points;
   for (const TurnedPoint& p : corrected.profile)
     if (p.z > 0) points.push_back({-p.z, p.diameter});
   return points;

@@ -53,6 +53,19 @@ Result<fit::Material> material_of(const MaterialWords& words, double inner, doub
   return material;
 }
 
+/// The middle of the shaft as seen from that of the hub.
+Result<double> middle_of_shaft(const FitJob& job, double shaft_length) {
+  const double most = shaft_length - job.length;
+  if (!job.from_end) return 0.0;
+  if (!(*job.from_end >= 0 && *job.from_end <= most))
+    return refused(
+        fmt::format("the hub ends {} mm from the end of the shaft; on a shaft of {} mm a hub of {} mm "
+                    "does so from 0 to {:.6g} mm",
+                    *job.from_end, shaft_length, job.length, most));
+  const double middle = *job.from_end - most / 2;
+  return std::abs(middle) <= 1e-9 * shaft_length ? 0.0 : middle;
+}
+
 Result<fit::Assembly> assembled(const FitJob& job, double diameter) {
   fit::Assembly assembly;
   const double shaft_length = job.shaft_length > 0 ? job.shaft_length : 3 * job.length;
@@ -67,13 +80,14 @@ Result<fit::Assembly> assembled(const FitJob& job, double diameter) {
     return refused(fmt::format("the shaft is {} mm long and the hub {} mm; it has to be as long at least",
                                shaft_length, job.length));
   LEKALO_TRY(const fit::Material shaft, material_of(of_shaft, job.bore, diameter));
-  assembly.rings.push_back({job.bore, diameter, shaft_length, shaft});
+  LEKALO_TRY(const double middle, middle_of_shaft(job, shaft_length));
+  assembly.rings.push_back({job.bore, diameter, shaft_length, shaft, middle});
   double inner = diameter;
   std::vector<OuterRing> rings{{job.hub_outer, 0}};
   rings.insert(rings.end(), job.more.begin(), job.more.end());
   for (const OuterRing& ring : rings) {
     LEKALO_TRY(const fit::Material material, material_of(job.material, inner, ring.outer_diameter));
-    assembly.rings.push_back({inner, ring.outer_diameter, job.length, material});
+    assembly.rings.push_back({inner, ring.outer_diameter, job.length, material, 0});
     inner = ring.outer_diameter;
   }
   LEKALO_CHECK(fit::check_assembly(assembly));

@@ -28,6 +28,7 @@ void write_rings(io::JsonWriter& json, const fit::Assembly& assembly) {
                                 {"inner_diameter_mm", ring.inner_diameter},
                                 {"outer_diameter_mm", ring.outer_diameter},
                                 {"length_mm", ring.length},
+                                {"middle_mm", ring.middle},
                                 {"material", ring.material.name},
                                 {"youngs_mpa", ring.material.youngs_mpa},
                                 {"poisson", ring.material.poisson},
@@ -39,23 +40,25 @@ void write_rings(io::JsonWriter& json, const fit::Assembly& assembly) {
   json.end();
 }
 
-/// The row of a surface at a place of the shaft; null beyond its end.
-std::optional<double> growth_at(const std::vector<fit::Growth>& surface, std::size_t row) {
-  return row < surface.size() ? std::optional(um(surface[row].diameter)) : std::nullopt;
+/// The row of a surface that begins at row `first` of the shaft; null beyond its ends.
+std::optional<double> growth_at(const std::vector<fit::Growth>& surface, std::size_t row,
+                                std::size_t first = 0) {
+  const bool there = row >= first && row - first < surface.size();
+  return there ? std::optional(um(surface[row - first].diameter)) : std::nullopt;
 }
 
 void write_profile(io::JsonWriter& json, const fit::Pressed& pressed) {
   const fit::RingGrowth &shaft = pressed.rings.front(), &hub = pressed.rings[1],
                         &outside = pressed.rings.back();
-  const std::size_t rows = std::max(shaft.outer.size(), hub.outer.size());
+  std::size_t first = 0;  // of the hub
+  while (shaft.outer[first].z < hub.inner.front().z) ++first;
   json.key("profile").begin_list();
-  for (std::size_t i = 0; i < rows; ++i) {
-    const double z = i < shaft.outer.size() ? shaft.outer[i].z : hub.outer[i].z;
-    json.begin_object().fields({{"z_mm", shown(z)},
+  for (std::size_t i = 0; i < shaft.outer.size(); ++i) {
+    json.begin_object().fields({{"z_mm", shown(shaft.outer[i].z)},
                                 {"bore_um", growth_at(shaft.inner, i)},
                                 {"shaft_um", growth_at(shaft.outer, i)},
-                                {"hub_bore_um", growth_at(hub.inner, i)},
-                                {"hub_um", growth_at(outside.outer, i)}});
+                                {"hub_bore_um", growth_at(hub.inner, i, first)},
+                                {"hub_um", growth_at(outside.outer, i, first)}});
     json.end();
   }
   json.end();
@@ -64,14 +67,15 @@ void write_profile(io::JsonWriter& json, const fit::Pressed& pressed) {
 void write_case(io::JsonWriter& json, const FitJob& job, const Fitted& made, const FitCase& one) {
   const fit::SeatLoad& seat = one.pressed.seats.front();
   const fit::RingGrowth& shaft = one.pressed.rings.front();
-  json.begin_object().fields({{"interference_um", um(one.interference)},
-                              {"state", fit::name_of(one.pressed.state)},
-                              {"pressure_mpa", shown(seat.pressure_mpa)},
-                              {"middle_pressure_mpa", shown(seat.middle_mpa)},
-                              {"touching_mm", shown(seat.touching_mm)},
-                              {"hub_outer_growth_um", um(one.pressed.rings.back().outer.front().diameter)}});
+  json.begin_object().fields(
+      {{"interference_um", um(one.interference)},
+       {"state", fit::name_of(one.pressed.state)},
+       {"pressure_mpa", shown(seat.pressure_mpa)},
+       {"middle_pressure_mpa", shown(seat.middle_mpa)},
+       {"touching_mm", shown(seat.touching_mm)},
+       {"hub_outer_growth_um", um(fit::in_middle(one.pressed.rings.back().outer).diameter)}});
   json.field("shaft_bore_closure_um",
-             shaft.inner.empty() ? std::nullopt : std::optional(-um(shaft.inner.front().diameter)));
+             shaft.inner.empty() ? std::nullopt : std::optional(-um(fit::in_middle(shaft.inner).diameter)));
   json.key("seats").list(one.pressed.seats, [&](const fit::SeatLoad& s) {
     const auto index = static_cast<std::size_t>(&s - one.pressed.seats.data());
     json.object({{"interference_um", um(one.pressed.interference[index])},
@@ -92,9 +96,9 @@ void write_case(io::JsonWriter& json, const FitJob& job, const Fitted& made, con
   else
     json.value(nullptr);
   json.key("released")
-      .object({{"hub_bore_growth_um", um(one.released.rings[1].inner.front().diameter)},
-               {"hub_outer_growth_um", um(one.released.rings.back().outer.front().diameter)},
-               {"shaft_growth_um", um(one.released.rings.front().outer.front().diameter)}});
+      .object({{"hub_bore_growth_um", um(fit::in_middle(one.released.rings[1].inner).diameter)},
+               {"hub_outer_growth_um", um(fit::in_middle(one.released.rings.back().outer).diameter)},
+               {"shaft_growth_um", um(fit::in_middle(one.released.rings.front().outer).diameter)}});
   json.key("press_force_n");
   if (job.friction)
     json.list({shown((*job.friction)[0] * seat.force_n), shown((*job.friction)[1] * seat.force_n)});

@@ -7,10 +7,12 @@
 namespace lekalo::jobs {
 namespace {
 
-/// The curve over both halves, each growth times a factor.
+/// The curve from end to end, each growth times a factor.
 std::vector<geom::Point> curve_of(const std::vector<fit::Growth>& surface, double factor) {
   std::vector<geom::Point> points;
-  for (auto g = surface.rbegin(); g != surface.rend(); ++g) points.push_back({-g->z, factor * g->diameter});
+  const bool half = surface.empty() || surface.front().z == 0;
+  for (auto g = surface.rbegin(); half && g != surface.rend(); ++g)
+    points.push_back({-g->z, factor * g->diameter});
   for (const fit::Growth& g : surface) points.push_back({g.z, factor * g.diameter});
   return points;
 }

@@ -96,6 +96,7 @@ TEST(CliFit, WhatIsWrongIsSaidInOneSentence) {
         {{"--diameter", "36", "--interference", "0.02"}, 3, "not above its bore"},
         {{"--diameter", "18", "--interference", "0.02", "--bore", "18"}, 3, "not below its diameter"},
         {{"--diameter", "18"}, 2, "--interference"},
+        {{"--fit", "18H8/z8", "--from-end", "36.5"}, 3, "from 0 to 36 mm"},
         {{"--diameter", "18", "--interference", "0.05,0.04"}, 2, "the least comes first"},
         {{"--diameter", "18", "--interference", "0,0.04"}, 3, "has to be above 0"},
         {{"--fit", "18H8/z8", "--diameter", "18"}, 2, "say what is pressed"},

@@ -344,6 +344,6 @@ def of_fits():
                "r.json", ["verify", "r.json"], lambda context: lambda change: None, base=1)
     for surface in ("outside", "seat"):
         turned = ["fit", "--diameter", "18", "--interference", "0.04", "--cylindrical", surface, "--profile", "p.csv", "--drawing",
-                  "p.dxf", "--program", "p.ngc"] + sizes
+                  "p.dxf", "--program", "p.ngc"] + sizes + ["--from-end", "4"] * (surface == "seat")
         yield Kind("result of fit, turned" + ", seat" * (surface == "seat"), [], [turned], "r.json", ["verify", "r.json"],
                    lambda context: lambda change: None, base=1, inputs=["p.csv", "p.dxf", "p.ngc"])

@@ -41,6 +41,9 @@ CASES = [
                      "--material", "C45", "--interference", "0.02"]),
     ("as long as one another", ["--diameter", "20", "--hub-outer", "30", "--length", "12", "--shaft-length", "12",
                                 "--material", "C45", "--interference", "0.015"]),
+    ("at the end of the shaft", SHAFT + STRONG + ["--interference", "0.04", "--from-end", "0"]),
+    ("at the end, yielding, seat corrected", SHAFT + ["--yield", "340", "--interference", "0.06", "--from-end", "2",
+                                                      "--cylindrical", "seat"]),
     ("outside corrected", SHAFT + ["--yield", "340", "--interference", "0.06", "--cylindrical", "outside"]),
     ("bore corrected", SHAFT + STRONG + ["--bore", "8", "--interference", "0.04", "--cylindrical", "bore"]),
     ("seat corrected", SHAFT + STRONG + ["--interference", "0.04", "--cylindrical", "seat"]),
@@ -95,7 +98,7 @@ class Mesh:
 
 
 def ends_of(ring):
-    return ring["length_mm"] / -2, ring["length_mm"] / 2
+    return ring["middle_mm"] - ring["length_mm"] / 2, ring["middle_mm"] + ring["length_mm"] / 2
 
 
 def diameter_at(profile, z):
@@ -109,17 +112,27 @@ def diameter_at(profile, z):
     return points[-1]["diameter_mm"]
 
 
+def along(ends, thinnest):
+    """Places from 0 outwards, dense beside all ends but that of the longest ring alone."""
+    places, marks = [0.0], sorted(set(ends))
+    for i, mark in enumerate(marks):
+        places += graded(places[-1], mark, thinnest / 30, 0.3 * thinnest, i > 0, i + 1 < len(marks) or ends.count(mark) > 1)[1:]
+    return places
+
+
 def meshed(rings, shrinks, turned):
-    """Half of the assembly. Coordinates are such that each ring has its length after it has shrunk freely."""
+    """Half of the assembly, or all of it where the hub sits elsewhere than in the middle. Coordinates are such that each
+    ring has its length after it has shrunk freely."""
     mesh, thinnest = Mesh(), min(min((r["outer_diameter_mm"] - r["inner_diameter_mm"]) / 2, r["length_mm"] / 2)
                                  for r in rings)
-    places, marks = [0.0], sorted({ends_of(r)[1] for r in rings})
-    for i, mark in enumerate(marks):
-        places += graded(places[-1], mark, thinnest / 30, 0.3 * thinnest, i > 0, i + 1 < len(marks) or i == 0)[1:]
+    places = along([ends_of(r)[1] for r in rings], thinnest)
+    if rings[0]["middle_mm"]:
+        places = [-z for z in reversed(along([-ends_of(r)[0] for r in rings], thinnest)[1:])] + places
     for i, (ring, shrink) in enumerate(zip(rings, shrinks)):
         inner, outer = ring["inner_diameter_mm"] / 2, ring["outer_diameter_mm"] / 2
         radii = graded(inner, outer, (outer - inner) / 16, (outer - inner) / 6, i > 0, i + 1 < len(rings))
-        mesh.add(radii, [z / (1 + shrink) for z in places if z <= ends_of(ring)[1] + 1e-9])
+        low, high = ends_of(ring)
+        mesh.add(radii, [z / (1 + shrink) for z in places if low - 1e-9 <= z <= high + 1e-9])
         if turned and turned["ring"] == i:
             for k in range(mesh.size[i][1]):
                 for j in range(mesh.size[i][0]):
@@ -146,11 +159,14 @@ def deck(mesh, rings, shrinks, steps):
                   f"*NSET, NSET=N{i}", listed(sorted(mesh.at[i].values()))]
     lines += ["*SURFACE INTERACTION, NAME=I", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{PENALTY:g}"]
     for seat in range(len(rings) - 1):
-        within = len(mesh.sides(seat + 1, False))
-        lines += [f"*SURFACE, NAME=IN{seat}"] + [f"{e}, S2" for e in mesh.sides(seat, True)[:within + 3]]
+        low, high = ends_of(rings[seat + 1])
+        near = [e for e in mesh.sides(seat, True) if low - 1 <= mesh.nodes[mesh.elements[e - 1][1] - 1][1] <= high + 1]
+        lines += [f"*SURFACE, NAME=IN{seat}"] + [f"{e}, S2" for e in near]
         lines += [f"*SURFACE, NAME=OUT{seat}"] + [f"{e}, S4" for e in mesh.sides(seat + 1, False)]
         lines += ["*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE", f"OUT{seat}, IN{seat}"]
     bases = [i + 1 for i, (_, z) in enumerate(mesh.nodes) if z == 0]
+    if rings[0]["middle_mm"]:  # nothing pulls along the axis: one node holds each ring
+        bases = [n for i in range(len(rings)) for n in mesh.surface(i, True) if mesh.nodes[n - 1][1] == 0]
     axis = [i + 1 for i, (r, _) in enumerate(mesh.nodes) if r == 0]
     lines += ["*NSET, NSET=BASE", listed(bases), "*BOUNDARY", "BASE, 2, 2"]
     if axis:
@@ -229,19 +245,19 @@ class Case:
                                  ("hub_um", last, True)):
             theirs = self.growths(ring, outer)
             for row in self.case["profile"]:
-                if row[key] is not None and abs(row["z_mm"] - edge) > EDGE_MM * (key != "hub_um"):
+                if row[key] is not None and abs(abs(row["z_mm"]) - edge) > EDGE_MM * (key != "hub_um"):
                     other = between(theirs, row["z_mm"])
                     rows.append((f"{key[:-3]} at {row['z_mm']:.3f}", row[key] / 2, other,
                                  max(WITHIN * abs(other), WITHIN_UM)))
         mesh, (_, pressures, mean) = self.meshes[0], self.answers[0]
-        points = pressures[mesh.sides(1, False)[0]]
+        points = pressures[next(e for e in mesh.sides(1, False) if mesh.nodes[mesh.elements[e - 1][0] - 1][1] == 0)]
         middle = sum(points) / len(points)
         rows.append(("pressure in the middle", self.case["middle_pressure_mpa"], middle, PRESSURE * middle))
         rows.append(("mean pressure", self.case["pressure_mpa"], mean, PRESSURE * mean))
         if self.correction:
             surface, nominal = self.correction["surface"], self.correction["nominal_mm"]
             ring, outer = (last if surface == "outside" else 0), surface != "bore"
-            here = lambda z: surface != "seat" or z <= edge + 1e-9
+            here = lambda z: surface != "seat" or abs(z) <= edge + 1e-9
             after = [2 * u + 1000 * (diameter_at(self.correction["profile"], z) - nominal)
                      for z, u in self.growths(ring, outer, run=1) if here(z)]
             before = [2 * u for z, u in self.growths(ring, outer) if here(z)]

@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "lekalo/fit/closed_form.hpp"
+#include "lekalo/fit/turning.hpp"
+#include "verify/fit/turning_check.hpp"
 
 namespace lekalo::fit_corrected_test {
 namespace {
@@ -82,6 +84,32 @@ TEST(Corrected, ASeatThatBecomesACylinderIsPressedEvenly) {
         fit::lame_displacement({18, 36, 18, {"steel", 210000, 0.3, 900, 0, 0}}, 18, before, 0);
     EXPECT_NEAR(p.rings[1].outer.front().diameter, 2 * lame, 2e-3 * lame);
     EXPECT_NEAR(p.rings[1].outer.back().diameter, 2 * lame, 2e-3 * lame);
+  }
+}
+
+// The end of the shaft gives way more, so the profile is not its own mirror; its files are those of all of
+// it.
+TEST(Corrected, BesideTheEndOfTheShaftAProfileHasTwoSides) {
+  const Assembly assembly{
+      {{8, 18, 54, {"steel", 210000, 0.3, 900, 0, 0}, -16}, {18, 36, 18, {"steel", 210000, 0.3, 900, 0, 0}}}};
+  fit::Pressing pressing(assembly);
+  const std::vector<fit::Pressed> pressed{pressing.press({0.04}).value()};
+  for (const Surface surface : {Surface::outside, Surface::bore, Surface::seat}) {
+    const Corrected c = fit::corrected(assembly, {{0.04}}, pressed, 0, surface, 18.04).value();
+    EXPECT_LE(c.variations[0].after, std::max(0.0002, 0.05 * c.variations[0].before));
+    EXPECT_NE(c.profile.front().diameter, c.profile.back().diameter);
+    const verify::TurningClaim claim{false,
+                                     false,
+                                     surface == Surface::bore   ? verify::TurnedSurface::bore
+                                     : surface == Surface::seat ? verify::TurnedSurface::seat
+                                                                : verify::TurnedSurface::outside,
+                                     50,
+                                     1000,
+                                     surface == Surface::outside ? 9.0 : 11.0};
+    std::vector<verify::ProfilePoint> points;
+    for (auto p = c.profile.rbegin(); p != c.profile.rend(); ++p) points.push_back({p->z, p->diameter});
+    EXPECT_EQ(verify::fault_of_turning(fit::turning_program(c, {}), points, claim), std::nullopt);
+    EXPECT_EQ(verify::fault_of_profile_table(fit::profile_csv(c), points), std::nullopt);
   }
 }
 

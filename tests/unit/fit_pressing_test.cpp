@@ -230,6 +230,34 @@ TEST(Pressing, ReleasedPartsAreElasticAgain) {
   EXPECT_GT(after.rings[1].inner[0].diameter, 0.001);
 }
 
+// A hub that is out of the middle by hardly anything is as one in the middle; one at the left end mirrors one
+// at the right end.
+TEST(Pressing, AHubSitsAnywhereOnTheShaft) {
+  const auto pressed_at = [](double middle, double yield) {
+    Pressing pressing({{{6, 18, 54, steel(), middle}, {18, 36, 18, steel(yield)}}});
+    return *pressing.press({0.06});
+  };
+  for (const double yield : {0.0, 340.0}) {
+    const Pressed half = pressed_at(0, yield), whole = pressed_at(1e-3, yield);
+    EXPECT_NEAR(whole.seats[0].force_n, half.seats[0].force_n, 2e-3 * half.seats[0].force_n);
+    EXPECT_NEAR(whole.seats[0].touching_mm, half.seats[0].touching_mm, 1e-9);
+    for (const double z : {0.0, 4.0, 9.0, 12.0, 20.0}) {
+      const double there = growth_at(half.rings[0].outer, z),
+                   most = 2e-3 * std::abs(half.rings[0].outer[0].diameter);
+      EXPECT_NEAR(growth_at(whole.rings[0].outer, z), there, most) << z;
+      EXPECT_NEAR(growth_at(whole.rings[0].outer, -z), there, most) << z;
+    }
+    const Pressed right = pressed_at(-15, yield), left = pressed_at(15, yield);
+    ASSERT_EQ(right.rings[0].inner.size(), left.rings[0].inner.size());
+    EXPECT_NEAR(right.seats[0].force_n, left.seats[0].force_n, 1e-6 * left.seats[0].force_n);
+    for (std::size_t i = 0; i < left.rings[0].inner.size(); ++i) {
+      const Growth &a = left.rings[0].inner[i], &b = right.rings[0].inner[left.rings[0].inner.size() - 1 - i];
+      EXPECT_NEAR(a.z, -b.z, 1e-12);
+      EXPECT_NEAR(a.diameter, b.diameter, 1e-8);
+    }
+  }
+}
+
 TEST(Pressing, HardeningCarriesMore) {
   Pressing ideal({{{0, 18, 54, steel()}, {18, 36, 18, steel(340)}}});
   Material hard = steel(340);
@@ -261,6 +289,9 @@ TEST(Assembly, WhatIsNoneIsRefusedByName) {
             "the shaft: its inner diameter is 20 mm, not below its outer diameter of 18 mm");
   EXPECT_NE(says({{{0, 18, 54, m}, {18, 18.1, 18, m}}}).find("a shell"), std::string::npos);
   EXPECT_NE(says({{{0, 18, 54, m}, {20, 36, 18, m}}}).find("sits on has 18 mm"), std::string::npos);
+  EXPECT_NE(says({{{0, 18, 54, m, 18.1}, {18, 36, 18, m}}}).find("over the end of the shaft by 0.1 mm"),
+            std::string::npos);
+  EXPECT_NE(says({{{0, 18, 54, m}, {18, 36, 18, m, 1}}}).find("not at z = 0"), std::string::npos);
   EXPECT_NE(says({{{0, 18, -1, m}, {18, 36, 18, m}}}).find("length is -1 mm"), std::string::npos);
   EXPECT_NE(says({{{0, 18, 54, steel(1e5)}, {18, 36, 18, m}}}).find("yield stress"), std::string::npos);
 }

@@ -332,6 +332,22 @@ TEST(VerifyFit, ProfilesAndTheirFilesAreHeldAgainstTheGrowths) {
     (void)profiles_are_held(job, surface);
 }
 
+TEST(VerifyFit, HubsBesideAnEndAreRecheckedLikeOthers) {
+  jobs::FitJob job = article();
+  job.fit.clear(), job.diameter = 18, job.interference = 0.03, job.from_end = 1;
+  for (const fit::Surface surface : {fit::Surface::bore, fit::Surface::seat}) {
+    const jobs::Fitted made = profiles_are_held(job, surface);
+    for (const char* path : {"/rings/0/middle_mm", "/rings/1/middle_mm", "/cases/0/touching_mm",
+                             "/cases/0/profile/0/bore_um", "/cases/0/hub_outer_growth_um"}) {
+      Json d = Json::parse(made.json);
+      d.at(path) = d.at(path).get<double>() + 1;
+      const auto report = verify::verify_fit_report(
+          {"r.json", d.dump()}, {{"p.csv", made.table}, {"p.dxf", made.drawing}, {"p.ngc", made.program}});
+      EXPECT_TRUE(!report || !report->findings.empty()) << path;
+    }
+  }
+}
+
 // The shaft of a named fit is turned from the middle of its limits, and smoothing takes nothing off that.
 TEST(VerifyFit, SeatsAreTurnedFromTheShaftsOwnDiameter) {
   jobs::FitJob job = article();

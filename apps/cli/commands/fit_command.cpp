@@ -21,20 +21,27 @@ std::string grown(const fit::Growth& growth) {
 std::string case_row(const jobs::FitCase& one) {
   const fit::Pressed& p = one.pressed;
   const fit::RingGrowth& shaft = p.rings.front();
-  const std::string bore =
-      shaft.inner.empty() ? "" : fmt::format(", bore closes by {:.2f}", -1000 * shaft.inner.front().diameter);
+  const std::vector<fit::Growth>& outside = p.rings.back().outer;
+  const std::string at_ends =
+      outside.front().z < 0
+          ? fmt::format("{} and {} at its left and right end", grown(outside.front()), grown(outside.back()))
+          : grown(outside.back()) + " at its end";
+  const std::string bore = shaft.inner.empty() ? ""
+                                               : fmt::format(", bore closes by {:.2f}",
+                                                             -1000 * fit::in_middle(shaft.inner).diameter);
   const std::string din =
       one.din ? fmt::format("{:.1f} MPa, {:.2f} um", one.din->pressure_mpa, 1000 * one.din->hub_outer_growth)
               : std::string("does not hold here");
   return fmt::format(
       "{:g} um: {}, pressure {:.1f} MPa ({:.1f} in the middle)\n"
-      "  diameters, um        {} outside {} in the middle and {} at its end, shaft {}{}\n"
+      "  diameters, um        {} outside {} in the middle and {}, shaft {}{}\n"
       "  after taking apart   hub's bore {}, outside {}\n"
       "  DIN 7190             {}\n",
       1000 * one.interference, fit::name_of(p.state), p.seats.front().pressure_mpa,
       p.seats.front().middle_mpa, p.rings.size() > 2 ? "the outermost ring's" : "hub's",
-      grown(p.rings.back().outer.front()), grown(p.rings.back().outer.back()), grown(shaft.outer.front()),
-      bore, grown(one.released.rings[1].inner.front()), grown(one.released.rings.back().outer.front()), din);
+      grown(fit::in_middle(outside)), at_ends, grown(fit::in_middle(shaft.outer)), bore,
+      grown(fit::in_middle(one.released.rings[1].inner)),
+      grown(fit::in_middle(one.released.rings.back().outer)), din);
 }
 
 std::string words_of(const jobs::FitJob& job, const jobs::Fitted& made) {

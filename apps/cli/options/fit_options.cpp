@@ -11,8 +11,8 @@ namespace {
 
 /// The words of the command line as they were typed.
 struct FitWords {
-  std::string fit, diameter, interference, hub_outer, length, shaft_length, bore, roughness, friction,
-      clearance;
+  std::string fit, diameter, interference, hub_outer, length, shaft_length, from_end, bore, roughness,
+      friction, clearance;
   std::string material, youngs, poisson, yield, hardening, expansion, shaft_material, output, picture,
       cylindrical, table, drawing, program, control, feed, spindle;
   std::vector<std::string> rings;
@@ -95,6 +95,7 @@ Result<Command> to_fit(const FitWords& w) {
   read.number("--hub-outer", w.hub_outer, 1e-3, 1e4, kLength, o.job.hub_outer);
   read.number("--length", w.length, 1e-3, 1e4, kLength, o.job.length);
   read.number("--shaft-length", w.shaft_length, 1e-3, 1e4, kLength, o.job.shaft_length);
+  read_optional(read, "--from-end", w.from_end, 0, 1e4, "a length from 0 to 10000 mm", o.job.from_end);
   read.number("--bore", w.bore, 0.0, 1e4, "a length from 0 to 10000 mm", o.job.bore);
   read_rings(read, w.rings, o.job.more);
   o.job.material.name = w.material;
@@ -131,8 +132,8 @@ Typed add_fit_form(Form& form) {
       "In diameter, with --diameter; or the least and the greatest");
   add("--hub-outer", w.hub_outer, "MM", "Outer diameter of the hub").required = true;
   add("--length", w.length, "MM", "Of the hub").required = true;
-  add("--shaft-length", w.shaft_length, "MM",
-      "Of the shaft, in whose middle the hub sits [three times the hub's]");
+  add("--shaft-length", w.shaft_length, "MM", "Of the shaft [three times the hub's]");
+  add("--from-end", w.from_end, "MM", "From the shaft's right end to the hub's [the hub in the middle]");
   add("--bore", w.bore, "MM", "Of a hollow shaft [0]");
   add("--ring", w.rings, "OUTER,MM",
       "One more ring on what is there: its outer diameter, and its interference");

@@ -31,10 +31,11 @@ struct Variation {
 
 struct Corrected {
   Surface surface = Surface::outside;
-  double nominal = 0;                ///< the diameter before pressing that a profile changes, mm
-  double face = 0;                   ///< z of the right face of the part that is turned
-  std::vector<TurnedPoint> profile;  ///< z >= 0, in whole tenths of a micrometre; straight between its points
-  std::vector<double> growths;       ///< of each point, mm, at the interference that counts, with the profile
+  double nominal = 0;  ///< the diameter before pressing that a profile changes, mm
+  double face = 0;     ///< z of the right face of the part that is turned
+  std::vector<TurnedPoint>
+      profile;                  ///< as Growth has z; in whole tenths of a micrometre, straight between points
+  std::vector<double> growths;  ///< of each point, mm, at the interference that counts, with the profile
   std::vector<Variation> variations;  ///< of each interference
   std::vector<Pressed> pressed;       ///< at each, with the profile
 };

@@ -21,13 +21,16 @@ enum class State : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(State state) noexcept;
 
-/// How much a diameter has grown at a place along the axis, in mm. z >= 0, from the middle; the other half is
-/// its mirror.
+/// How much a diameter has grown at a place along the axis, in mm.
 struct Growth {
   double z = 0, diameter = 0;
 };
 
-/// Surfaces of one ring, from the middle to its end. Corners and middles of elements alternate, so that
+/// The growth at z = 0, the middle of the hub. \pre the surface is one of a Pressed
+[[nodiscard]] const Growth& in_middle(const std::vector<Growth>& surface);
+
+/// Surfaces of one ring along z: from the middle to its end where all is symmetric, so that the other half is
+/// its mirror; else from end to end. Corners and middles of elements alternate, so that
 /// Simpson's rule integrates them as the elements do.
 struct RingGrowth {
   std::vector<Growth> inner;  ///< empty in a solid shaft
@@ -42,7 +45,7 @@ struct RingGrowth {
 struct SeatLoad {
   double force_n = 0;       ///< of all the pressure, added up as if it were flat
   double pressure_mpa = 0;  ///< the mean over the seat: that force by the seat's area
-  double middle_mpa = 0;    ///< the mean over the element at z = 0
+  double middle_mpa = 0;    ///< the mean over the element beside z = 0
   double touching_mm = 0;   ///< the length, of both halves, of what is in touch
 };
 
@@ -58,7 +61,7 @@ struct Pressed {
 struct Turned {
   int ring = 0;
   bool outer = true;
-  std::function<double(double)> change;  ///< at z >= 0
+  std::function<double(double)> change;  ///< at z; z >= 0 where all is symmetric
 };
 
 /// How finely the mesh divides. Elements grow away from edges and seats.

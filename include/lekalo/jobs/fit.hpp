@@ -34,9 +34,10 @@ struct FitJob {
   double diameter = 0, interference = 0;
   double most_interference = 0;  ///< the interference is from that to this; 0: it is one
   double hub_outer = 0, length = 0;
-  double shaft_length = 0;      ///< 0: three times the hub's
-  double bore = 0;              ///< of the shaft; 0: solid
-  std::vector<OuterRing> more;  ///< as long as the hub
+  double shaft_length = 0;         ///< 0: three times the hub's
+  std::optional<double> from_end;  ///< from the shaft's right end to the hub's; none: in the middle
+  double bore = 0;                 ///< of the shaft; 0: solid
+  std::vector<OuterRing> more;     ///< as long as the hub
   MaterialWords material;
   std::optional<MaterialWords> shaft_material;  ///< where it is another
   /// Rz of shaft and hub, um: what of the interference is smoothed away.

@@ -29,13 +29,22 @@ struct Row {
   std::optional<double> bore, shaft, hub_bore, hub;  // um
 };
 
-/// The integral of what is there over both halves; the rows are corners and middles of elements in turn.
+/// Rows from z = 0 on stand for both halves.
+double halves(const std::vector<Row>& rows) { return rows[0].z < 0 ? 1 : 2; }
+
+/// The integral of what is there from end to end; the rows are corners and middles of elements in turn.
 double integral(const std::vector<Row>& rows, std::optional<double> Row::*figure) {
   double sum = 0;
-  for (std::size_t i = 0; i + 2 < rows.size() && rows[i + 2].*figure; i += 2)
-    sum += (rows[i + 2].z - rows[i].z) / 3 *
-           (*(rows[i].*figure) + 4 * *(rows[i + 1].*figure) + *(rows[i + 2].*figure));
-  return sum;
+  for (std::size_t i = 0; i + 2 < rows.size(); i += 2)
+    if (rows[i].*figure && rows[i + 1].*figure && rows[i + 2].*figure)
+      sum += (rows[i + 2].z - rows[i].z) / 6 *
+             (*(rows[i].*figure) + 4 * *(rows[i + 1].*figure) + *(rows[i + 2].*figure));
+  return halves(rows) * sum;
+}
+
+/// The row of z = 0. \pre read_profile() took them
+const Row& middle_row(const std::vector<Row>& rows) {
+  return *std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.z == 0; });
 }
 
 class FitReport {
@@ -113,7 +122,7 @@ class FitReport {
       if (!complaint_.empty()) return;
       CheckedRing ring{f.number("inner_diameter_mm"), f.number("outer_diameter_mm"), f.number("length_mm"),
                        f.number("youngs_mpa"),        f.number("poisson"),           f.number("yield_mpa"),
-                       f.number("hardening_mpa"),     f.number("expansion_per_k")};
+                       f.number("hardening_mpa"),     f.number("expansion_per_k"),   f.number("middle_mm")};
       (void)f.text("material");
       const std::string name = rings_.empty()       ? "the shaft"
                                : rings_.size() == 1 ? "the hub"
@@ -130,8 +139,13 @@ class FitReport {
     if (complaint_.empty() && rings_.size() < 2) fields_.complain("field rings has fewer than two");
     if (!complaint_.empty()) return;
     for (std::size_t i = 1; i < rings_.size(); ++i)
-      if (rings_[i].length > rings_[0].length || rings_[i].length != rings_[1].length)
-        fields_.complain("field rings: a ring is longer than the shaft, or not as long as the hub");
+      if (rings_[i].length > rings_[0].length || rings_[i].length != rings_[1].length ||
+          rings_[i].middle != 0)
+        fields_.complain(
+            "field rings: a ring is longer than the shaft, not as long as the hub, or elsewhere");
+    const double over = rings_[1].length / 2 + std::abs(rings_[0].middle) - rings_[0].length / 2;
+    if (rings_[0].middle != 0 && !(over <= 1e-6))
+      fields_.complain("field rings: the hub hangs over an end of the shaft");
     if (fields_.number("diameter_mm") != rings_[0].outer)
       fields_.complain("field diameter_mm is not that of the shaft");
   }
@@ -205,11 +219,12 @@ class FitReport {
     rows_.push_back(rows);
     if (!complaint_.empty() || rows.empty() || pressures.empty()) return;
     hold(path + ".pressure_mpa", pressure, pressures[0], 0);
-    hold(path + ".hub_outer_growth_um", growth, rows[0].hub.value_or(0), 0);
-    if (closure.has_value() != rows[0].bore.has_value())
+    const Row& middle = middle_row(rows);
+    hold(path + ".hub_outer_growth_um", growth, middle.hub.value_or(0), 0);
+    if (closure.has_value() != middle.bore.has_value())
       find(path + ".shaft_bore_closure_um is there where the shaft has no bore, or the other way round");
     else if (closure)
-      hold(path + ".shaft_bore_closure_um", *closure, -*rows[0].bore, 0);
+      hold(path + ".shaft_bore_closure_um", *closure, -*middle.bore, 0);
     check_touching(rows, path, interference, touching);
     check_means(rows, path, pressures, yields);
   }
@@ -332,15 +347,18 @@ class FitReport {
       return std::vector<Row>();
     };
     if (rows.size() < 3 || rows.size() % 2 == 0) return wrong("has not rows of whole elements");
-    const double end = rings_[0].length / 2, hub_end = rings_[1].length / 2;
-    if (rows[0].z != 0 || std::abs(rows.back().z - end) > kShown)
-      return wrong("does not go from the middle to the end of the shaft");
+    const double start = rings_[0].middle == 0 ? 0 : rings_[0].middle - rings_[0].length / 2;
+    const double end = rings_[0].middle + rings_[0].length / 2, hub_end = rings_[1].length / 2;
+    if (std::abs(rows[0].z - start) > kShown || std::abs(rows.back().z - end) > kShown)
+      return wrong("does not go from the middle, or from the left end, to the right end of the shaft");
+    if (std::none_of(rows.begin(), rows.end(), [](const Row& row) { return row.z == 0; }))
+      return wrong("has no row in the middle of the hub");
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const Row& row = rows[i];
       if (i > 0 && !(row.z > rows[i - 1].z)) return wrong("is not in order");
       if (i % 2 == 1 && std::abs(row.z - (rows[i - 1].z + rows[i + 1].z) / 2) > 2 * kShown)
         return wrong("has a row that is not in the middle of its neighbours");
-      const bool on_hub = row.z <= hub_end + kShown;
+      const bool on_hub = std::abs(row.z) <= hub_end + kShown;
       if (!row.shaft || row.hub.has_value() != on_hub || row.hub_bore.has_value() != on_hub ||
           row.bore.has_value() != (rings_[0].inner > 0))
         return wrong("has a row of other surfaces than there are");
@@ -353,12 +371,13 @@ class FitReport {
                       double touching) {
     double length = 0;
     const auto gap = [&](const Row& row) { return *row.hub_bore - *row.shaft - interference; };
-    for (std::size_t i = 0; i < rows.size() && rows[i].hub_bore; ++i)
-      if (!(gap(rows[i]) >= -kTouch))
-        return find(fmt::format("{}.profile: shaft and hub overlap at z = {}", path, rows[i].z));
-    for (std::size_t i = 0; i + 2 < rows.size() && rows[i + 2].hub_bore; i += 2)
-      if (gap(rows[i]) <= kTouch && gap(rows[i + 1]) <= kTouch && gap(rows[i + 2]) <= kTouch)
-        length += 2 * (rows[i + 2].z - rows[i].z);
+    for (const Row& row : rows)
+      if (row.hub_bore && !(gap(row) >= -kTouch))
+        return find(fmt::format("{}.profile: shaft and hub overlap at z = {}", path, row.z));
+    const auto touches = [&](const Row& row) { return row.hub_bore && gap(row) <= kTouch; };
+    for (std::size_t i = 0; i + 2 < rows.size(); i += 2)
+      if (touches(rows[i]) && touches(rows[i + 1]) && touches(rows[i + 2]))
+        length += halves(rows) * (rows[i + 2].z - rows[i].z);
     hold(path + ".touching_mm", touching, length, 1e-4);
   }
 
@@ -516,7 +535,7 @@ class FitReport {
     const std::string control = t.text("control"), x = t.text("x");
     const CheckedRing& part = surface_ == TurnedSurface::outside ? rings_.back() : rings_[0];
     TurningClaim claim{control == "fanuc",          x == "radius",           surface_,
-                       t.number("feed_mm_per_min"), t.number("spindle_rpm"), part.length / 2};
+                       t.number("feed_mm_per_min"), t.number("spindle_rpm"), part.middle + part.length / 2};
     t.refuse_others();
     if ((control != "fanuc" && control != "linuxcnc") || (x != "radius" && x != "diameter"))
       t.complain("field correction.turning is of no such control, or X");
@@ -525,8 +544,9 @@ class FitReport {
 
   void check_files(const std::vector<ProfilePoint>& half, const std::optional<TurningClaim>& turning) {
     std::vector<ProfilePoint> whole(half.rbegin(), half.rend());
-    for (const ProfilePoint& p : half)
-      if (p.z > 0) whole.push_back({-p.z, p.diameter});
+    if (rings_[0].middle == 0)
+      for (const ProfilePoint& p : half)
+        if (p.z > 0) whole.push_back({-p.z, p.diameter});
     bool program = false;
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const std::string& role = names_[i].role;

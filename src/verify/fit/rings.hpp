@@ -10,6 +10,7 @@ namespace lekalo::verify {
 struct CheckedRing {
   double inner = 0, outer = 0, length = 0;  ///< diameters and length, mm
   double youngs = 0, poisson = 0, yield = 0, hardening = 0, expansion = 0;
+  double middle = 0;  ///< of its length, along the axis, mm
 };
 
 /// The mean growth of a diameter of an elastic ring, mm, under mean pressures on its whole inner and outer
