@@ -186,15 +186,16 @@ class SolidReportPage {
   [[nodiscard]] std::string none_has() const {
     return fmt::format(
         "no placement moved {}{} leaves more than {} mm {}", window_text(report_),
-        scene_.margin && scene_.margin->of_place ? ", of those that keep datums and maxima," : "",
+        scene_.margin && scene_.margin->of_place ? ", of those that keep datums, maxima and finished faces,"
+                                                 : "",
         decimal(*bound(), look_.decimals, Rounding::up), scene_.margin ? "over the demands" : "everywhere");
   }
   [[nodiscard]] std::string this_has() const {
     const std::optional<double> is = reached();
     if (!is)
-      return scene_.margin && scene_.margin->of_place
-                 ? "the best found is not inside the blank, or does not keep a datum or a maximum"
-                 : "the best found is not inside the blank";
+      return scene_.margin && scene_.margin->of_place ? "the best found is not inside the blank, or does not "
+                                                        "keep a datum, a maximum or a finished face"
+                                                      : "the best found is not inside the blank";
     return fmt::format("this one leaves at least {} mm{}", decimal(*is, look_.decimals, Rounding::down),
                        scene_.margin ? " over them" : "");
   }

@@ -424,7 +424,7 @@ TEST(JobsLocateSolid, FacesHaveTheirOwnDemands) {
   job.features = features_of_block(1);
   job.outputs.picture = SolidPictureForm::html;
   const LocatedSolid located = made(job);
-  for (const char* words : {"left over the demands, mm", "proven: no more than", "as cast: nothing demanded"})
+  for (const char* words : {"left over the demands, mm", "proven: no more than", "no allowance demanded"})
     EXPECT_TRUE(says(located.picture, words)) << words;
   EXPECT_FALSE(says(located.picture, "not proved"));
   const auto json = cases::Json::parse(located.result);

@@ -27,7 +27,7 @@ struct SolidScene {
   /// With demands by face: what is left over all of them, and what it is proved to be at most, mm.
   struct Margin {
     std::optional<double> is, bound;
-    bool of_place = false;  ///< only placements that keep datums and maxima count
+    bool of_place = false;  ///< only placements that keep datums, maxima and finished faces count
   };
   /// Counts in place of upper_bound.
   std::optional<Margin> margin;

@@ -162,7 +162,7 @@ std::vector<SolidKey> key_of(const SolidScene& scene, const SolidLook& look) {
                        : fmt::format("less than {} mm, by up to {} mm", scene.min_allowance, most),
                    "missing"});
   }
-  if (look.as_cast()) key.push_back({kPlainPart, 1, "as cast: nothing demanded", "key-as-cast"});
+  if (look.as_cast()) key.push_back({kPlainPart, 1, "no allowance demanded", "key-as-cast"});
   if (scene.allowances.empty()) key.push_back({kPlainPart, 1, "part, placed", "key-part"});
   key.push_back({kGlass, 0.3, "blank, as glass", "key-blank"});
   if (!scene.unknown.empty()) key.push_back({kUnknownGlass, 0.6, "blank, not measured", "key-unknown"});
