@@ -5,13 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "lekalo/jobs/fit.hpp"
 #include "lekalo/verify/claims.hpp"
 #include "support/cases.hpp"
 #include "support/json.hpp"
+#include "verify/fit/rings.hpp"
 
 namespace lekalo::verify_fit_test {
 namespace {
@@ -355,6 +358,59 @@ TEST(VerifyFit, SeatsAreTurnedFromTheShaftsOwnDiameter) {
   EXPECT_NEAR(profiles_are_held(job, fit::Surface::seat).corrected->nominal, 18.0735, 1e-9);
   job.fit.clear(), job.diameter = 18, job.interference = 0.05, job.roughness_um = {3, 4};
   EXPECT_NEAR(profiles_are_held(job, fit::Surface::seat).corrected->nominal, 18.05, 1e-9);
+}
+
+/// A solid shaft in a hub of one metal.
+std::vector<verify::CheckedRing> one_metal(double outer, double shaft_yield = 900) {
+  return {{0, 20, 60, 200000, 0.3, shaft_yield, 0, 1e-5}, {20, outer, 20, 200000, 0.3, 300, 0, 1e-5}};
+}
+
+// The form of DIN 7190 holds for two rings; where the hub yields, for one metal without hardening and a solid
+// shaft alone.
+TEST(VerifyFit, TheClosedFormHoldsWhereItsConditionsDo) {
+  using verify::checked_din;
+  const double strength = 2 / std::sqrt(3.0) * 300, begins = 20 * strength / 200000;  // yielding, mm
+  const auto elastic_fit = checked_din(one_metal(40), 0.99 * begins);
+  ASSERT_TRUE(elastic_fit);
+  EXPECT_FALSE(elastic_fit->yields);
+  EXPECT_NEAR(elastic_fit->pressure, 0.99 * strength * 3 / 8, 1e-9);
+  EXPECT_NEAR(elastic_fit->growth, 0.99 * begins / 2, 1e-12);
+  const auto plastic = checked_din(one_metal(40), 2 * begins);
+  ASSERT_TRUE(plastic);
+  EXPECT_TRUE(plastic->yields);
+  EXPECT_NEAR(plastic->pressure, strength / 2 * (1 + std::log(2.0) - 0.5), 1e-9);
+  EXPECT_NEAR(plastic->growth, begins, 1e-12);
+  // The hub is plastic all through at the square of its ratio.
+  EXPECT_TRUE(checked_din(one_metal(40), 3.999 * begins));
+  EXPECT_FALSE(checked_din(one_metal(40), 4.001 * begins));
+  // A thick hub bears no more than its strength.
+  EXPECT_NEAR(checked_din(one_metal(100), 10 * begins)->pressure, strength, 1e-9);
+  EXPECT_LT(checked_din(one_metal(100), 2 * begins)->pressure, strength);
+  const auto changed = [&](const std::function<void(std::vector<verify::CheckedRing>&)>& change,
+                           double interference) {
+    std::vector<verify::CheckedRing> rings = one_metal(40);
+    change(rings);
+    return checked_din(rings, interference);
+  };
+  for (const double interference : {0.5 * begins, 2 * begins}) {
+    const bool is_elastic = interference < begins;
+    EXPECT_EQ(changed([](auto& r) { r[0].youngs *= 1.5; }, interference).has_value(), is_elastic);
+    EXPECT_EQ(changed([](auto& r) { r[0].poisson = 0.25; }, interference).has_value(), is_elastic);
+    EXPECT_EQ(changed([](auto& r) { r[0].inner = 5; }, interference).has_value(), is_elastic);
+    EXPECT_EQ(changed([](auto& r) { r[1].hardening = 100; }, interference).has_value(), is_elastic);
+    EXPECT_FALSE(changed([](auto& r) { r.push_back(r[1]); }, interference));
+    EXPECT_FALSE(changed([](auto& r) { r.pop_back(); }, interference));
+  }
+  // The shaft has to bear the pressure; one with a bore bears less.
+  const double pressure = elastic_fit->pressure;
+  EXPECT_TRUE(checked_din(one_metal(40, pressure + 0.001), 0.99 * begins));
+  EXPECT_FALSE(checked_din(one_metal(40, pressure - 0.001), 0.99 * begins));
+  const auto bored = [&](double yield) {
+    return changed([&](auto& r) { r[0].inner = 10, r[0].yield = yield; }, 0.5 * begins);
+  };
+  const double of_bored = bored(900)->pressure, bears = of_bored * std::sqrt(3.0) / 0.75;
+  EXPECT_TRUE(bored(bears * 1.0001));
+  EXPECT_FALSE(bored(bears * 0.9999));
 }
 
 TEST(VerifyFit, ClosedFormIsTheCheckersOwn) {

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -78,7 +80,11 @@ TEST(VerifyTurned, DrawingsAreOneOpenPolyline) {
   EXPECT_EQ(fault(changed(drawing, "20\n17.98000", "20\n17.98002")), std::nullopt) << "half of a decimal";
   expect_fault(fault(changed(drawing, "20\n17.98000", "20\n17.98010")), "its point 0 is z 9", "a radius");
   expect_fault(fault(changed(drawing, "10\n4.5000", "10\n4.5001")), "its point 1 is z", "z");
-  expect_fault(fault(changed(drawing, "70\n0", "70\n1")), "closes or bends", "a closed one");
+  const auto line = std::count(drawing.begin(),
+                               drawing.begin() + static_cast<std::ptrdiff_t>(drawing.find("70\n0")), '\n') +
+                    2;
+  expect_fault(fault(changed(drawing, "70\n0", "70\n1")), fmt::format("line {} closes or bends", line),
+               "a closed one");
   EXPECT_EQ(fault(changed(drawing, "70\n0", "70\n4")), std::nullopt);
   expect_fault(fault(changed(drawing, "20\n17.98000", "20\n17.98000\n42\n0.5")), "bends what", "a bulge");
   expect_fault(fault(changed(drawing, "VERTEX", "POINT")), "no coordinate of a vertex", "another entity");
@@ -181,10 +187,15 @@ TEST(VerifyTurned, EveryWordOfAProgramCounts) {
     expect("G0 Z1.0000", "G0 Z0.9999", "a rapid motion at the part");
     expect("G1 Z0.0000", "G1 Z0.0001", "its point 0 is z");
     expect("(LEKALO FIT", "LEKALO FIT", "is no word");
+    expect("(LEKALO FIT", "(A) G1 (LEKALO FIT", "is no word");
+    EXPECT_EQ(fault_of(changed(program, "M5\n", "M5\nM5\n"), post), std::nullopt);
+    expect("G0 Z1.0000\n", "", "a cut from a place, or with a feed, that was not said");
     if (!fanuc) expect(post.radius ? "G8" : "G7", post.radius ? "G7" : "G8", "is no word of such a program");
     if (fanuc) {
       EXPECT_EQ(fault_of(changed(program, "%\nO0001\n", ""), post), std::nullopt);
       expect("O0001", "O0002", "O0002 is no word");
+      expect("G98", "G98 G7", "G7 is no word");
+      expect("G98", "G98 G8", "G8 is no word");
       expect("M30\n%\n", "M30\nG1\n", "something follows M30");
     } else {
       expect_fault(fault_of("%\n" + program, post), "% is no word", "a percent sign");
@@ -225,6 +236,8 @@ TEST(VerifyTurned, TheToolComesFromBeforeThePartAndGoesOffBehindIt) {
     expect("G0 " + off + "\n", "", "a rapid motion at the part");
     expect("G0 " + off, "G0 " + off + " Z-20.0", "a rapid motion at the part");
     passes(back, "G0 Z20\nM5");
+    expect(back, post.surface == fit::Surface::bore ? "G0 Z20 X1\nM5" : "G0 Z20 X99\nM5",
+           "a rapid motion at the part");
     passes(back, "M5");
     const double scale = post.radius ? 0.5 : 1, sign = post.surface == fit::Surface::bore ? -1 : 1;
     const double edge = post.surface == fit::Surface::bore ? 35.96 : 35.98;
