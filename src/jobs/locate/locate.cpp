@@ -353,9 +353,13 @@ Result<Located> locate(const LocateJob& job, const RunControl& run, const Stopwa
   return locate_checked(
       [&](const locate::Problem& problem, const LocateOptions& options) {
         // The search looks at the control itself, and ends with its best so far. That is then proved and
-        // told, whoever asks for the stop, and when: what has been found is not lost.
-        to_the_end.emplace(nobody);
-        return searched(problem, options, run, stopwatch);
+        // told, whoever has asked for the stop.
+        auto search = [&] {
+          const Listening listening(nobody);
+          return searched(problem, options, run, stopwatch);
+        }();
+        if (run.stop_requested()) to_the_end.emplace(nobody);
+        return search;
       },
       job);
 }
