@@ -24,6 +24,12 @@ class Solids : public testing::Test {
   [[nodiscard]] Ran verify(const std::string& result) const {
     return run(folder_.path(), {"verify", result});
   }
+  /// Places the example's part with a file of features that is beside it.
+  [[nodiscard]] Ran example_with(const char* features) const {
+    const fs::path solids = fs::path(cases::source_dir()) / "examples" / "solid";
+    return run(folder_.path(), {"locate", "--part", solids / "part.stl", "--blank", solids / "casting.stl",
+                                "--features", solids / features, "--gap", "0.2", "-o", "r.json", "--json"});
+  }
   TemporaryFolder folder_;
 };
 
@@ -203,10 +209,7 @@ TEST_F(Solids, FacesHaveTheirOwnDemands) {
 }
 
 TEST_F(Solids, TheExampleOfDemandsIsMet) {
-  const fs::path solids = fs::path(cases::source_dir()) / "examples" / "solid";
-  const Ran ran =
-      run(folder_.path(), {"locate", "--part", solids / "part.stl", "--blank", solids / "casting.stl",
-                           "--features", solids / "features.json", "--gap", "0.2", "-o", "r.json", "--json"});
+  const Ran ran = example_with("features.json");
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(ran.json()["status"], "optimal");
   EXPECT_GT(ran.json()["demands"]["margin"], 0.0);
@@ -294,10 +297,7 @@ TEST_F(Solids, FinishedFacesLieInTheSurfaceOfTheBlank) {
 
 TEST_F(Solids, TheExampleOfAFinishedBoreIsMet) {
   // The bore's edge demands nothing: with less stock left there than is asked for the top.
-  const fs::path solids = fs::path(cases::source_dir()) / "examples" / "solid";
-  const Ran ran =
-      run(folder_.path(), {"locate", "--part", solids / "part.stl", "--blank", solids / "casting.stl",
-                           "--features", solids / "finished.json", "--gap", "0.2", "-o", "r.json", "--json"});
+  const Ran ran = example_with("finished.json");
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(ran.json()["status"], "optimal");
   EXPECT_EQ(ran.json()["demands"]["features"][0]["rim"], 2.5);

@@ -30,7 +30,6 @@ struct CutPiece {
   double feed = 0;       ///< mm/min as programmed; 0 for a rapid and a dwell
   std::size_t line = 0;  ///< of the program, from 1; 0 for a dwell
   bool rapid = false;
-  bool down = false;  ///< below the stock's upper face
   /// In the middle of the piece, the lowest first. Empty where the rim meets nothing.
   std::vector<EngagedLayer> rim;
   /// The area below the tip that is material, mm2; a piece that goes down takes it off. Else 0.

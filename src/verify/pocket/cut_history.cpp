@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "cut_path.hpp"
@@ -39,15 +38,8 @@ class Surroundings {
       : air_(air), cuts_(path.before), radius_(radius), widest_(radius), top_(top) {
     first_ = cuts_.size();
     cuts_.insert(cuts_.end(), path.cuts.begin(), path.cuts.end());
-    Place low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
-    for (const Cut& cut : cuts_) {
-      Place a, b;
-      box_of(cut.stroke, a, b);
-      low = {std::min(low.x, a.x), std::min(low.y, a.y)};
-      high = {std::max(high.x, b.x), std::max(high.y, b.y)};
-      widest_ = std::max(widest_, cut.radius);
-    }
-    index_ = StrokeIndex(low, high, radius);
+    for (const Cut& cut : cuts_) widest_ = std::max(widest_, cut.radius);
+    index_ = index_over(cuts_, radius);
     repeated_ = repeated(cuts_);
     for (std::size_t i = 0; i < first_; ++i) add(i);
   }
@@ -274,7 +266,6 @@ class HistoryMaker {
       const auto z = [&](double way) { return cut.from_z + way / whole * drop; };
       CutPiece piece = piece_of(begin, end, from, to, z(done), z(upto));
       piece.length = upto - done;
-      piece.down = true;
       const Place at = at_share(cut.stroke, middle);
       piece.rim = around_.rim_at(0.5 * (piece.from_z + piece.to_z), until(cut.stroke, at));
       if (drop < 0) piece.floor_area = around_.floor_at(0.5 * (piece.from_z + piece.to_z), at);
@@ -308,7 +299,6 @@ class HistoryMaker {
       };
       const double high = stations[i], low = stations[i + 1];
       CutPiece piece = piece_of(share(high), share(low), at, at, high, low);
-      piece.down = true;
       if (drop < 0) piece.floor_area = around_.floor_at(0.5 * (high + low), at);
       made_.pieces.push_back(std::move(piece));
     }

@@ -9,6 +9,7 @@
 
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/stop.hpp"
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -95,6 +96,17 @@ Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool
   }
   path.retracts = std::max<std::size_t>(entries, 1) - 1;
   return path;
+}
+
+StrokeIndex index_over(const std::vector<Cut>& cuts, double cell) {
+  Place low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
+  for (const Cut& cut : cuts) {
+    Place a, b;
+    box_of(cut.stroke, a, b);
+    low = {std::min(low.x, a.x), std::min(low.y, a.y)};
+    high = {std::max(high.x, b.x), std::max(high.y, b.y)};
+  }
+  return {low, high, cell};
 }
 
 std::vector<bool> repeated(const std::vector<Cut>& cuts) {

@@ -50,6 +50,9 @@ struct CutPath {
 [[nodiscard]] Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool_radius,
                                        double longest, const std::string& name);
 
+/// Returns an index over the ground of all cuts, with none of them in it yet.
+[[nodiscard]] StrokeIndex index_over(const std::vector<Cut>& cuts, double cell);
+
 /// Says of each cut whether it runs on the level just where one before it has run as deep, with a tool as
 /// wide: such a cut changes nothing.
 [[nodiscard]] std::vector<bool> repeated(const std::vector<Cut>& cuts);

@@ -27,16 +27,11 @@ class Engagement {
       : air_(air), cuts_(path.before), radius_(radius), widest_(radius), spacing_(spacing), report_(report) {
     first_ = cuts_.size();
     cuts_.insert(cuts_.end(), path.cuts.begin(), path.cuts.end());
-    Place low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
     for (const Cut& cut : cuts_) {
-      Place a, b;
-      box_of(cut.stroke, a, b);
-      low = {std::min(low.x, a.x), std::min(low.y, a.y)},
-      high = {std::max(high.x, b.x), std::max(high.y, b.y)};
       widest_ = std::max(widest_, cut.radius);
       top_ = std::max(top_, highest(cut));
     }
-    index_ = StrokeIndex(low, high, radius);
+    index_ = index_over(cuts_, radius);
     spacing_ = std::max(spacing, least_spacing());
     repeated_ = repeated(cuts_);
     for (const Cut& cut : cuts_) {
