@@ -336,7 +336,7 @@ FAMILIES = [
     ("tree-plate-less-discs", 4900, READ,
      lambda n: tree({"difference": [{"rectangle": {"size": [1000, 1000]}}] +
                      [disc(3 * (k % 100) - 200, 3 * (k // 100) - 200, 1) for k in range(n)]})),
-    ("tree-half-planes", 100, READ, half_planes),
+    ("tree-half-planes", 400, READ, half_planes),
     ("contour-circle", 20000,
      ["locate", "--part", "a.csv", "--blank", "a.csv", "--window", "0", "0", "--work", "1", "-o", "r.json"],
      lambda n: contour(on_circle(n))),

@@ -3,7 +3,7 @@
     growth_test.py LEKALO [NAME...]
 
 Runs the families of growth_families.py at n and at 2 n, or those named, and compares what the two cost in
-processor time of the command alone, the least of three runs where the first ones say too much. Without names
+processor time of the command alone, the least of six runs where the first ones say too much. Without names
 those of QUICK are run; `all` runs every family (docs/measurements/verify.md). With --table it prints a line for each.
 """
 
@@ -47,7 +47,7 @@ def judge(lekalo, name, n, words, make):
     small, large = make(n), make(2 * n)
     size = sum(map(len, large.values()))
     first = second = longest = float("inf")
-    for _ in range(3):
+    for _ in range(6):
         status, seconds, _, _, said = run(lekalo, words, small)
         first = min(first, seconds)
         status, seconds, waited, memory, said = run(lekalo, words, large)
