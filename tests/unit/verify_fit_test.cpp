@@ -137,34 +137,52 @@ bool is_free(const std::string& path) {
                        "/material", "middle_pressure_mpa", "/released/"});
 }
 
+/// Fields whose path begins with `of` (or, where that is empty, those outside of cases) cannot be absent, be
+/// more or be another; returns how many there are.
+std::size_t no_field_can_be_another(const Json& honest, const std::string& of) {
+  std::size_t count = 0;
+  each_path(honest, "", [&](const std::string& path) {
+    if (one_of(path, {"/inputs", "/outputs", "/warnings", "/seed", "/work", "/run", "/version", "/units"}))
+      return;
+    if (of.empty() ? path.starts_with("/cases") : !path.starts_with(of)) return;
+    const std::size_t slash = path.rfind('/');
+    const std::string key = path.substr(slash + 1);
+    const bool item = key.find_first_not_of("0123456789") == key.npos;
+    const auto parent = [&](Json& d) -> Json& { return slash == 0 ? d : d.at(path.substr(0, slash)); };
+    ++count;
+    if (!item) {
+      EXPECT_TRUE(refuted(honest, [&](Json& d) { parent(d).erase(key); })) << "without " << path;
+      EXPECT_TRUE(refuted(honest, [&](Json& d) { parent(d)[key + "_"] = 0; })) << "more beside " << path;
+    }
+    const bool was_null = honest.at(path).is_null();
+    for (const Json& other : {Json(), Json("x"), Json(true), Json(std::vector<Json>{})}) {
+      if (is_free(path) && other.dump() == "\"x\"") continue;
+      if (was_null && other.is_null()) continue;
+      if (path == "/fit" && other.is_null()) continue;  // interferences that are stated
+      if (one_of(path, {"/yields"}) && other.dump() == "true") continue;
+      EXPECT_TRUE(refuted(honest, [&](Json& d) { d.at(path) = other; })) << path << " " << other.dump();
+    }
+  });
+  return count;
+}
+
 TEST(VerifyFit, NoFieldCanBeAbsentOrAnother) {
   for (const Json* each : {&elastic(), &hardening()}) {
-    const Json& honest = *each;
-    EXPECT_FALSE(refuted(honest, [](Json&) {}));
-    std::size_t count = 0;
-    each_path(honest, "", [&](const std::string& path) {
-      if (one_of(path, {"/inputs", "/outputs", "/warnings", "/seed", "/work", "/run", "/version", "/units"}))
-        return;
-      const std::size_t slash = path.rfind('/');
-      const std::string key = path.substr(slash + 1);
-      const bool item = key.find_first_not_of("0123456789") == key.npos;
-      const auto parent = [&](Json& d) -> Json& { return slash == 0 ? d : d.at(path.substr(0, slash)); };
-      ++count;
-      if (!item) {
-        EXPECT_TRUE(refuted(honest, [&](Json& d) { parent(d).erase(key); })) << "without " << path;
-        EXPECT_TRUE(refuted(honest, [&](Json& d) { parent(d)[key + "_"] = 0; })) << "more beside " << path;
-      }
-      const bool was_null = honest.at(path).is_null();
-      for (const Json& other : {Json(), Json("x"), Json(true), Json(std::vector<Json>{})}) {
-        if (is_free(path) && other.dump() == "\"x\"") continue;
-        if (was_null && other.is_null()) continue;
-        if (path == "/fit" && other.is_null()) continue;  // interferences that are stated
-        if (one_of(path, {"/yields"}) && other.dump() == "true") continue;
-        EXPECT_TRUE(refuted(honest, [&](Json& d) { d.at(path) = other; })) << path << " " << other.dump();
-      }
-    });
-    EXPECT_GT(count, 60U);
+    EXPECT_FALSE(refuted(*each, [](Json&) {}));
+    EXPECT_GT(no_field_can_be_another(*each, ""), 25U);
   }
+}
+
+TEST(VerifyFit, NoFieldOfTheFirstCaseCanBeAbsentOrAnother) {
+  EXPECT_GT(no_field_can_be_another(elastic(), "/cases/0/"), 50U);
+}
+
+TEST(VerifyFit, NoFieldOfTheLastCaseCanBeAbsentOrAnother) {
+  EXPECT_GT(no_field_can_be_another(elastic(), "/cases/2/"), 50U);
+}
+
+TEST(VerifyFit, NoFieldOfAHardeningCaseCanBeAbsentOrAnother) {
+  EXPECT_GT(no_field_can_be_another(hardening(), "/cases/"), 50U);
 }
 
 TEST(VerifyFit, NoFigureCanBeAnother) {
@@ -289,6 +307,124 @@ TEST(VerifyFit, RingsAreThoseOfAFit) {
             std::string::npos);
   EXPECT_NE(said(hardening(), [](Json& d) { d.at("/rings/2/name") = "the hub"; }).find("ring 2"),
             std::string::npos);
+  for (const char* path : {"/rings/1/poisson", "/rings/1/hardening_mpa", "/rings/1/expansion_per_k"})
+    EXPECT_EQ(said(elastic(), [&](Json& d) { d.at(path) = 0; }).find("is no ring of a fit"),
+              std::string::npos)
+        << path;
+}
+
+// A hub from 1 mm beside the left end of its shaft on.
+const Json& beside_an_end() {
+  static const Json document = [] {
+    jobs::FitJob job = article();
+    job.fit.clear(), job.diameter = 18, job.interference = 0.03, job.from_end = 1;
+    return Json::parse(jobs::fit(job).value().json);
+  }();
+  return document;
+}
+
+TEST(VerifyFit, NoHubHangsOverAnEnd) {
+  ASSERT_FALSE(refuted(beside_an_end(), [](Json&) {}));
+  const double middle = beside_an_end().at("/rings/0/middle_mm").get<double>();
+  const auto hangs = [&](double by) {
+    return said(beside_an_end(), [&](Json& d) {
+             d.at("/rings/0/middle_mm") = middle * (1 + by / std::abs(middle));
+           }).find("hangs over an end") != std::string::npos;
+  };
+  EXPECT_TRUE(hangs(1.001));
+  EXPECT_FALSE(hangs(0.999));
+}
+
+// A hub that ends within an element bears no mean there, and nothing is read beyond it.
+TEST(VerifyFit, MeansAreOfWholeElements) {
+  const auto without = [](const Json& honest, double z) {
+    return said(honest, [&](Json& d) {
+      d.at("/rings/1/length_mm") = 17.9;
+      for (std::size_t i = 0; i < d["cases"].size(); ++i)
+        for (std::size_t row = 0; row < d["cases"][i]["profile"].size(); ++row) {
+          Json& r = d["cases"][i]["profile"][row];
+          if (std::abs(std::abs(r["z_mm"].get<double>()) - 9) < 1e-5) {
+            if (z != 0 && r["z_mm"].get<double>() * z < 0) continue;
+            r["hub_um"] = nullptr, r["hub_bore_um"] = nullptr;
+          }
+        }
+    });
+  };
+  EXPECT_NE(without(elastic(), 0), "");
+  EXPECT_NE(without(beside_an_end(), 0), "");
+}
+
+// The sentence says why, so that no condition stands for another.
+TEST(VerifyFit, EveryReasonIsSaid) {
+  const auto says = [](const Json& honest, const std::string& path, const Json& value, const char* wanted) {
+    const std::string sentence = said(honest, [&](Json& d) { d.at(path) = value; });
+    return sentence.find(wanted) != std::string::npos ? "" : path + ": " + sentence;
+  };
+  for (const char* hole : {"x8", "h8", "a11", "H30", ""})
+    EXPECT_EQ(says(elastic(), "/fit/hole", hole, "has no limits"), "");
+  for (const char* shaft : {"x", "H7", "Z8", "z30", ""})
+    EXPECT_EQ(says(elastic(), "/fit/shaft", shaft, "has no limits"), "");
+  EXPECT_EQ(says(elastic(), "/fit/shaft", "a11", "the limits of"), "");
+  EXPECT_EQ(says(elastic(), "/cases/0/interference_um", 0, "interference_um is not above 0"), "");
+  EXPECT_EQ(says(hardening(), "/cases/0/seats/1/interference_um", 0, "interference_um is not above 0"), "");
+  EXPECT_EQ(says(elastic(), "/fit/hole_limits_um", nullptr, "the limits of"), "");
+  EXPECT_EQ(says(elastic(), "/fit/shaft_limits_um", nullptr, "the limits of"), "");
+}
+
+// A ring that yields and does not harden stays below its yield stress; no ring that does not harden is
+// plastic all through in equilibrium with more.
+TEST(VerifyFit, YieldAndHardeningGoTogether) {
+  const auto soft = [](std::size_t hardens, double largest, const char* state) {
+    return said(hardening(), [&](Json& d) {
+      for (std::size_t i = 0; i < 3; ++i)
+        if (i != hardens) d["rings"][i]["hardening_mpa"] = 0;
+      Json& stress = d.at("/cases/0/stresses/1");
+      stress["largest_mises_mpa"] = largest, stress["middle_mises_mpa"] = 100;
+      d.at("/cases/0/state") = state;
+    });
+  };
+  const char *const above = "above the yield stress", *const goes =
+                                                          "does not go with what yields and hardens";
+  EXPECT_NE(soft(3, 300.001, "plastic").find(above), std::string::npos);
+  EXPECT_EQ(soft(3, 300, "plastic").find(above), std::string::npos);
+  EXPECT_EQ(soft(1, 300.001, "plastic").find(above), std::string::npos);
+  EXPECT_NE(soft(3, 300, "full").find(goes), std::string::npos);
+  for (const std::size_t ring : {0U, 1U, 2U})
+    EXPECT_EQ(soft(ring, 300, "full").find(goes), std::string::npos);
+  EXPECT_NE(soft(3, 300, "elastic").find(goes), std::string::npos);
+}
+
+// A hub that does not expand cannot be shrunk on, whatever clearance is wished.
+TEST(VerifyFit, ShrinkingTakesAHubThatExpands) {
+  const auto shrunk = [](double expansion, bool known, double off) {
+    return said(elastic(), [&](Json& d) {
+             d.at("/rings/1/expansion_per_k") = expansion;
+             for (std::size_t i = 0; i < 3; ++i) {
+               Json& value = d["cases"][i]["shrink_difference_k"];
+               if (known)
+                 value = value.get<double>() + off;
+               else
+                 value = nullptr;
+             }
+           }).find("shrink_difference_k") != std::string::npos;
+  };
+  const double expands = elastic().at("/rings/1/expansion_per_k").get<double>();
+  EXPECT_FALSE(shrunk(expands, true, 0));
+  EXPECT_TRUE(shrunk(expands, true, 1.5e-5));
+  EXPECT_TRUE(shrunk(expands, false, 0));
+  EXPECT_FALSE(shrunk(0, false, 0));
+  EXPECT_TRUE(shrunk(0, true, 0));
+}
+
+TEST(VerifyFit, ProfilesHaveRowsOfWholeElements) {
+  const auto of_rows = [](std::size_t count) {
+    return said(elastic(), [&](Json& d) {
+             Json& rows = d.at("/cases/0/profile");
+             while (rows.size() > count) rows.erase(rows.size() - 1);
+           }).find("has not rows of whole elements") != std::string::npos;
+  };
+  for (const std::size_t count : {0U, 1U, 2U, 4U}) EXPECT_TRUE(of_rows(count)) << count;
+  for (const std::size_t count : {3U, 5U}) EXPECT_FALSE(of_rows(count)) << count;
 }
 
 /// Returns what was made.
@@ -356,7 +492,11 @@ TEST(VerifyFit, SeatsAreTurnedFromTheShaftsOwnDiameter) {
   jobs::FitJob job = article();
   job.bore = 0;
   EXPECT_NEAR(profiles_are_held(job, fit::Surface::seat).corrected->nominal, 18.0735, 1e-9);
-  job.fit.clear(), job.diameter = 18, job.interference = 0.05, job.roughness_um = {3, 4};
+}
+
+TEST(VerifyFit, SeatsOfAStatedInterferenceAreTurnedFromTheBore) {
+  jobs::FitJob job = article();
+  job.fit.clear(), job.bore = 0, job.diameter = 18, job.interference = 0.05, job.roughness_um = {3, 4};
   EXPECT_NEAR(profiles_are_held(job, fit::Surface::seat).corrected->nominal, 18.05, 1e-9);
 }
 
