@@ -1,15 +1,16 @@
 #include "rings.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lekalo::verify {
 
 double mean_growth(const CheckedRing& ring, double diameter, double inside, double outside) {
-  // u = A r + B / r, with the pressures at both surfaces.
+  // u = A r + B / r, with the pressures at both surfaces; B is 0 without a bore.
   const double ri2 = ring.inner * ring.inner / 4, ro2 = ring.outer * ring.outer / 4, r = diameter / 2;
   const double b = ri2 * ro2 * (inside - outside) / (ro2 - ri2) * (1 + ring.poisson) / ring.youngs;
   const double a = (ri2 * inside - ro2 * outside) / (ro2 - ri2) * (1 - ring.poisson) / ring.youngs;
-  return 2 * (a * r + (ri2 > 0 ? b / r : 0.0));
+  return 2 * (a * r + b / r);
 }
 
 std::optional<CheckedDin> checked_din(const std::vector<CheckedRing>& rings, double interference) {
@@ -25,8 +26,7 @@ std::optional<CheckedDin> checked_din(const std::vector<CheckedRing>& rings, dou
     const double border = interference * hub.youngs / (d * strength);  // the square of zeta
     if (border >= 1 / (q * q)) return {};
     din.yields = true;
-    din.pressure = strength / 2 * (1 + std::log(border) - q * q * border);
-    if (din.pressure > strength) din.pressure = strength;
+    din.pressure = strength * std::min(1.0, (1 + std::log(border) - q * q * border) / 2);
     din.growth = interference * q;
   } else {
     din.growth = mean_growth(hub, hub.outer, din.pressure, 0);
