@@ -66,29 +66,25 @@ TEST(VerifyFit, WhatManyFitsSayOfMeansHolds) {
   ASSERT_TRUE(jobs::fit(rings)) << jobs::fit(rings).error().message;
 }
 
+// Results are made before any test runs: each trial of a mutant is a child of a process that has them.
+
 /// An elastic fit: its finite elements are quick, and nearly all of its figures are rechecked.
-const Json& elastic() {
-  static const Json document = [] {
-    jobs::FitJob job = article();
-    job.material.yield_mpa = 2000;
-    return Json::parse(jobs::fit(job).value().json);
-  }();
-  return document;
-}
+const Json kElastic = [] {
+  jobs::FitJob job = article();
+  job.material.yield_mpa = 2000;
+  return Json::parse(jobs::fit(job).value().json);
+}();
 
 /// A hub that yields and hardens, and a second one about it.
-const Json& hardening() {
-  static const Json document = [] {
-    jobs::FitJob job;
-    job.diameter = 18, job.interference = 0.04, job.hub_outer = 30, job.length = 9, job.shaft_length = 18;
-    job.material.name = "C45", job.material.yield_mpa = 300, job.material.hardening_mpa = 2000;
-    job.shaft_material = job.material;
-    job.shaft_material->yield_mpa = 900;
-    job.more = {{40, 0.01}};
-    return Json::parse(jobs::fit(job).value().json);
-  }();
-  return document;
-}
+const Json kHardening = [] {
+  jobs::FitJob job;
+  job.diameter = 18, job.interference = 0.04, job.hub_outer = 30, job.length = 9, job.shaft_length = 18;
+  job.material.name = "C45", job.material.yield_mpa = 300, job.material.hardening_mpa = 2000;
+  job.shaft_material = job.material;
+  job.shaft_material->yield_mpa = 900;
+  job.more = {{40, 0.01}};
+  return Json::parse(jobs::fit(job).value().json);
+}();
 
 bool refuted(const Json& honest, const std::function<void(Json&)>& change) {
   Json document = honest;
@@ -167,28 +163,28 @@ std::size_t no_field_can_be_another(const Json& honest, const std::string& of) {
 }
 
 TEST(VerifyFit, NoFieldCanBeAbsentOrAnother) {
-  for (const Json* each : {&elastic(), &hardening()}) {
+  for (const Json* each : {&kElastic, &kHardening}) {
     EXPECT_FALSE(refuted(*each, [](Json&) {}));
     EXPECT_GT(no_field_can_be_another(*each, ""), 25U);
   }
 }
 
 TEST(VerifyFit, NoFieldOfTheFirstCaseCanBeAbsentOrAnother) {
-  EXPECT_GT(no_field_can_be_another(elastic(), "/cases/0/"), 50U);
+  EXPECT_GT(no_field_can_be_another(kElastic, "/cases/0/"), 50U);
 }
 
 TEST(VerifyFit, NoFieldOfTheLastCaseCanBeAbsentOrAnother) {
-  EXPECT_GT(no_field_can_be_another(elastic(), "/cases/2/"), 50U);
+  EXPECT_GT(no_field_can_be_another(kElastic, "/cases/2/"), 50U);
 }
 
 TEST(VerifyFit, NoFieldOfAHardeningCaseCanBeAbsentOrAnother) {
-  EXPECT_GT(no_field_can_be_another(hardening(), "/cases/"), 50U);
+  EXPECT_GT(no_field_can_be_another(kHardening, "/cases/"), 50U);
 }
 
 TEST(VerifyFit, NoFigureCanBeAnother) {
-  for (const Json* each : {&elastic(), &hardening()}) {
+  for (const Json* each : {&kElastic, &kHardening}) {
     const Json& honest = *each;
-    const bool all = each == &elastic();
+    const bool all = each == &kElastic;
     std::size_t count = 0;
     each_path(honest, "", [&](const std::string& path) {
       if (!is_number(honest.at(path)) || is_free(path)) return;
@@ -238,48 +234,48 @@ TEST(VerifyFit, LiesAreRefuted) {
                                                            {"/rings/0/name", "the hub"},
                                                            {"/rings/1/name", "hub"},
                                                            {"/format/name", "lekalo-fat"}})
-    EXPECT_TRUE(refuted(elastic(), [&](Json& d) { d.at(lie.first) = lie.second; })) << lie.first;
-  EXPECT_TRUE(refuted(elastic(), [](Json& d) { d["cases"].erase(1); }));
-  EXPECT_TRUE(refuted(elastic(), [](Json& d) {
+    EXPECT_TRUE(refuted(kElastic, [&](Json& d) { d.at(lie.first) = lie.second; })) << lie.first;
+  EXPECT_TRUE(refuted(kElastic, [](Json& d) { d["cases"].erase(1); }));
+  EXPECT_TRUE(refuted(kElastic, [](Json& d) {
     d["fit"] = nullptr;
     d["cases"][1] = d["cases"][2];
   })) << "the case between two stated interferences is their mean";
-  EXPECT_TRUE(refuted(elastic(), [](Json& d) {
+  EXPECT_TRUE(refuted(kElastic, [](Json& d) {
     d["fit"] = nullptr;
     d["cases"][0] = d["cases"][2], d["cases"][1] = d["cases"][2];
   })) << "the first is the least";
-  EXPECT_TRUE(refuted(elastic(), [](Json& d) { d["cases"].push_back(d["cases"][2]); }));
-  EXPECT_TRUE(refuted(hardening(), [](Json& d) { d["cases"].push_back(d["cases"][0]); }));
-  EXPECT_TRUE(refuted(hardening(), [](Json& d) { d["cases"] = Json(std::vector<Json>{}); }));
+  EXPECT_TRUE(refuted(kElastic, [](Json& d) { d["cases"].push_back(d["cases"][2]); }));
+  EXPECT_TRUE(refuted(kHardening, [](Json& d) { d["cases"].push_back(d["cases"][0]); }));
+  EXPECT_TRUE(refuted(kHardening, [](Json& d) { d["cases"] = Json(std::vector<Json>{}); }));
   EXPECT_TRUE(
-      refuted(elastic(), [](Json& d) { d["cases"][0]["seats"].push_back(d["cases"][0]["seats"][0]); }));
+      refuted(kElastic, [](Json& d) { d["cases"][0]["seats"].push_back(d["cases"][0]["seats"][0]); }));
   EXPECT_TRUE(
-      refuted(elastic(), [](Json& d) { d["cases"][0]["stresses"].push_back(d["cases"][0]["stresses"][1]); }));
-  EXPECT_TRUE(refuted(elastic(), [](Json& d) { d["friction"].push_back(1); }));
+      refuted(kElastic, [](Json& d) { d["cases"][0]["stresses"].push_back(d["cases"][0]["stresses"][1]); }));
+  EXPECT_TRUE(refuted(kElastic, [](Json& d) { d["friction"].push_back(1); }));
   for (const std::size_t row : {0U, 1U, 5U, 44U})
-    EXPECT_TRUE(refuted(elastic(), [&](Json& d) { d["cases"][0]["profile"].erase(row); })) << row;
+    EXPECT_TRUE(refuted(kElastic, [&](Json& d) { d["cases"][0]["profile"].erase(row); })) << row;
 }
 
 TEST(VerifyFit, WhatYieldsGoesWithTheState) {
-  EXPECT_EQ(hardening().at("/cases/0/state").get<std::string>(), "plastic");
+  EXPECT_EQ(kHardening.at("/cases/0/state").get<std::string>(), "plastic");
   const char* const state = "/cases/0/state";
-  EXPECT_TRUE(refuted(hardening(), [&](Json& d) { d.at(state) = "elastic"; }));
-  EXPECT_FALSE(refuted(hardening(), [&](Json& d) { d.at(state) = "full"; })) << "it hardens";
+  EXPECT_TRUE(refuted(kHardening, [&](Json& d) { d.at(state) = "elastic"; }));
+  EXPECT_FALSE(refuted(kHardening, [&](Json& d) { d.at(state) = "full"; })) << "it hardens";
   // Stresses above the yield stress are there where the metal yields and hardens alone.
-  EXPECT_FALSE(refuted(hardening(), [](Json& d) { d.at("/cases/0/stresses/1/largest_mises_mpa") = 1000; }));
-  EXPECT_TRUE(refuted(hardening(), [](Json& d) { d.at("/cases/0/stresses/0/largest_mises_mpa") = 1000; }));
-  EXPECT_FALSE(refuted(hardening(), [](Json& d) { d.at("/cases/0/stresses/0/largest_mises_mpa") = 900; }));
+  EXPECT_FALSE(refuted(kHardening, [](Json& d) { d.at("/cases/0/stresses/1/largest_mises_mpa") = 1000; }));
+  EXPECT_TRUE(refuted(kHardening, [](Json& d) { d.at("/cases/0/stresses/0/largest_mises_mpa") = 1000; }));
+  EXPECT_FALSE(refuted(kHardening, [](Json& d) { d.at("/cases/0/stresses/0/largest_mises_mpa") = 900; }));
   EXPECT_TRUE(
-      refuted(hardening(), [](Json& d) { d.at("/cases/0/stresses/0/largest_mises_mpa") = 900.00001; }));
-  EXPECT_TRUE(refuted(hardening(), [](Json& d) { d.at("/cases/0/stresses/0/plastic_part") = 0.1; }));
+      refuted(kHardening, [](Json& d) { d.at("/cases/0/stresses/0/largest_mises_mpa") = 900.00001; }));
+  EXPECT_TRUE(refuted(kHardening, [](Json& d) { d.at("/cases/0/stresses/0/plastic_part") = 0.1; }));
   for (const double part : {0.0, 1.0})
-    EXPECT_FALSE(refuted(hardening(), [&](Json& d) { d.at("/cases/0/stresses/1/plastic_part") = part; }))
+    EXPECT_FALSE(refuted(kHardening, [&](Json& d) { d.at("/cases/0/stresses/1/plastic_part") = part; }))
         << part;
   for (const double part : {-0.001, 1.001})
-    EXPECT_TRUE(refuted(hardening(), [&](Json& d) { d.at("/cases/0/stresses/1/plastic_part") = part; }))
+    EXPECT_TRUE(refuted(kHardening, [&](Json& d) { d.at("/cases/0/stresses/1/plastic_part") = part; }))
         << part;
-  EXPECT_TRUE(refuted(hardening(), [](Json& d) { d.at("/cases/0/stresses/1/middle_mises_mpa") = -1; }));
-  EXPECT_FALSE(refuted(hardening(), [](Json& d) { d.at("/cases/0/stresses/1/middle_mises_mpa") = 0; }));
+  EXPECT_TRUE(refuted(kHardening, [](Json& d) { d.at("/cases/0/stresses/1/middle_mises_mpa") = -1; }));
+  EXPECT_FALSE(refuted(kHardening, [](Json& d) { d.at("/cases/0/stresses/1/middle_mises_mpa") = 0; }));
 }
 
 TEST(VerifyFit, RingsAreThoseOfAFit) {
@@ -295,39 +291,35 @@ TEST(VerifyFit, RingsAreThoseOfAFit) {
                                                              {"/rings/1/hardening_mpa", -1},
                                                              {"/rings/1/expansion_per_k", -1}})
     EXPECT_NE(
-        said(elastic(), [&, at = path, to = value](Json& d) { d.at(at) = to; }).find("is no ring of a fit"),
+        said(kElastic, [&, at = path, to = value](Json& d) { d.at(at) = to; }).find("is no ring of a fit"),
         std::string::npos)
         << path;
-  EXPECT_NE(said(elastic(), [](Json& d) { d["rings"].erase(1); }).find("fewer than two"), std::string::npos);
-  EXPECT_NE(said(elastic(), [](Json& d) { d.at("/rings/1/length_mm") = 54.1; }).find("longer than the shaft"),
+  EXPECT_NE(said(kElastic, [](Json& d) { d["rings"].erase(1); }).find("fewer than two"), std::string::npos);
+  EXPECT_NE(said(kElastic, [](Json& d) { d.at("/rings/1/length_mm") = 54.1; }).find("longer than the shaft"),
             std::string::npos);
-  EXPECT_NE(said(hardening(), [](Json& d) { d.at("/rings/2/length_mm") = 8; }).find("as long as the hub"),
+  EXPECT_NE(said(kHardening, [](Json& d) { d.at("/rings/2/length_mm") = 8; }).find("as long as the hub"),
             std::string::npos);
-  EXPECT_NE(said(elastic(), [](Json& d) { d.at("/diameter_mm") = 18.001; }).find("not that of the shaft"),
+  EXPECT_NE(said(kElastic, [](Json& d) { d.at("/diameter_mm") = 18.001; }).find("not that of the shaft"),
             std::string::npos);
-  EXPECT_NE(said(hardening(), [](Json& d) { d.at("/rings/2/name") = "the hub"; }).find("ring 2"),
+  EXPECT_NE(said(kHardening, [](Json& d) { d.at("/rings/2/name") = "the hub"; }).find("ring 2"),
             std::string::npos);
   for (const char* path : {"/rings/1/poisson", "/rings/1/hardening_mpa", "/rings/1/expansion_per_k"})
-    EXPECT_EQ(said(elastic(), [&](Json& d) { d.at(path) = 0; }).find("is no ring of a fit"),
-              std::string::npos)
+    EXPECT_EQ(said(kElastic, [&](Json& d) { d.at(path) = 0; }).find("is no ring of a fit"), std::string::npos)
         << path;
 }
 
 // A hub from 1 mm beside the left end of its shaft on.
-const Json& beside_an_end() {
-  static const Json document = [] {
-    jobs::FitJob job = article();
-    job.fit.clear(), job.diameter = 18, job.interference = 0.03, job.from_end = 1;
-    return Json::parse(jobs::fit(job).value().json);
-  }();
-  return document;
-}
+const Json kBesideAnEnd = [] {
+  jobs::FitJob job = article();
+  job.fit.clear(), job.diameter = 18, job.interference = 0.03, job.from_end = 1;
+  return Json::parse(jobs::fit(job).value().json);
+}();
 
 TEST(VerifyFit, NoHubHangsOverAnEnd) {
-  ASSERT_FALSE(refuted(beside_an_end(), [](Json&) {}));
-  const double middle = beside_an_end().at("/rings/0/middle_mm").get<double>();
+  ASSERT_FALSE(refuted(kBesideAnEnd, [](Json&) {}));
+  const double middle = kBesideAnEnd.at("/rings/0/middle_mm").get<double>();
   const auto hangs = [&](double by) {
-    return said(beside_an_end(), [&](Json& d) {
+    return said(kBesideAnEnd, [&](Json& d) {
              d.at("/rings/0/middle_mm") = middle * (1 + by / std::abs(middle));
            }).find("hangs over an end") != std::string::npos;
   };
@@ -350,8 +342,8 @@ TEST(VerifyFit, MeansAreOfWholeElements) {
         }
     });
   };
-  EXPECT_NE(without(elastic(), 0), "");
-  EXPECT_NE(without(beside_an_end(), 0), "");
+  EXPECT_NE(without(kElastic, 0), "");
+  EXPECT_NE(without(kBesideAnEnd, 0), "");
 }
 
 // The sentence says why, so that no condition stands for another.
@@ -361,21 +353,21 @@ TEST(VerifyFit, EveryReasonIsSaid) {
     return sentence.find(wanted) != std::string::npos ? "" : path + ": " + sentence;
   };
   for (const char* hole : {"x8", "h8", "a11", "H30", ""})
-    EXPECT_EQ(says(elastic(), "/fit/hole", hole, "has no limits"), "");
+    EXPECT_EQ(says(kElastic, "/fit/hole", hole, "has no limits"), "");
   for (const char* shaft : {"x", "H7", "Z8", "z30", ""})
-    EXPECT_EQ(says(elastic(), "/fit/shaft", shaft, "has no limits"), "");
-  EXPECT_EQ(says(elastic(), "/fit/shaft", "a11", "the limits of"), "");
-  EXPECT_EQ(says(elastic(), "/cases/0/interference_um", 0, "interference_um is not above 0"), "");
-  EXPECT_EQ(says(hardening(), "/cases/0/seats/1/interference_um", 0, "interference_um is not above 0"), "");
-  EXPECT_EQ(says(elastic(), "/fit/hole_limits_um", nullptr, "the limits of"), "");
-  EXPECT_EQ(says(elastic(), "/fit/shaft_limits_um", nullptr, "the limits of"), "");
+    EXPECT_EQ(says(kElastic, "/fit/shaft", shaft, "has no limits"), "");
+  EXPECT_EQ(says(kElastic, "/fit/shaft", "a11", "the limits of"), "");
+  EXPECT_EQ(says(kElastic, "/cases/0/interference_um", 0, "interference_um is not above 0"), "");
+  EXPECT_EQ(says(kHardening, "/cases/0/seats/1/interference_um", 0, "interference_um is not above 0"), "");
+  EXPECT_EQ(says(kElastic, "/fit/hole_limits_um", nullptr, "the limits of"), "");
+  EXPECT_EQ(says(kElastic, "/fit/shaft_limits_um", nullptr, "the limits of"), "");
 }
 
 // A ring that yields and does not harden stays below its yield stress; no ring that does not harden is
 // plastic all through in equilibrium with more.
 TEST(VerifyFit, YieldAndHardeningGoTogether) {
   const auto soft = [](std::size_t hardens, double largest, const char* state) {
-    return said(hardening(), [&](Json& d) {
+    return said(kHardening, [&](Json& d) {
       for (std::size_t i = 0; i < 3; ++i)
         if (i != hardens) d["rings"][i]["hardening_mpa"] = 0;
       Json& stress = d.at("/cases/0/stresses/1");
@@ -397,7 +389,7 @@ TEST(VerifyFit, YieldAndHardeningGoTogether) {
 // A hub that does not expand cannot be shrunk on, whatever clearance is wished.
 TEST(VerifyFit, ShrinkingTakesAHubThatExpands) {
   const auto shrunk = [](double expansion, bool known, double off) {
-    return said(elastic(), [&](Json& d) {
+    return said(kElastic, [&](Json& d) {
              d.at("/rings/1/expansion_per_k") = expansion;
              for (std::size_t i = 0; i < 3; ++i) {
                Json& value = d["cases"][i]["shrink_difference_k"];
@@ -408,7 +400,7 @@ TEST(VerifyFit, ShrinkingTakesAHubThatExpands) {
              }
            }).find("shrink_difference_k") != std::string::npos;
   };
-  const double expands = elastic().at("/rings/1/expansion_per_k").get<double>();
+  const double expands = kElastic.at("/rings/1/expansion_per_k").get<double>();
   EXPECT_FALSE(shrunk(expands, true, 0));
   EXPECT_TRUE(shrunk(expands, true, 1.5e-5));
   EXPECT_TRUE(shrunk(expands, false, 0));
@@ -418,7 +410,7 @@ TEST(VerifyFit, ShrinkingTakesAHubThatExpands) {
 
 TEST(VerifyFit, ProfilesHaveRowsOfWholeElements) {
   const auto of_rows = [](std::size_t count) {
-    return said(elastic(), [&](Json& d) {
+    return said(kElastic, [&](Json& d) {
              Json& rows = d.at("/cases/0/profile");
              while (rows.size() > count) rows.erase(rows.size() - 1);
            }).find("has not rows of whole elements") != std::string::npos;
@@ -427,11 +419,47 @@ TEST(VerifyFit, ProfilesHaveRowsOfWholeElements) {
   for (const std::size_t count : {3U, 5U}) EXPECT_FALSE(of_rows(count)) << count;
 }
 
-/// Returns what was made.
-jobs::Fitted profiles_are_held(jobs::FitJob job, fit::Surface surface) {
+struct Turned {
+  fit::Surface surface = fit::Surface::outside;
+  jobs::Fitted made;
+};
+
+Turned turned(jobs::FitJob job, fit::Surface surface) {
   job.cylindrical = surface;
   job.table_as = "p.csv", job.drawing_as = "p.dxf", job.program_as = "p.ngc";
-  const jobs::Fitted made = jobs::fit(job).value();
+  return {surface, jobs::fit(job).value()};
+}
+
+jobs::FitJob stated(double interference) {
+  jobs::FitJob job = article();
+  job.fit.clear(), job.diameter = 18, job.interference = interference;
+  return job;
+}
+
+const std::vector<Turned> kTurned = [] {
+  std::vector<Turned> all;
+  for (const fit::Surface surface : {fit::Surface::outside, fit::Surface::bore, fit::Surface::seat})
+    all.push_back(turned(stated(0.04), surface));
+  return all;
+}();
+const std::vector<Turned> kTurnedBesideAnEnd = [] {
+  jobs::FitJob job = stated(0.03);
+  job.from_end = 1;
+  return std::vector{turned(job, fit::Surface::bore), turned(job, fit::Surface::seat)};
+}();
+const Turned kSeatOfANamedFit = [] {
+  jobs::FitJob job = article();
+  job.bore = 0;
+  return turned(job, fit::Surface::seat);
+}();
+const Turned kRoughSeat = [] {
+  jobs::FitJob job = stated(0.05);
+  job.bore = 0, job.roughness_um = {3, 4};
+  return turned(job, fit::Surface::seat);
+}();
+
+void expect_held(const Turned& turned) {
+  const jobs::Fitted& made = turned.made;
   const auto found = [&](const std::function<void(Json&)>& change, const std::string& program) {
     Json document = Json::parse(made.json);
     change(document);
@@ -460,28 +488,23 @@ jobs::Fitted profiles_are_held(jobs::FitJob job, fit::Surface surface) {
   for (const fit::Surface other : {fit::Surface::outside, fit::Surface::bore, fit::Surface::seat})
     EXPECT_EQ(
         found([&](Json& d) { d["correction"]["surface"] = std::string(fit::name_of(other)); }, made.program),
-        other != surface);
-  return made;
+        other != turned.surface);
 }
 
 TEST(VerifyFit, ProfilesAndTheirFilesAreHeldAgainstTheGrowths) {
-  jobs::FitJob job = article();
-  job.fit.clear(), job.diameter = 18, job.interference = 0.04;
-  for (const fit::Surface surface : {fit::Surface::outside, fit::Surface::bore, fit::Surface::seat})
-    (void)profiles_are_held(job, surface);
+  for (const Turned& each : kTurned) expect_held(each);
 }
 
 TEST(VerifyFit, HubsBesideAnEndAreRecheckedLikeOthers) {
-  jobs::FitJob job = article();
-  job.fit.clear(), job.diameter = 18, job.interference = 0.03, job.from_end = 1;
-  for (const fit::Surface surface : {fit::Surface::bore, fit::Surface::seat}) {
-    const jobs::Fitted made = profiles_are_held(job, surface);
+  for (const Turned& each : kTurnedBesideAnEnd) {
+    expect_held(each);
     for (const char* path : {"/rings/0/middle_mm", "/rings/1/middle_mm", "/cases/0/touching_mm",
                              "/cases/0/profile/0/bore_um", "/cases/0/hub_outer_growth_um"}) {
-      Json d = Json::parse(made.json);
+      Json d = Json::parse(each.made.json);
       d.at(path) = d.at(path).get<double>() + 1;
       const auto report = verify::verify_fit_report(
-          {"r.json", d.dump()}, {{"p.csv", made.table}, {"p.dxf", made.drawing}, {"p.ngc", made.program}});
+          {"r.json", d.dump()},
+          {{"p.csv", each.made.table}, {"p.dxf", each.made.drawing}, {"p.ngc", each.made.program}});
       EXPECT_TRUE(!report || !report->findings.empty()) << path;
     }
   }
@@ -489,15 +512,13 @@ TEST(VerifyFit, HubsBesideAnEndAreRecheckedLikeOthers) {
 
 // The shaft of a named fit is turned from the middle of its limits, and smoothing takes nothing off that.
 TEST(VerifyFit, SeatsAreTurnedFromTheShaftsOwnDiameter) {
-  jobs::FitJob job = article();
-  job.bore = 0;
-  EXPECT_NEAR(profiles_are_held(job, fit::Surface::seat).corrected->nominal, 18.0735, 1e-9);
+  EXPECT_NEAR(kSeatOfANamedFit.made.corrected->nominal, 18.0735, 1e-9);
+  expect_held(kSeatOfANamedFit);
 }
 
 TEST(VerifyFit, SeatsOfAStatedInterferenceAreTurnedFromTheBore) {
-  jobs::FitJob job = article();
-  job.fit.clear(), job.bore = 0, job.diameter = 18, job.interference = 0.05, job.roughness_um = {3, 4};
-  EXPECT_NEAR(profiles_are_held(job, fit::Surface::seat).corrected->nominal, 18.05, 1e-9);
+  EXPECT_NEAR(kRoughSeat.made.corrected->nominal, 18.05, 1e-9);
+  expect_held(kRoughSeat);
 }
 
 /// A solid shaft in a hub of one metal.
