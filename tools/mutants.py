@@ -5,6 +5,7 @@
                                              and FOLDER/mutants.json, the list of them; CMake calls it
     tools/mutants.py run FOLDER RUNNER       runs the tests against each, and lists those that survive
         --only REGEX      mutants whose place (file:line) matches
+        --tests REGEX     tests whose name matches, to see soon what a new test kills
         --jobs N          runners side by side (the number of processors)
         --minutes M       no new mutant after so many
         --longest S       tests that take more seconds of a processor are left out
@@ -283,7 +284,7 @@ def run(arguments):
     started = time.monotonic()
     trial = Trial({})
     pool = concurrent.futures.ThreadPoolExecutor(arguments.jobs)
-    names, long_ones = list(tests_of(arguments.runner)), []
+    names, long_ones = [name for name in tests_of(arguments.runner) if re.search(arguments.tests, name)], []
     for name, answer in zip(names, pool.map(lambda name: with_runner(lambda r: r.ask("reach", 600, name)), names)):
         if answer[0] != "passed":
             print(f"{name} fails without a mutant and is left out")
@@ -369,6 +370,7 @@ def main():
     runs.add_argument("folder")
     runs.add_argument("runner")
     runs.add_argument("--only", default="")
+    runs.add_argument("--tests", default="")
     runs.add_argument("--jobs", type=int, default=os.cpu_count())
     runs.add_argument("--minutes", type=float, default=85)
     runs.add_argument("--longest", type=float, default=6)
