@@ -223,8 +223,12 @@ TEST(VerifyTurned, TheToolComesFromBeforeThePartAndGoesOffBehindIt) {
     // 1 mm before the face, 1 mm behind the other.
     expect("G0 Z1.0000\n", "G0 Z1.0000\nG1 Z0.9 F60.0\n", "a cut from a place");
     passes("G1 Z-19.0000", "G1 Z-19.0001");
-    expect("G1 Z-19.0000", "G1 Z-18.9999", "it does not begin before the part and end behind it");
+    expect("G1 Z-19.0000", "G1 Z-18.9999", "it does not end behind the part");
     expect("G1 Z-19.0000\n", "", "a rapid motion at the part");
+    expect("G0 Z1.0000\n",
+           post.surface == fit::Surface::bore ? "G0 Z1.0000\nG0 X1\nG0 Z-5\nG0 Z1.0000\n"
+                                              : "G0 Z1.0000\nG0 X99\nG0 Z-5\nG0 Z1.0000\n",
+           "a rapid motion at the part");
     expect("G1 Z-19.0000\n", "G1 Z-19.0000\nG1 Z-19.0000\n", "a rapid motion at the part");
     expect("G1 Z0.0000 F60.0\n", "", "");
     // Off the surface along X alone, then back along Z at a distance.

@@ -463,8 +463,9 @@ class FitReport {
   void check_turned(const std::vector<TurnedGrowth>& turned, double nominal, std::size_t at,
                     const Remains& remains) {
     std::vector<ProfilePoint> wanted;  // with a growth for a diameter
+    const auto as_written = [](double z) { return std::round(1e4 * z); };
     for (const Row& row : rows_[at])
-      if (growth_in(row) && (wanted.empty() || row.z > wanted.back().z + kDecimal))
+      if (growth_in(row) && (wanted.empty() || as_written(row.z) > as_written(wanted.back().z)))
         wanted.push_back({row.z, *growth_in(row) / 1000});
     if (turned.size() != wanted.size()) return find("correction.profile has other places than the surface");
     // A seat's profile keeps the hub's bore a cylinder, which has grown by what it grew in the mean.

@@ -104,8 +104,8 @@ constexpr std::array kGrades =
 
 std::optional<double> number(std::string_view word) {
   double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) return {};
+  const char* const end = word.data() + word.size();
+  if (std::from_chars(word.data(), end, value).ptr != end) return {};
   return value;
 }
 
@@ -168,7 +168,7 @@ std::optional<double> upper_of_hole(double diameter, std::string_view zone, int 
 }  // namespace
 
 std::optional<ClassLimits> iso286_limits(double diameter_mm, std::string_view tolerance_class) {
-  if (!(diameter_mm > 0 && diameter_mm <= 500)) return {};
+  if (!(diameter_mm > 0)) return {};  // the steps end at 500 mm
   const std::size_t cut = tolerance_class.find_first_of("0123456789");
   if (cut == std::string_view::npos || cut == 0) return {};
   const std::string_view zone = tolerance_class.substr(0, cut), grade = tolerance_class.substr(cut);

@@ -64,9 +64,9 @@ class TurningProgram {
       return fmt::format("it cuts {} points of {}", cut_.size(), profile_.size() + 2);
     if (on_seat() && !(is_beside(cut_.front(), profile_.front()) && is_beside(cut_.back(), profile_.back())))
       return "it does not come onto the seat and go off it along X";
-    if (!on_seat() && !(cut_.front().z >= face_ + kLead - kHalfDecimal &&
-                        cut_.back().z <= profile_.back().z - kLead + kHalfDecimal))
-      return "it does not begin before the part and end behind it";
+    // No rapid motion goes farther than to before the part, so that the cuts begin there.
+    if (!on_seat() && !(cut_.back().z <= profile_.back().z - kLead + kHalfDecimal))
+      return "it does not end behind the part";
     return fault_of_points({cut_.begin() + 1, cut_.end() - 1}, profile_);
   }
 
@@ -97,7 +97,7 @@ class TurningProgram {
 
   std::optional<std::string> take_word(std::string_view word, std::optional<double>& x,
                                        std::optional<double>& z, std::string& motion) {
-    const std::optional<double> value = word.size() > 1 ? decimal_of(word.substr(1)) : std::nullopt;
+    const std::optional<double> value = !word.empty() ? decimal_of(word.substr(1)) : std::nullopt;
     if (!value) return fmt::format("{} is no word", word);
     if (word[0] == 'X') {
       x = *value * (claim_.radius ? 2 : 1);
@@ -139,10 +139,10 @@ class TurningProgram {
     if (motion == "G0") {
       const bool before = std::min(from_z, to_z) >= face_ + kLead - kHalfDecimal;
       // Behind the part the tool goes off the surface, and back along it only at a distance.
-      const bool done = cut_.size() == profile_.size() + 2 && x_;
+      const bool done = cut_.size() == profile_.size() + 2;
       const double at_x = z && x_ ? *x_ : to_x;
       const double off = claim_.surface == TurnedSurface::bore ? least_ - at_x : at_x - most_;
-      const bool behind = (done || (on_seat() && z && x_)) && !(x && z) && off >= kOff;
+      const bool behind = (done || (on_seat() && z)) && !(x && z) && off >= kOff;
       if (!before && !behind) return "a rapid motion at the part";
     } else {
       if (!x_ || !z_ || !modes_.contains("F")) return "a cut from a place, or with a feed, that was not said";
