@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -72,7 +73,7 @@ TEST(VerifyCutHistory, PiecesFollowOneAnotherWithoutAGap) {
   const CutPiece* before = nullptr;
   for (const CutPiece& piece : history.pieces) {
     EXPECT_NEAR(piece.start, at, 1e-9) << piece.line;
-    EXPECT_GE(piece.seconds, 0);
+    EXPECT_GT(piece.seconds, 0) << piece.line;
     at += piece.seconds;
     if (before != nullptr) {
       EXPECT_NEAR(std::hypot(piece.from_x - before->to_x, piece.from_y - before->to_y), 0, 1e-9)
@@ -99,6 +100,37 @@ TEST(VerifyCutHistory, TheClockKnowsHowLongAMoveSpeedsUp) {
   // It takes 20 to 25 mm/s less for a while at the beginning.
   EXPECT_GT(spent, 40 / 25.0 + 25 * 25 / 500.0 / 2 / 25 + 20 * 20 / 500.0 / 2 / 25 - 1e-9);
   EXPECT_LT(spent, 40 / 25.0 + 25 * 25 / 500.0 / 25 + 1e-9);
+}
+
+// A dwell is a piece of its own, where and when the tool stands.
+TEST(VerifyCutHistory, DwellsStandWhereTheToolIs) {
+  const CutHistory history =
+      run("G21 G90 G17\nG0 X10 Y10 Z5\nG4 P1\nG1 Z-1 F300\nG1 X50 F1500\nG4 P2\nG4 P3\nG1 X20\nG4 P4\n");
+  std::vector<const CutPiece*> dwells;
+  for (const CutPiece& piece : history.pieces)
+    if (piece.length == 0 && piece.from_z == piece.to_z) dwells.push_back(&piece);
+  ASSERT_EQ(dwells.size(), 4U);
+  const std::vector<std::array<double, 3>> places{{10, 10, 5}, {50, 10, -1}, {50, 10, -1}, {20, 10, -1}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(dwells[i]->seconds, static_cast<double>(i + 1));
+    const CutPiece& d = *dwells[i];
+    for (const auto& at : {std::array{d.from_x, d.from_y, d.from_z}, {d.to_x, d.to_y, d.to_z}})
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(at[k], places[i][k], 1e-9) << i << k;
+    EXPECT_EQ(d.volume(), 0);
+  }
+  EXPECT_EQ(dwells.back(), &history.pieces.back());
+  for (std::size_t i = 1; i < history.pieces.size(); ++i) {
+    const CutPiece &before = history.pieces[i - 1], &piece = history.pieces[i];
+    EXPECT_NEAR(piece.start, before.start + before.seconds, 1e-9) << i;
+  }
+}
+
+TEST(VerifyCutHistory, SaysHowFarItIs) {
+  std::vector<Progress> told;
+  const auto made = cut_history({"p.ngc", kBegin + "G1 X50 F1500\nG1 Y20\nG1 X20\n"}, {"pocket.json", kWide},
+                                tool(6), {}, 1, [&](const Progress& p) { told.push_back(p); });
+  ASSERT_TRUE(made);
+  EXPECT_EQ(told.size(), 1U) << "of four cuts the first";
 }
 
 TEST(VerifyCutHistory, DwellsAreInTheUnitsOfTheControl) {
@@ -178,6 +210,12 @@ TEST(VerifyCutHistory, ARampTakesOffWhatItSinksInto) {
 TEST(VerifyCutHistory, ADrillTakesOffItsCylinder) {
   const CutHistory history = run("G21 G90\nG0 X20 Y20 Z5\nG98 G83 Z-6 R1 Q2 F100\nG80\n");
   EXPECT_NEAR(volume_of(history), kPi * 9 * 6, 1e-4);
+  for (const CutPiece& piece : history.pieces) {
+    EXPECT_GT(piece.seconds, 0);
+    if (piece.volume() > 0) {
+      EXPECT_LE(piece.from_z - piece.to_z, 0.25 + 1e-9);
+    }
+  }
 }
 
 TEST(VerifyCutHistory, NothingIsTakenOffBeyondAnOpenEdge) {
@@ -208,6 +246,64 @@ TEST(VerifyCutHistory, WhatEarlierProgramsCutIsGone) {
       cut_history({"b.ngc", program}, {"pocket.json", kWide}, tool(6), {{{"a.ngc", program}, 6.0}}, 0.25);
   ASSERT_TRUE(made);
   EXPECT_NEAR(volume_of(*made), 0, 1e-6);
+}
+
+// Two holes behind the tool divide the heights, and the slot beside it alone changes what it meets.
+TEST(VerifyCutHistory, LayersOfOneArcAreOne) {
+  const CutHistory history =
+      run("G21 G90 G17\nG0 X5 Y15 Z5\nG1 Z-1 F300\nG1 X65 F1500\nG0 Z5\nG0 X10 Y10\nG1 Z-2 F300\nG0 Z5\nG1 "
+          "Z-3\nG0 Z5\n"
+          "G1 Z-4\nG1 X40 F1500\n");
+  std::size_t found = 0;
+  for (const CutPiece& piece : history.pieces) {
+    if (piece.line != 12 || std::abs(piece.from_x - 14.5) > 1) continue;
+    ++found;
+    ASSERT_EQ(piece.rim.size(), 2U);
+    EXPECT_EQ(piece.rim[0].low_z, -4);
+    EXPECT_EQ(piece.rim[0].high_z, -1);
+    EXPECT_NEAR(piece.rim[0].width, 6, 1e-6);
+    EXPECT_NEAR(piece.rim[1].width, 5, 1e-6);
+  }
+  EXPECT_GT(found, 5U);
+}
+
+TEST(VerifyCutHistory, AWiderToolReachesFarther) {
+  const std::string wide = "G21 G90 G17\nG0 X15 Y15 Z5\nG1 Z-1 F300\nG1 X55 F1500\n";
+  const auto made = cut_history({"b.ngc", "G21 G90 G17\nG0 X20 Y25 Z5\nG1 Z-1 F300\nG1 X50 F1500\n"},
+                                {"pocket.json", kWide}, tool(6), {{{"a.ngc", wide}, 20.0}}, 0.25);
+  ASSERT_TRUE(made) << made.error().message;
+  for (const CutPiece& piece : made->pieces) {
+    if (piece.line != 4 || std::abs(piece.from_x - 35) > 5) continue;
+    EXPECT_NEAR(piece.volume(), 3 * piece.length, 1e-6);
+  }
+  EXPECT_NEAR(volume_of(*made, 4), 30 * 3, 1);
+}
+
+// A plunge from the ground of a slot down meets nothing above it.
+TEST(VerifyCutHistory, APlungeGoesStraightDown) {
+  const CutHistory history =
+      run("G21 G90 G17\nG0 X10 Y10 Z5\nG1 Z-1 F300\nG1 X50 F1500\nG1 X10\nG1 Z-2\nG1 X50\nG1 Z-3\n");
+  double at = -2;
+  std::size_t found = 0;
+  for (const CutPiece& piece : history.pieces) {
+    if (piece.line != 8) continue;
+    EXPECT_NEAR(piece.from_z, at, 1e-9);
+    EXPECT_LT(piece.to_z, piece.from_z);
+    at = piece.to_z, ++found;
+  }
+  EXPECT_EQ(found, 4U);
+  EXPECT_EQ(at, -3);
+  EXPECT_NEAR(volume_of(history, 8), kPi * 9, 1e-4);
+}
+
+TEST(VerifyCutHistory, PiecesAreFromAThousandthToAHundredMillimetres) {
+  const auto with = [](double longest) {
+    return cut_history({"p.ngc", "G21 G90 G17\nG0 X10 Y10 Z5\nG1 Z-0.01 F300\n"}, {"pocket.json", kWide},
+                       tool(6), {}, longest)
+        .has_value();
+  };
+  for (const double longest : {1e-3, 0.25, 100.0}) EXPECT_TRUE(with(longest)) << longest;
+  for (const double longest : {0.99e-3, 100.1, double{NAN}, -1.0}) EXPECT_FALSE(with(longest)) << longest;
 }
 
 TEST(VerifyCutHistory, PiecesOfNoLengthAreRefused) {

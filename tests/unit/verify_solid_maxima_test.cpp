@@ -154,6 +154,9 @@ TEST(SolidMaxima, TermsNeedAPointABodyAndAMaximum) {
     files.result["certificate"]["trees"][0]["nodes"][0][1] = Json::array({"near", part, body, 1});
     EXPECT_TRUE(says(files.told(), "has a term that is none")) << part << " " << body << files.told();
   }
+  Deep off_its_triangle;
+  off_its_triangle.on_part = {2, 0.75, 0.5};
+  EXPECT_NE(off_its_triangle.told(), "confirmed");
   // A result without demands has no maximum that a body could stand for, nor has one without maxima.
   SolidResultFiles without = Deep{}.files();
   without.result["demands"] = nullptr, without.features.reset();
@@ -259,6 +262,10 @@ TEST(SolidMaxima, ATermOfARimProvesNothing) {
   nearer.on_part = {10, 0, 0.9500000001};
   EXPECT_TRUE(says(nearer.told(), "has a term of the part's triangle 10 in the rim of a finished face"))
       << nearer.told();
+  Rimmed of_top;
+  of_top.on_part = {2, 0.25, 0.5};
+  EXPECT_TRUE(says(of_top.told(), "has a term of the part's triangle 2, which is as cast or finished"))
+      << of_top.told();
 }
 
 TEST(SolidMaxima, TheFileOfFeaturesSaysOneThing) {

@@ -126,7 +126,7 @@ class Surroundings {
   }
 
   /// A part of the rim that is engaged at a height is engaged at every lower one, so that layers whose rim is
-  /// as wide are one.
+  /// as wide are one, as a single one is.
   void divide(const std::vector<double>& heights, std::size_t first, std::size_t last, const Stroke& so_far,
               std::vector<State>& states, std::vector<EngagedLayer>& layers) {
     ask();
@@ -134,7 +134,7 @@ class Surroundings {
     if (low.arcs.empty()) return;
     const State& high = state_between(heights[last], heights[last + 1], so_far, states[last]);
     const double thick = heights[last + 1] - heights[first], differ = low.width - high.width;
-    if (first == last || differ <= kSameWidth || differ * thick <= kThinLayer) {
+    if (differ * thick <= kThinLayer) {
       add_layers(heights[first], heights[last + 1], low, layers);
       return;
     }
@@ -214,7 +214,7 @@ class HistoryMaker {
       piece.start =
           (before_move < moves_.size() ? clock_.seconds_at(before_move, 0) : clock_.seconds()) + waited_;
       piece.seconds = dwells_[dwell_].seconds;
-      if (before_move > 0 || !moves_.empty()) {
+      if (!moves_.empty()) {
         const Move& m = moves_[before_move == 0 ? 0 : before_move - 1];
         const Place at = before_move == 0 ? m.from : m.to;
         piece.from_x = piece.to_x = at.x, piece.from_y = piece.to_y = at.y;
@@ -243,8 +243,8 @@ class HistoryMaker {
   void add_air(double begin, double end, Place to) {
     if (!(end > begin)) return;
     const Move& move = moves_[move_];
-    const CutPiece* before = made_.pieces.empty() ? nullptr : &made_.pieces.back();
-    const Place from = begin > 0 && before != nullptr ? Place{before->to_x, before->to_y} : move.from;
+    const Place from =
+        made_.pieces.empty() ? move.from : Place{made_.pieces.back().to_x, made_.pieces.back().to_y};
     const auto z = [&](double share) { return move.from_z + share * (move.to_z - move.from_z); };
     made_.pieces.push_back(piece_of(begin, end, from, to, z(begin), z(end)));
   }

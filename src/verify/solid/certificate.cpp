@@ -250,8 +250,7 @@ class TreeCheck {
     const PartPoint* const point = tables_.part_point(term.part);
     const FarBody* const body = tables_.body(term.blank / 6);
     if (point == nullptr || body == nullptr) return false;
-    const double within =
-        bounds_ == nullptr || bounds_->within.empty() ? kInfinity : bounds_->within[point->triangle];
+    const double within = bounds_ == nullptr ? kInfinity : bounds_->within[point->triangle];
     if (!(within < kInfinity) || body->apart < Fraction(within)) {
       findings_.push_back(fmt::format(
           "{} has a body {} mm off the blank's surface, and the part's triangle {} may be {} from it", name(),

@@ -20,8 +20,7 @@ struct PartBounds {
   std::vector<std::uint32_t> of;
   /// The place of the least one; none where something is as cast.
   std::optional<std::uint32_t> least;
-  /// No point of each triangle may be farther from the blank's surface, mm; infinite where it may. Empty
-  /// where all may.
+  /// No point of each triangle may be farther from the blank's surface, mm; infinite where it may.
   std::vector<double> within;
   /// Points in them demand nothing; null where there are none.
   const Rims* rims = nullptr;

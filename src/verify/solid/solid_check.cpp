@@ -118,6 +118,8 @@ class SolidCheck {
   [[nodiscard]] bool keeps_maximum(std::size_t feature) const;
   [[nodiscard]] bool keeps_maxima() const;
   [[nodiscard]] std::optional<SolidDemand> demand_of(std::size_t feature) const;
+  /// The triangles of the part that are of a feature, in their order.
+  [[nodiscard]] std::vector<std::uint32_t> triangles_of(const SolidMesh& part, std::size_t feature) const;
   [[nodiscard]] Rims rims_of(const SolidMesh& part) const;
   [[nodiscard]] PartBounds bounds_of(const SolidMesh& part, const Rims& rims) const;
   void check_contacts(const SolidPair& pair, const SolidMesh& part, const SolidMesh& blank);
@@ -255,6 +257,13 @@ bool SolidCheck::keeps_maxima() const {
   return true;
 }
 
+std::vector<std::uint32_t> SolidCheck::triangles_of(const SolidMesh& part, std::size_t feature) const {
+  std::vector<std::uint32_t> triangles;
+  for (std::uint32_t t = 0; t < part.triangles.size(); ++t)
+    if (demands_->feature_of[part.numbers[t]] == feature + 1) triangles.push_back(t);
+  return triangles;
+}
+
 /// Holds how far the points of features with a maximum, or that are finished, are said to be from the blank's
 /// surface against them.
 void SolidCheck::check_nears(const SolidMesh& part, const SolidMesh& blank) {
@@ -265,9 +274,7 @@ void SolidCheck::check_nears(const SolidMesh& part, const SolidMesh& blank) {
     const SolidFeature& feature = demands_->features[k];
     const auto& largest = d_.demands->features[k].largest;
     if (!feature.within || !largest) continue;
-    std::vector<std::uint32_t> triangles;
-    for (std::uint32_t t = 0; t < part.triangles.size(); ++t)
-      if (demands_->feature_of[part.numbers[t]] == k + 1) triangles.push_back(t);
+    const std::vector<std::uint32_t> triangles = triangles_of(part, k);
     if (triangles.empty()) continue;
     const Span said = enclosed(*largest);
     const char* const what = feature.finished ? "distance from the blank's surface" : "largest allowance";
@@ -522,9 +529,7 @@ Rims SolidCheck::rims_of(const SolidMesh& part) const {
   Rims made(part);
   for (std::size_t k = 0; k < demands_->features.size(); ++k) {
     if (!(demands_->features[k].rim > 0)) continue;
-    std::vector<std::uint32_t> triangles;
-    for (std::uint32_t t = 0; t < part.triangles.size(); ++t)
-      if (demands_->feature_of[part.numbers[t]] == k + 1) triangles.push_back(t);
+    const std::vector<std::uint32_t> triangles = triangles_of(part, k);
     if (!triangles.empty()) made.add(triangles, demands_->features[k].rim);
   }
   return made;
