@@ -22,8 +22,9 @@ namespace {
 using cases::block;
 using cases::checked;
 
-/// What comes no nearer than so much of the width may be kept: 1 - 2^-11, or a piece that was cut very often.
-constexpr double kNearly = 0.99;
+/// What comes no nearer than 1 - 2^-11 of the width may be kept; a piece that was cut very often comes a
+/// little nearer.
+constexpr double kNearly = 0.98;
 
 double distance_of(const Near3& p, const PlacedSolid& mesh) {
   const Vec3 at{just(p[0]), just(p[1]), just(p[2])};

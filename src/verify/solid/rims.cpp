@@ -73,15 +73,17 @@ class Rims::Cut {
     const BoxTree one({box_of(at)});
     const double width = rim_.width;
     double limit = width;
-    bool near = false, in_rim = false;
+    double nearest = kInfinity, deepest = kInfinity;  // of the piece, and of its corners
+    bool in_rim = false;
     int most = 0;
     std::uint32_t by = 0;
     one.visit_pairs(rim_.placed.tree(), limit, [&](std::uint32_t, std::uint32_t g) {
       const Triangle3 face = rim_.placed.triangle(g);
-      near = near || distance(at, face, width).low < kNearly * width;
+      nearest = std::min(nearest, distance(at, face, width).low);
       int all = 0, well = 0;
       for (const Near3& corner : piece) {
         const double from = far(corner, face) + off_;
+        deepest = std::min(deepest, from);
         all += from < width ? 1 : 0, well += from < kWorthACut * width ? 1 : 0;
       }
       if (well > most) most = well, by = g;
@@ -89,13 +91,15 @@ class Rims::Cut {
       if (in_rim) limit = -kInfinity;
     });
     if (in_rim) return;
-    if (!near || cuts == kMostCuts) return rest_.push_back(piece);
+    if (nearest >= kNearly * width || cuts == kMostCuts) return rest_.push_back(piece);
     const auto longest = [](const Piece& t) {
       return std::max({apart(t[0], t[1]), apart(t[1], t[2]), apart(t[2], t[0])});
     };
     const Triangle3 face = rim_.placed.triangle(by);
     const auto low = [](const Vec3& p) { return Near3{p[0].low, p[1].low, p[2].low}; };
-    if (most == 0 ||
+    // A cut begins at a corner: it takes off little of a piece that lies deeper in the rim between two of
+    // them.
+    if (2 * (width - deepest) < width - nearest ||
         longest(piece) > kMuchLonger * (width + longest({low(face[0]), low(face[1]), low(face[2])})))
       return halve(piece, cuts);
     cut(piece, face, cuts);
