@@ -92,6 +92,16 @@ TEST(SolidMaxima, ABodyHasToStayAwayFromTheBlank) {
   EXPECT_TRUE(says(close.told(), "and the part's triangle 2 may be 0.75 mm from it")) << close.told();
 }
 
+// A point that only touches its body may lie there: terms of the place alone have to be below 0.
+TEST(SolidMaxima, APointThatTouchesItsBodyIsNotShutOut) {
+  Deep touching;  // raised by half a millimetre, the most there is
+  touching.maximum = touching.largest = 0.5, touching.at[2] = 0.5, touching.margin = 0.5;
+  touching.body[11] = 5.5, touching.body[12] = 0.5;
+  SolidResultFiles files = touching.files();
+  files.result["certificate"]["trees"][0]["nodes"][0] = Json::array({Json::array({"near", 0, 5, 1})});
+  EXPECT_TRUE(says(files.told(), "do not prove")) << files.told();
+}
+
 TEST(SolidMaxima, ThePointHasToStayInsideOnTheOtherSides) {
   // Moved by up to 0.5 it leaves a body that ends at x = -2.9, or that begins at x = -2.
   for (const double from : {-5.0, -2.0}) {

@@ -263,9 +263,10 @@ class TreeCheck {
     return true;
   }
 
-  /// Says whether it may be of a point that demands nothing.
+  /// Says whether it may be of a point that demands nothing. A ball of the part has no bound where there are
+  /// rims.
   [[nodiscard]] bool in_rim(const LeafTerm& term, std::uint32_t triangle) const {
-    if (bounds_->rims == nullptr || is_of_part_ball(term.kind)) return false;
+    if (bounds_->rims == nullptr) return false;
     return is_of_point(term.kind) ? !bounds_->rims->spare(as<Fraction>(term.part_ball->centre))
                                   : !bounds_->rims->spare(triangle);
   }
