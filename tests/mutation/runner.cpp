@@ -24,6 +24,7 @@
 #include <string>
 
 #include "mutation/mutants.hpp"
+#include "support/prepared.hpp"
 
 namespace lekalo::mutants {
 
@@ -118,6 +119,7 @@ int main(int argc, char** argv) {
     return 1;
   std::string folder = (fs::temp_directory_path() / "lekalo-mutants-XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr || setenv("TMPDIR", folder.c_str(), 1) != 0) return 1;
+  for (const auto& make : lekalo::cases::preparations()) make();
   for (std::string line; std::getline(std::cin, line);)
     std::cout << answer(std::istringstream(line), folder) << std::endl;
   fs::remove_all(folder);

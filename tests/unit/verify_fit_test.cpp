@@ -14,6 +14,7 @@
 #include "lekalo/verify/claims.hpp"
 #include "support/cases.hpp"
 #include "support/json.hpp"
+#include "support/prepared.hpp"
 #include "verify/fit/rings.hpp"
 
 namespace lekalo::verify_fit_test {
@@ -66,17 +67,15 @@ TEST(VerifyFit, WhatManyFitsSayOfMeansHolds) {
   ASSERT_TRUE(jobs::fit(rings)) << jobs::fit(rings).error().message;
 }
 
-// Results are made before any test runs: each trial of a mutant is a child of a process that has them.
-
 /// An elastic fit: its finite elements are quick, and nearly all of its figures are rechecked.
-const Json kElastic = [] {
+const cases::Prepared<Json> kElastic([] {
   jobs::FitJob job = article();
   job.material.yield_mpa = 2000;
   return Json::parse(jobs::fit(job).value().json);
-}();
+});
 
 /// A hub that yields and hardens, and a second one about it.
-const Json kHardening = [] {
+const cases::Prepared<Json> kHardening([] {
   jobs::FitJob job;
   job.diameter = 18, job.interference = 0.04, job.hub_outer = 30, job.length = 9, job.shaft_length = 18;
   job.material.name = "C45", job.material.yield_mpa = 300, job.material.hardening_mpa = 2000;
@@ -84,7 +83,7 @@ const Json kHardening = [] {
   job.shaft_material->yield_mpa = 900;
   job.more = {{40, 0.01}};
   return Json::parse(jobs::fit(job).value().json);
-}();
+});
 
 bool refuted(const Json& honest, const std::function<void(Json&)>& change) {
   Json document = honest;
@@ -163,28 +162,28 @@ std::size_t no_field_can_be_another(const Json& honest, const std::string& of) {
 }
 
 TEST(VerifyFit, NoFieldCanBeAbsentOrAnother) {
-  for (const Json* each : {&kElastic, &kHardening}) {
+  for (const Json* each : {&*kElastic, &*kHardening}) {
     EXPECT_FALSE(refuted(*each, [](Json&) {}));
     EXPECT_GT(no_field_can_be_another(*each, ""), 25U);
   }
 }
 
 TEST(VerifyFit, NoFieldOfTheFirstCaseCanBeAbsentOrAnother) {
-  EXPECT_GT(no_field_can_be_another(kElastic, "/cases/0/"), 50U);
+  EXPECT_GT(no_field_can_be_another(*kElastic, "/cases/0/"), 50U);
 }
 
 TEST(VerifyFit, NoFieldOfTheLastCaseCanBeAbsentOrAnother) {
-  EXPECT_GT(no_field_can_be_another(kElastic, "/cases/2/"), 50U);
+  EXPECT_GT(no_field_can_be_another(*kElastic, "/cases/2/"), 50U);
 }
 
 TEST(VerifyFit, NoFieldOfAHardeningCaseCanBeAbsentOrAnother) {
-  EXPECT_GT(no_field_can_be_another(kHardening, "/cases/"), 50U);
+  EXPECT_GT(no_field_can_be_another(*kHardening, "/cases/"), 50U);
 }
 
 TEST(VerifyFit, NoFigureCanBeAnother) {
-  for (const Json* each : {&kElastic, &kHardening}) {
+  for (const Json* each : {&*kElastic, &*kHardening}) {
     const Json& honest = *each;
-    const bool all = each == &kElastic;
+    const bool all = each == &*kElastic;
     std::size_t count = 0;
     each_path(honest, "", [&](const std::string& path) {
       if (!is_number(honest.at(path)) || is_free(path)) return;
@@ -234,48 +233,48 @@ TEST(VerifyFit, LiesAreRefuted) {
                                                            {"/rings/0/name", "the hub"},
                                                            {"/rings/1/name", "hub"},
                                                            {"/format/name", "lekalo-fat"}})
-    EXPECT_TRUE(refuted(kElastic, [&](Json& d) { d.at(lie.first) = lie.second; })) << lie.first;
-  EXPECT_TRUE(refuted(kElastic, [](Json& d) { d["cases"].erase(1); }));
-  EXPECT_TRUE(refuted(kElastic, [](Json& d) {
+    EXPECT_TRUE(refuted(*kElastic, [&](Json& d) { d.at(lie.first) = lie.second; })) << lie.first;
+  EXPECT_TRUE(refuted(*kElastic, [](Json& d) { d["cases"].erase(1); }));
+  EXPECT_TRUE(refuted(*kElastic, [](Json& d) {
     d["fit"] = nullptr;
     d["cases"][1] = d["cases"][2];
   })) << "the case between two stated interferences is their mean";
-  EXPECT_TRUE(refuted(kElastic, [](Json& d) {
+  EXPECT_TRUE(refuted(*kElastic, [](Json& d) {
     d["fit"] = nullptr;
     d["cases"][0] = d["cases"][2], d["cases"][1] = d["cases"][2];
   })) << "the first is the least";
-  EXPECT_TRUE(refuted(kElastic, [](Json& d) { d["cases"].push_back(d["cases"][2]); }));
-  EXPECT_TRUE(refuted(kHardening, [](Json& d) { d["cases"].push_back(d["cases"][0]); }));
-  EXPECT_TRUE(refuted(kHardening, [](Json& d) { d["cases"] = Json(std::vector<Json>{}); }));
+  EXPECT_TRUE(refuted(*kElastic, [](Json& d) { d["cases"].push_back(d["cases"][2]); }));
+  EXPECT_TRUE(refuted(*kHardening, [](Json& d) { d["cases"].push_back(d["cases"][0]); }));
+  EXPECT_TRUE(refuted(*kHardening, [](Json& d) { d["cases"] = Json(std::vector<Json>{}); }));
   EXPECT_TRUE(
-      refuted(kElastic, [](Json& d) { d["cases"][0]["seats"].push_back(d["cases"][0]["seats"][0]); }));
+      refuted(*kElastic, [](Json& d) { d["cases"][0]["seats"].push_back(d["cases"][0]["seats"][0]); }));
   EXPECT_TRUE(
-      refuted(kElastic, [](Json& d) { d["cases"][0]["stresses"].push_back(d["cases"][0]["stresses"][1]); }));
-  EXPECT_TRUE(refuted(kElastic, [](Json& d) { d["friction"].push_back(1); }));
+      refuted(*kElastic, [](Json& d) { d["cases"][0]["stresses"].push_back(d["cases"][0]["stresses"][1]); }));
+  EXPECT_TRUE(refuted(*kElastic, [](Json& d) { d["friction"].push_back(1); }));
   for (const std::size_t row : {0U, 1U, 5U, 44U})
-    EXPECT_TRUE(refuted(kElastic, [&](Json& d) { d["cases"][0]["profile"].erase(row); })) << row;
+    EXPECT_TRUE(refuted(*kElastic, [&](Json& d) { d["cases"][0]["profile"].erase(row); })) << row;
 }
 
 TEST(VerifyFit, WhatYieldsGoesWithTheState) {
-  EXPECT_EQ(kHardening.at("/cases/0/state").get<std::string>(), "plastic");
+  EXPECT_EQ(kHardening->at("/cases/0/state").get<std::string>(), "plastic");
   const char* const state = "/cases/0/state";
-  EXPECT_TRUE(refuted(kHardening, [&](Json& d) { d.at(state) = "elastic"; }));
-  EXPECT_FALSE(refuted(kHardening, [&](Json& d) { d.at(state) = "full"; })) << "it hardens";
+  EXPECT_TRUE(refuted(*kHardening, [&](Json& d) { d.at(state) = "elastic"; }));
+  EXPECT_FALSE(refuted(*kHardening, [&](Json& d) { d.at(state) = "full"; })) << "it hardens";
   // Stresses above the yield stress are there where the metal yields and hardens alone.
-  EXPECT_FALSE(refuted(kHardening, [](Json& d) { d.at("/cases/0/stresses/1/largest_mises_mpa") = 1000; }));
-  EXPECT_TRUE(refuted(kHardening, [](Json& d) { d.at("/cases/0/stresses/0/largest_mises_mpa") = 1000; }));
-  EXPECT_FALSE(refuted(kHardening, [](Json& d) { d.at("/cases/0/stresses/0/largest_mises_mpa") = 900; }));
+  EXPECT_FALSE(refuted(*kHardening, [](Json& d) { d.at("/cases/0/stresses/1/largest_mises_mpa") = 1000; }));
+  EXPECT_TRUE(refuted(*kHardening, [](Json& d) { d.at("/cases/0/stresses/0/largest_mises_mpa") = 1000; }));
+  EXPECT_FALSE(refuted(*kHardening, [](Json& d) { d.at("/cases/0/stresses/0/largest_mises_mpa") = 900; }));
   EXPECT_TRUE(
-      refuted(kHardening, [](Json& d) { d.at("/cases/0/stresses/0/largest_mises_mpa") = 900.00001; }));
-  EXPECT_TRUE(refuted(kHardening, [](Json& d) { d.at("/cases/0/stresses/0/plastic_part") = 0.1; }));
+      refuted(*kHardening, [](Json& d) { d.at("/cases/0/stresses/0/largest_mises_mpa") = 900.00001; }));
+  EXPECT_TRUE(refuted(*kHardening, [](Json& d) { d.at("/cases/0/stresses/0/plastic_part") = 0.1; }));
   for (const double part : {0.0, 1.0})
-    EXPECT_FALSE(refuted(kHardening, [&](Json& d) { d.at("/cases/0/stresses/1/plastic_part") = part; }))
+    EXPECT_FALSE(refuted(*kHardening, [&](Json& d) { d.at("/cases/0/stresses/1/plastic_part") = part; }))
         << part;
   for (const double part : {-0.001, 1.001})
-    EXPECT_TRUE(refuted(kHardening, [&](Json& d) { d.at("/cases/0/stresses/1/plastic_part") = part; }))
+    EXPECT_TRUE(refuted(*kHardening, [&](Json& d) { d.at("/cases/0/stresses/1/plastic_part") = part; }))
         << part;
-  EXPECT_TRUE(refuted(kHardening, [](Json& d) { d.at("/cases/0/stresses/1/middle_mises_mpa") = -1; }));
-  EXPECT_FALSE(refuted(kHardening, [](Json& d) { d.at("/cases/0/stresses/1/middle_mises_mpa") = 0; }));
+  EXPECT_TRUE(refuted(*kHardening, [](Json& d) { d.at("/cases/0/stresses/1/middle_mises_mpa") = -1; }));
+  EXPECT_FALSE(refuted(*kHardening, [](Json& d) { d.at("/cases/0/stresses/1/middle_mises_mpa") = 0; }));
 }
 
 TEST(VerifyFit, RingsAreThoseOfAFit) {
@@ -291,36 +290,37 @@ TEST(VerifyFit, RingsAreThoseOfAFit) {
                                                              {"/rings/1/hardening_mpa", -1},
                                                              {"/rings/1/expansion_per_k", -1}})
     EXPECT_NE(
-        said(kElastic, [&, at = path, to = value](Json& d) { d.at(at) = to; }).find("is no ring of a fit"),
+        said(*kElastic, [&, at = path, to = value](Json& d) { d.at(at) = to; }).find("is no ring of a fit"),
         std::string::npos)
         << path;
-  EXPECT_NE(said(kElastic, [](Json& d) { d["rings"].erase(1); }).find("fewer than two"), std::string::npos);
-  EXPECT_NE(said(kElastic, [](Json& d) { d.at("/rings/1/length_mm") = 54.1; }).find("longer than the shaft"),
+  EXPECT_NE(said(*kElastic, [](Json& d) { d["rings"].erase(1); }).find("fewer than two"), std::string::npos);
+  EXPECT_NE(said(*kElastic, [](Json& d) { d.at("/rings/1/length_mm") = 54.1; }).find("longer than the shaft"),
             std::string::npos);
-  EXPECT_NE(said(kHardening, [](Json& d) { d.at("/rings/2/length_mm") = 8; }).find("as long as the hub"),
+  EXPECT_NE(said(*kHardening, [](Json& d) { d.at("/rings/2/length_mm") = 8; }).find("as long as the hub"),
             std::string::npos);
-  EXPECT_NE(said(kElastic, [](Json& d) { d.at("/diameter_mm") = 18.001; }).find("not that of the shaft"),
+  EXPECT_NE(said(*kElastic, [](Json& d) { d.at("/diameter_mm") = 18.001; }).find("not that of the shaft"),
             std::string::npos);
-  EXPECT_NE(said(kHardening, [](Json& d) { d.at("/rings/2/name") = "the hub"; }).find("ring 2"),
+  EXPECT_NE(said(*kHardening, [](Json& d) { d.at("/rings/2/name") = "the hub"; }).find("ring 2"),
             std::string::npos);
   for (const char* path : {"/rings/1/poisson", "/rings/1/hardening_mpa", "/rings/1/expansion_per_k"})
-    EXPECT_EQ(said(kElastic, [&](Json& d) { d.at(path) = 0; }).find("is no ring of a fit"), std::string::npos)
+    EXPECT_EQ(said(*kElastic, [&](Json& d) { d.at(path) = 0; }).find("is no ring of a fit"),
+              std::string::npos)
         << path;
 }
 
 // A hub from 1 mm beside the left end of its shaft on.
-const Json kBesideAnEnd = [] {
+const cases::Prepared<Json> kBesideAnEnd([] {
   jobs::FitJob job = article();
   job.fit.clear(), job.diameter = 18, job.interference = 0.03, job.from_end = 1;
   job.material.yield_mpa = 2000;
   return Json::parse(jobs::fit(job).value().json);
-}();
+});
 
 TEST(VerifyFit, NoHubHangsOverAnEnd) {
-  ASSERT_FALSE(refuted(kBesideAnEnd, [](Json&) {}));
-  const double middle = kBesideAnEnd.at("/rings/0/middle_mm").get<double>();
+  ASSERT_FALSE(refuted(*kBesideAnEnd, [](Json&) {}));
+  const double middle = kBesideAnEnd->at("/rings/0/middle_mm").get<double>();
   const auto hangs = [&](double by) {
-    return said(kBesideAnEnd, [&](Json& d) {
+    return said(*kBesideAnEnd, [&](Json& d) {
              d.at("/rings/0/middle_mm") = middle * (1 + by / std::abs(middle));
            }).find("hangs over an end") != std::string::npos;
   };
@@ -341,8 +341,8 @@ TEST(VerifyFit, MeansAreOfWholeElements) {
         }
     });
   };
-  EXPECT_NE(without(kElastic), "");
-  EXPECT_NE(without(kBesideAnEnd), "");
+  EXPECT_NE(without(*kElastic), "");
+  EXPECT_NE(without(*kBesideAnEnd), "");
 }
 
 // The sentence says why, so that no condition stands for another.
@@ -352,21 +352,21 @@ TEST(VerifyFit, EveryReasonIsSaid) {
     return sentence.find(wanted) != std::string::npos ? "" : path + ": " + sentence;
   };
   for (const char* hole : {"x8", "h8", "a11", "H30", ""})
-    EXPECT_EQ(says(kElastic, "/fit/hole", hole, "has no limits"), "");
+    EXPECT_EQ(says(*kElastic, "/fit/hole", hole, "has no limits"), "");
   for (const char* shaft : {"x", "H7", "Z8", "z30", ""})
-    EXPECT_EQ(says(kElastic, "/fit/shaft", shaft, "has no limits"), "");
-  EXPECT_EQ(says(kElastic, "/fit/shaft", "a11", "the limits of"), "");
-  EXPECT_EQ(says(kElastic, "/cases/0/interference_um", 0, "interference_um is not above 0"), "");
-  EXPECT_EQ(says(kHardening, "/cases/0/seats/1/interference_um", 0, "interference_um is not above 0"), "");
-  EXPECT_EQ(says(kElastic, "/fit/hole_limits_um", nullptr, "the limits of"), "");
-  EXPECT_EQ(says(kElastic, "/fit/shaft_limits_um", nullptr, "the limits of"), "");
+    EXPECT_EQ(says(*kElastic, "/fit/shaft", shaft, "has no limits"), "");
+  EXPECT_EQ(says(*kElastic, "/fit/shaft", "a11", "the limits of"), "");
+  EXPECT_EQ(says(*kElastic, "/cases/0/interference_um", 0, "interference_um is not above 0"), "");
+  EXPECT_EQ(says(*kHardening, "/cases/0/seats/1/interference_um", 0, "interference_um is not above 0"), "");
+  EXPECT_EQ(says(*kElastic, "/fit/hole_limits_um", nullptr, "the limits of"), "");
+  EXPECT_EQ(says(*kElastic, "/fit/shaft_limits_um", nullptr, "the limits of"), "");
 }
 
 // A ring that yields and does not harden stays below its yield stress; no ring that does not harden is
 // plastic all through in equilibrium with more.
 TEST(VerifyFit, YieldAndHardeningGoTogether) {
   const auto soft = [](std::size_t hardens, double largest, const char* state) {
-    return said(kHardening, [&](Json& d) {
+    return said(*kHardening, [&](Json& d) {
       for (std::size_t i = 0; i < 3; ++i)
         if (i != hardens) d["rings"][i]["hardening_mpa"] = 0;
       Json& stress = d.at("/cases/0/stresses/1");
@@ -388,7 +388,7 @@ TEST(VerifyFit, YieldAndHardeningGoTogether) {
 // A hub that does not expand cannot be shrunk on, whatever clearance is wished.
 TEST(VerifyFit, ShrinkingTakesAHubThatExpands) {
   const auto shrunk = [](double expansion, bool known, double off) {
-    return said(kElastic, [&](Json& d) {
+    return said(*kElastic, [&](Json& d) {
              d.at("/rings/1/expansion_per_k") = expansion;
              for (std::size_t i = 0; i < 3; ++i) {
                Json& value = d["cases"][i]["shrink_difference_k"];
@@ -399,7 +399,7 @@ TEST(VerifyFit, ShrinkingTakesAHubThatExpands) {
              }
            }).find("shrink_difference_k") != std::string::npos;
   };
-  const double expands = kElastic.at("/rings/1/expansion_per_k").get<double>();
+  const double expands = kElastic->at("/rings/1/expansion_per_k").get<double>();
   EXPECT_FALSE(shrunk(expands, true, 0));
   EXPECT_TRUE(shrunk(expands, true, 1.5e-5));
   EXPECT_TRUE(shrunk(expands, false, 0));
@@ -409,7 +409,7 @@ TEST(VerifyFit, ShrinkingTakesAHubThatExpands) {
 
 TEST(VerifyFit, ProfilesHaveRowsOfWholeElements) {
   const auto of_rows = [](std::size_t count) {
-    return said(kElastic, [&](Json& d) {
+    return said(*kElastic, [&](Json& d) {
              Json& rows = d.at("/cases/0/profile");
              while (rows.size() > count) rows.erase(rows.size() - 1);
            }).find("has not rows of whole elements") != std::string::npos;
@@ -423,26 +423,26 @@ TEST(VerifyFit, EveryRuleOfRowsIsSaid) {
     const std::string sentence = said(honest, [&](Json& d) { change(d.at("/cases/0/profile")); });
     EXPECT_NE(sentence.find(wanted), std::string::npos) << sentence;
   };
-  for (const Json* each : {&kElastic, &kBesideAnEnd})
+  for (const Json* each : {&*kElastic, &*kBesideAnEnd})
     says(*each, "does not go from the middle", [](Json& rows) { rows.erase(1), rows.erase(0); });
-  says(kElastic, "to the right end of the shaft",
+  says(*kElastic, "to the right end of the shaft",
        [](Json& rows) { rows.erase(rows.size() - 1), rows.erase(rows.size() - 1); });
-  says(kBesideAnEnd, "has no row in the middle of the hub", [](Json& rows) {
+  says(*kBesideAnEnd, "has no row in the middle of the hub", [](Json& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (rows[i]["z_mm"].get<double>() == 0) rows[i]["z_mm"] = 1e-9;
   });
-  says(kElastic, "is not in order",
+  says(*kElastic, "is not in order",
        [](Json& rows) { rows[1]["z_mm"] = rows[0]["z_mm"], rows[2]["z_mm"] = rows[0]["z_mm"]; });
-  says(kElastic, "not in the middle of its neighbours",
+  says(*kElastic, "not in the middle of its neighbours",
        [](Json& rows) { rows[1]["z_mm"] = rows[1]["z_mm"].get<double>() + 1e-5; });
   for (const char* key : {"shaft_um", "hub_um", "hub_bore_um", "bore_um"})
-    says(kElastic, "a row of other surfaces than there are", [&](Json& rows) { rows[2][key] = nullptr; });
+    says(*kElastic, "a row of other surfaces than there are", [&](Json& rows) { rows[2][key] = nullptr; });
 }
 
 // An element touches where its three rows do.
 TEST(VerifyFit, TouchingLengthsAreOfWholeElements) {
   const auto opened = [](double z, std::size_t more) {
-    return said(kElastic, [&](Json& d) {
+    return said(*kElastic, [&](Json& d) {
              Json& rows = d.at("/cases/0/profile");
              for (std::size_t i = 0; i + more < rows.size(); ++i)
                if (rows[i]["z_mm"].get<double>() == z) {
@@ -475,46 +475,46 @@ jobs::FitJob stated(double interference) {
   return job;
 }
 
-const std::vector<Turned> kTurned = [] {
+const cases::Prepared<std::vector<Turned>> kTurned([] {
   std::vector<Turned> all;
   for (const fit::Surface surface : {fit::Surface::outside, fit::Surface::bore, fit::Surface::seat})
     all.push_back(turned(stated(0.04), surface));
   return all;
-}();
-const std::vector<Turned> kTurnedBesideAnEnd = [] {
+});
+const cases::Prepared<std::vector<Turned>> kTurnedBesideAnEnd([] {
   jobs::FitJob job = stated(0.03);
   job.from_end = 1;
   return std::vector{turned(job, fit::Surface::bore), turned(job, fit::Surface::seat)};
-}();
-const Turned kSeatOfANamedFit = [] {
+});
+const cases::Prepared<Turned> kSeatOfANamedFit([] {
   jobs::FitJob job = article();
   job.bore = 0;
   return turned(job, fit::Surface::seat);
-}();
-const Turned kRoughSeat = [] {
+});
+const cases::Prepared<Turned> kRoughSeat([] {
   jobs::FitJob job = stated(0.05);
   job.bore = 0, job.roughness_um = {3, 4};
   return turned(job, fit::Surface::seat);
-}();
+});
 
-const Turned kFanuc = [] {
+const cases::Prepared<Turned> kFanuc([] {
   jobs::FitJob job = stated(0.04);
   job.turning.control = fit::Lathe::fanuc, job.turning.radius = true;
   return turned(job, fit::Surface::outside);
-}();
+});
 // The shaft ends so little beyond the hub that rows there have one written place.
-const Turned kHardlyLonger = [] {
+const cases::Prepared<Turned> kHardlyLonger([] {
   jobs::FitJob job = stated(0.04);
   job.shaft_length = job.length + 0.0004;
   return turned(job, fit::Surface::bore);
-}();
+});
 /// Corrections without files: nothing else says what the profile is.
-const std::vector<Turned> kTurnedAlone = [] {
+const cases::Prepared<std::vector<Turned>> kTurnedAlone([] {
   std::vector<Turned> all;
   for (const fit::Surface surface : {fit::Surface::outside, fit::Surface::bore, fit::Surface::seat})
     all.push_back(turned(stated(0.04), surface, false));
   return all;
-}();
+});
 
 /// What is said of a changed result with the files it has.
 std::string said_of(const Turned& turned, const std::function<void(Json&)>& change) {
@@ -531,7 +531,7 @@ std::string said_of(const Turned& turned, const std::function<void(Json&)>& chan
 }
 
 TEST(VerifyFit, ProfilesWithoutFilesAreHeldAgainstTheGrowths) {
-  for (const Turned& each : kTurnedAlone) {
+  for (const Turned& each : *kTurnedAlone) {
     EXPECT_EQ(said_of(each, [](Json&) {}), "");
     for (const char* key : {"diameter_mm", "z_mm"})
       for (const double by : {-0.01, 0.01}) {
@@ -551,10 +551,10 @@ TEST(VerifyFit, WhatRemainsIsACylinderAtTheMeanInterference) {
              d["correction"]["remains"][of]["after_um"] = after;
            }).find("after_um is no cylinder") != std::string::npos;
   };
-  for (const double after : {-0.1, 1.01, 1.5}) EXPECT_TRUE(no_cylinder(kTurned[0], 0, after)) << after;
-  for (const double after : {0.0, 0.99}) EXPECT_FALSE(no_cylinder(kTurned[0], 0, after)) << after;
-  EXPECT_TRUE(no_cylinder(kSeatOfANamedFit, 1, 5));
-  for (const std::size_t end : {0U, 2U}) EXPECT_FALSE(no_cylinder(kSeatOfANamedFit, end, 5));
+  for (const double after : {-0.1, 1.01, 1.5}) EXPECT_TRUE(no_cylinder(kTurned->front(), 0, after)) << after;
+  for (const double after : {0.0, 0.99}) EXPECT_FALSE(no_cylinder(kTurned->front(), 0, after)) << after;
+  EXPECT_TRUE(no_cylinder(*kSeatOfANamedFit, 1, 5));
+  for (const std::size_t end : {0U, 2U}) EXPECT_FALSE(no_cylinder(*kSeatOfANamedFit, end, 5));
 }
 
 TEST(VerifyFit, EveryRuleOfCorrectionsIsSaid) {
@@ -562,19 +562,20 @@ TEST(VerifyFit, EveryRuleOfCorrectionsIsSaid) {
     const std::string sentence = said_of(turned, change);
     EXPECT_NE(sentence.find(wanted), std::string::npos) << sentence;
   };
-  says(kSeatOfANamedFit, "of a bore that is not there", [](Json& d) { d["correction"]["surface"] = "bore"; });
-  says(kSeatOfANamedFit, "of another case", [](Json& d) { d["correction"]["case"] = 0; });
-  says(kSeatOfANamedFit, "has not one of each case",
+  says(*kSeatOfANamedFit, "of a bore that is not there",
+       [](Json& d) { d["correction"]["surface"] = "bore"; });
+  says(*kSeatOfANamedFit, "of another case", [](Json& d) { d["correction"]["case"] = 0; });
+  says(*kSeatOfANamedFit, "has not one of each case",
        [](Json& d) { d["correction"]["remains"].push_back(d["correction"]["remains"][0]); });
-  says(kSeatOfANamedFit, "has not one of each case", [](Json& d) { d["correction"]["remains"].erase(2); });
-  EXPECT_EQ(said_of(kFanuc, [](Json&) {}), "");
-  EXPECT_EQ(said_of(kHardlyLonger, [](Json&) {}), "");
-  const Json longer = Json::parse(kHardlyLonger.made.json);
+  says(*kSeatOfANamedFit, "has not one of each case", [](Json& d) { d["correction"]["remains"].erase(2); });
+  EXPECT_EQ(said_of(*kFanuc, [](Json&) {}), "");
+  EXPECT_EQ(said_of(*kHardlyLonger, [](Json&) {}), "");
+  const Json longer = Json::parse(kHardlyLonger->made.json);
   EXPECT_LT(longer.at("/correction/profile").size(), longer.at("/cases/0/profile").size());
-  for (const Turned* each : {&kFanuc, &kTurned[0]})
+  for (const Turned* each : {&*kFanuc, &kTurned->front()})
     for (const char* key : {"control", "x"})
       says(*each, "is of no such control, or X", [&](Json& d) { d["correction"]["turning"][key] = "haas"; });
-  says(kFanuc, "no such file is one of a correction", [](Json& d) { d["outputs"][1]["role"] = "sketch"; });
+  says(*kFanuc, "no such file is one of a correction", [](Json& d) { d["outputs"][1]["role"] = "sketch"; });
 }
 
 void expect_held(const Turned& turned) {
@@ -611,11 +612,11 @@ void expect_held(const Turned& turned) {
 }
 
 TEST(VerifyFit, ProfilesAndTheirFilesAreHeldAgainstTheGrowths) {
-  for (const Turned& each : kTurned) expect_held(each);
+  for (const Turned& each : *kTurned) expect_held(each);
 }
 
 TEST(VerifyFit, HubsBesideAnEndAreRecheckedLikeOthers) {
-  for (const Turned& each : kTurnedBesideAnEnd) {
+  for (const Turned& each : *kTurnedBesideAnEnd) {
     expect_held(each);
     for (const char* path : {"/rings/0/middle_mm", "/rings/1/middle_mm", "/cases/0/touching_mm",
                              "/cases/0/profile/0/bore_um", "/cases/0/hub_outer_growth_um"}) {
@@ -631,13 +632,13 @@ TEST(VerifyFit, HubsBesideAnEndAreRecheckedLikeOthers) {
 
 // The shaft of a named fit is turned from the middle of its limits, and smoothing takes nothing off that.
 TEST(VerifyFit, SeatsAreTurnedFromTheShaftsOwnDiameter) {
-  EXPECT_NEAR(kSeatOfANamedFit.made.corrected->nominal, 18.0735, 1e-9);
-  expect_held(kSeatOfANamedFit);
+  EXPECT_NEAR(kSeatOfANamedFit->made.corrected->nominal, 18.0735, 1e-9);
+  expect_held(*kSeatOfANamedFit);
 }
 
 TEST(VerifyFit, SeatsOfAStatedInterferenceAreTurnedFromTheBore) {
-  EXPECT_NEAR(kRoughSeat.made.corrected->nominal, 18.05, 1e-9);
-  expect_held(kRoughSeat);
+  EXPECT_NEAR(kRoughSeat->made.corrected->nominal, 18.05, 1e-9);
+  expect_held(*kRoughSeat);
 }
 
 /// A solid shaft in a hub of one metal.
