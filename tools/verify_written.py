@@ -104,6 +104,11 @@ def checks(argv, stdout, status):
             found.append([out])
         elif is_json(stdout, "lekalo-fit") and not json.loads(stdout).get("outputs"):
             found.append(["{}"])
+    elif command == "heat":
+        if out and os.path.isfile(out):
+            found.append([out])
+        elif is_json(stdout, "lekalo-heat"):
+            found.append(["{}"])
     elif command in ("check", "show", "simulate", "pocket"):
         if is_json(stdout, "lekalo-check", "lekalo-show", "lekalo-simulate", "lekalo-pocket"):
             if command != "pocket" or out:
@@ -186,7 +191,7 @@ def lines_to_run(only):
     lines = [("demo", demo_lines())]
     for line in (ROOT / "tools/same_bytes.txt").read_text().splitlines():
         found = re.match(r"([\w.-]+): +(.*)", line)
-        writes = found and re.search(r"lekalo (locate|nest|edit|check|show|simulate|pocket|export|fit) ", found[2])
+        writes = found and re.search(r"lekalo (locate|nest|edit|check|show|simulate|pocket|export|fit|heat) ", found[2])
         if writes and "--help" not in found[2] and (shared or "data/" not in found[2].replace("corpus/data/", "")):
             lines.append(found.groups())
     lines = [line for line in lines if re.search(only, line[0])]

@@ -8,6 +8,7 @@
 #include "commands/edit_command.hpp"
 #include "commands/export_command.hpp"
 #include "commands/fit_command.hpp"
+#include "commands/heat_command.hpp"
 #include "commands/locate_command.hpp"
 #include "commands/nest_command.hpp"
 #include "commands/new_command.hpp"
@@ -32,6 +33,7 @@ Result<int> run(const VerifyOptions& options) { return run_verify(options); }
 Result<int> run(const PocketOptions& options) { return run_pocket(options); }
 Result<int> run(const SimulateOptions& options) { return run_simulate(options); }
 Result<int> run(const FitOptions& options) { return run_fit(options); }
+Result<int> run(const HeatOptions& options) { return run_heat(options); }
 Result<int> run(const CheckOptions& options) { return run_check(options); }
 Result<int> run(const ShowOptions& options) { return run_show(options); }
 Result<int> run(const ExportOptions& options) { return run_export(options); }

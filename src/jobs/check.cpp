@@ -7,11 +7,11 @@
 #include <tuple>
 #include <vector>
 
+#include "jobs/document/report_document.hpp"
 #include "layout_json.hpp"
 #include "lekalo/base/parallel.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
 #include "lekalo/verify/layout.hpp"
-#include "report_document.hpp"
 
 namespace lekalo::jobs {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jobs/document/report_document.hpp"
 #include "lekalo/base/version.hpp"
-#include "report_document.hpp"
 
 namespace lekalo::jobs {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <utility>
 
+#include "jobs/document/report_document.hpp"
 #include "layout_json.hpp"
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/text/sha256.hpp"
 #include "lekalo/io/text/words.hpp"
-#include "report_document.hpp"
 
 namespace lekalo::jobs {
 

@@ -6,12 +6,12 @@
 #include <map>
 #include <utility>
 
+#include "jobs/document/report_document.hpp"
 #include "layout_json.hpp"
 #include "lekalo/base/parallel.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/jobs/check.hpp"
 #include "nest_checked.hpp"
-#include "report_document.hpp"
 
 namespace lekalo::jobs {
 namespace {

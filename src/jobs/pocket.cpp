@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "earlier_documents.hpp"
+#include "jobs/document/earlier_documents.hpp"
 #include "lekalo/draw/voxel_pictures.hpp"
 #include "lekalo/mill/floz_field.hpp"
 #include "lekalo/mill/fragments.hpp"

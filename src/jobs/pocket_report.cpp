@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jobs/document/report_document.hpp"
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/locate/result_json.hpp"
 #include "lekalo/mill/straight_pass.hpp"
 #include "pocket_judge.hpp"
-#include "report_document.hpp"
 
 namespace lekalo::jobs {
 namespace {

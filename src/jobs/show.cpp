@@ -1,10 +1,10 @@
 #include "lekalo/jobs/show.hpp"
 
+#include "jobs/document/report_document.hpp"
 #include "layout_json.hpp"
 #include "lekalo/draw/layout_picture.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
 #include "lekalo/io/text/words.hpp"
-#include "report_document.hpp"
 
 namespace lekalo::jobs {
 

@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
-#include "earlier_documents.hpp"
+#include "jobs/document/earlier_documents.hpp"
+#include "jobs/document/report_document.hpp"
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/shape/region_json.hpp"
-#include "report_document.hpp"
 #include "simulate_picture.hpp"
 
 namespace lekalo::jobs {

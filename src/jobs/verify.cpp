@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
+#include "jobs/document/report_document.hpp"
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/locate/result_json.hpp"
 #include "lekalo/io/text/sha256.hpp"
 #include "lekalo/verify/offset.hpp"
-#include "report_document.hpp"
 
 namespace lekalo::jobs {
 namespace {

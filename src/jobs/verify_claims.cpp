@@ -4,10 +4,10 @@
 
 #include <utility>
 
-#include "earlier_documents.hpp"
+#include "jobs/document/earlier_documents.hpp"
+#include "jobs/document/report_document.hpp"
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/text/sha256.hpp"
-#include "report_document.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -52,6 +52,8 @@ class ClaimJudge {
         return reported(verify::verify_layout_report);
       case Kind::fit_report:
         return reported(verify::verify_fit_report);
+      case Kind::heat_report:
+        return reported(verify::verify_heat_report);
       case Kind::program:
         return beside_.layout && beside_.profile ? profile() : program();
       case Kind::dxf:

@@ -64,6 +64,12 @@ std::vector<Command> commands() {
        {"fit", "--diameter", "18", "--interference", "0.02", "--hub-outer", "36", "--length", "18",
         "--material", "C45", "--json", "-o", "f.json"},
        {"f.json"}},
+      {"heat",
+       {"heat",      "p.nc", "--pocket",         "pocket.json", "--stock",    "40x36x6", "--tool",  "6",
+        "--teeth",   "3",    "--spindle",        "8000",        "--material", "6061-T6", "--share", "0.1",
+        "--cooling", "20",   "--stock-to-leave", "1",           "--voxel",    "9",       "--json",  "-o",
+        "h.json"},
+       {"h.json", "h.svg"}},
   };
 }
 

@@ -252,7 +252,8 @@ TEST(CliLayout, WrongWordsAreUsageErrors) {
       {{"edit", "order.json", "--commands", "some.commands", "-o", "some.commands"}, "would be replaced"},
       {{"export", "order.json", "-o", "./order.json"}, "would be replaced"},
       {{"shoe", "order.json"},
-       "there is no command \"shoe\", only locate, verify, pocket, simulate, fit, check, show, export, edit, "
+       "there is no command \"shoe\", only locate, verify, pocket, simulate, fit, heat, check, show, export, "
+       "edit, "
        "nest"},
   };
   const auto before = folder.files();

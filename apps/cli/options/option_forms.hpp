@@ -16,6 +16,7 @@ using Typed = std::function<Result<Command>()>;
 [[nodiscard]] Typed add_pocket_form(Form& form);
 [[nodiscard]] Typed add_simulate_form(Form& form);
 [[nodiscard]] Typed add_fit_form(Form& form);
+[[nodiscard]] Typed add_heat_form(Form& form);
 [[nodiscard]] Typed add_check_form(Form& form);
 [[nodiscard]] Typed add_show_form(Form& form);
 [[nodiscard]] Typed add_export_form(Form& form);

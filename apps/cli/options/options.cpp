@@ -30,6 +30,7 @@ constexpr CommandForm kForms[] = {
     {"simulate", "Say what an NC program cuts of a pocket: coverage, gouges, engagement, time",
      add_simulate_form},
     {"fit", "Say what pressing a hub on a shaft does to their surfaces", add_fit_form},
+    {"heat", "Say what the heat of milling does to the walls of a pocket", add_heat_form},
     {"check", "Say which rules a cutting layout breaks, exactly, and where", add_check_form},
     {"show", "Show a cutting layout: material used, parts, kits, picture", add_show_form},
     {"export", "Write a layout or a job of another program in another form", add_export_form},
@@ -41,7 +42,7 @@ constexpr CommandForm kForms[] = {
 };
 
 /// The commands whose work is counted in steps.
-constexpr std::string_view kWorkInSteps[] = {"verify", "pocket", "simulate", "fit",
+constexpr std::string_view kWorkInSteps[] = {"verify", "pocket", "simulate", "fit", "heat",
                                              "check",  "show",   "export",   "edit"};
 bool counts_steps(std::string_view command) {
   return std::find(std::begin(kWorkInSteps), std::end(kWorkInSteps), command) != std::end(kWorkInSteps);

@@ -12,6 +12,7 @@
 #include "lekalo/io/formats/part_file.hpp"
 #include "lekalo/jobs/export.hpp"
 #include "lekalo/jobs/fit.hpp"
+#include "lekalo/jobs/heat.hpp"
 #include "lekalo/jobs/locate.hpp"
 #include "lekalo/jobs/locate_solid.hpp"
 #include "lekalo/jobs/nest.hpp"
@@ -107,6 +108,17 @@ struct FitOptions {
   bool json = false;
 };
 
+/// A program whose heat moves walls. The job has all but the bytes of files, and what its words become.
+struct HeatOptions {
+  jobs::HeatJob job;
+  std::string program, pocket;
+  std::vector<EarlierFile> after;
+  heat::MaterialWords material;
+  std::string cooling;          ///< empty: dry
+  std::string output, picture;  ///< may be empty
+  bool json = false;
+};
+
 struct CheckOptions {
   LayoutSource source;
   std::string picture;  ///< may be empty
@@ -166,8 +178,8 @@ struct PrintText {
 };
 
 using Command = std::variant<LocateOptions, VerifyOptions, PocketOptions, SimulateOptions, FitOptions,
-                             CheckOptions, ShowOptions, ExportOptions, EditOptions, NestOptions, NewOptions,
-                             ServeOptions, StoreOptions, PrintText>;
+                             HeatOptions, CheckOptions, ShowOptions, ExportOptions, EditOptions, NestOptions,
+                             NewOptions, ServeOptions, StoreOptions, PrintText>;
 
 /// The steps of work (base/stop.hpp) after which a command that does not search gives up, so that no input
 /// takes for ever: docs/limits.md.

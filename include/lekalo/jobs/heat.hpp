@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "lekalo/base/error.hpp"
@@ -40,23 +41,63 @@ struct WallPoint {
 
 struct WallErrors {
   double least = 0, most = 0, mean = 0;  ///< um
+
+  [[nodiscard]] double largest() const noexcept;  ///< distance from 0
 };
 
 /// The scaling and the shift of the program that leave the least squares of errors.
 struct UniformScaling {
   double factor = 1;
-  std::array<double, 2> shift_um{};
+  std::array<double, 2> centre{};    ///< of the walls, mm, about which is scaled
+  std::array<double, 2> shift_um{};  ///< of that centre
   WallErrors left;
+};
+
+/// One film of the cooling, with the middles of force and share.
+struct HeatCase {
+  double film = 0;                ///< W/(m2 K)
+  std::vector<double> errors_um;  ///< of each place of a wall
+  WallErrors errors;
+  UniformScaling scaling;
+  double warmest_k = 0, stress_mpa = 0;
+  heat::Place stress_at;      ///< of the largest stress, mm
+  double stress_seconds = 0;  ///< when it was
+  heat::HeatBook book;        ///< at the end of the program
+  double not_placed_j = 0;
+  /// After the program, until half and until a tenth of its heat is left in the workpiece, s; none where that
+  /// takes more than kLongestWait.
+  std::optional<double> half_s, tenth_s;
+};
+inline constexpr double kLongestWait = 1e5;  // s
+
+/// The largest error where one of the figures is anywhere in its interval and the others are in their
+/// middles, um.
+struct HeatSensitivity {
+  heat::Interval share, force, film;
+};
+
+/// The errors of walls over the intervals of film, force and share.
+struct WallIntervals {
+  heat::Interval least, most, mean, largest;  ///< um; the largest is a distance
 };
 
 struct HeatFound {
   HeatSource source;
   heat::Grid grid;
   std::vector<WallPoint> walls;
-  std::size_t uncut = 0;      ///< places of walls that the program does not cut
-  WallErrors errors;          ///< at the middles
+  std::size_t uncut = 0;  ///< places of walls that the program does not cut
+  /// For the least film, the middle one and the greatest; one where it is one.
+  std::vector<HeatCase> cases;
+  /// The least and the greatest heat of the workpiece, as parts of that of the cases.
+  heat::Interval heat_parts{1, 1};
+  WallErrors errors;  ///< at the middles
+  WallIntervals errors_over;
   heat::Interval largest_um;  ///< the largest distance of any wall from its place, over the intervals
-  UniformScaling scaling;     ///< at the middles
+  HeatSensitivity sensitivity;
+  UniformScaling scaling;  ///< at the middles
+  heat::Interval factors;  ///< of the scalings that would be best, over the intervals
+  /// The scaling of the middles leaves these, over the intervals.
+  WallIntervals scaled_over;
   /// The warmest of all voxels at the ends of steps, above the surroundings. Beside the tool it is too low,
   /// because heat is spread over what the tool passes in a step; so is the stress.
   heat::Interval warmest_k;
@@ -65,6 +106,9 @@ struct HeatFound {
   heat::HeatBook book;      ///< at the middles, at the end of the program
   double not_placed_j = 0;  ///< heat of cuts about which no material is left, at the middles
   std::uint64_t work = 0;
+
+  /// The case of the middle film.
+  [[nodiscard]] const HeatCase& middle() const noexcept { return cases[cases.size() / 2]; }
 };
 
 /// Follows the program in voxels: heat enters where the tool cuts, material goes away, and the displacement
@@ -72,7 +116,8 @@ struct HeatFound {
 ///
 /// Errors: bad_input for what heat_source() and heat::Grid::divide refuse, where no place of a wall is cut,
 /// and where the workpiece surely gets warmer than the material's figures hold; refuted where the equations
-/// are not solved. Phases: "following the program", "heating". Cost: about 300 steps in time for each of
+/// are not solved. Phases: "following the program", "heating" and, with
+/// more than one film, "heating, least cooling" and so on. Cost: about 300 steps in time for each of
 /// three films, and a displacement for each in which the tool is beside a wall.
 [[nodiscard]] Result<HeatFound> heat(const HeatJob& job, const PhaseListener& phases = {});
 

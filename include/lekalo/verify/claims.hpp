@@ -25,6 +25,7 @@ enum class Kind : std::uint8_t {
   pocket_report,
   simulate_report,
   fit_report,
+  heat_report,
   verify_report,
   certificate,
   program,
@@ -101,6 +102,18 @@ struct NamedFile {
 /// \param files  the bytes of named_files(), in that order
 [[nodiscard]] Result<ClaimReport> verify_fit_report(const Document& report,
                                                     const std::vector<Document>& files);
+
+/// Rechecks a result of `lekalo heat`: the work of the cuts, by following the program and by formulas of the
+/// checker's own; that the heat in the workpiece is its share and is all somewhere; that every place of a
+/// wall that the program cuts is there, and was cut when it is said; and by these places all errors,
+/// intervals and scalings. How far the walls move, temperatures and stresses are computed in voxels and named
+/// as unchecked.
+///
+/// Fails with bad_input for fields that are missing, not known or of a wrong form, and for programs that
+/// simulate() refuses. Cost: that of cut_history(), and pieces of the path times places.
+/// \param files  the bytes of named_files(), in that order
+[[nodiscard]] Result<ClaimReport> verify_heat_report(const Document& report,
+                                                     const std::vector<Document>& files);
 
 /// Judges a program for a pocket by itself: the tool leaves the pocket nowhere by more than 0.005 mm, meets
 /// material in no rapid motion, and leaves no place uncut that it can reach, wider than 0.02 mm. Errors and

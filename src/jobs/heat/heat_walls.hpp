@@ -19,7 +19,13 @@ struct CutWalls {
 [[nodiscard]] Result<CutWalls> cut_walls(const HeatSourceJob& job, const HeatSource& source, double spacing);
 
 /// Step 7: the scaling about the middle of the walls, and the shift, by least squares.
-[[nodiscard]] UniformScaling best_scaling(const std::vector<WallPoint>& walls);
+[[nodiscard]] UniformScaling best_scaling(const std::vector<WallPoint>& walls,
+                                          const std::vector<double>& errors_um);
+
+/// Returns what a scaling of the program leaves of a part of the errors, um.
+[[nodiscard]] std::vector<double> scaled(const std::vector<WallPoint>& walls,
+                                         const std::vector<double>& errors_um, double part,
+                                         const UniformScaling& by);
 
 [[nodiscard]] WallErrors summary_of(const std::vector<double>& errors_um);
 

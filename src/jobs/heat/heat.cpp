@@ -65,7 +65,10 @@ struct Span {
 struct Run {
   std::vector<double> errors_um, decided;  ///< of each place, and the time of the visit that decided, s
   double warmest_k = 0, stress_mpa = 0, not_placed_j = 0;
+  Place stress_at;
+  double stress_seconds = 0;
   heat::HeatBook book;
+  std::optional<double> half_s, tenth_s;
   std::uint64_t work = 0;
 };
 
@@ -100,6 +103,7 @@ class Follower {
     Run run;
     run.errors_um.assign(found_.walls.size(), -std::numeric_limits<double>::infinity());
     run.decided.resize(found_.walls.size());
+    run.stress_at = middle_of(0);
     for (std::size_t n = 0; n < spans_.size(); ++n) {
       ask();
       if (progress) progress({n, static_cast<double>(n) / static_cast<double>(spans_.size())});
@@ -115,7 +119,10 @@ class Follower {
       expansion.follow(body);
       LEKALO_CHECK(expansion.solve(temperatures, kSolved));
       const std::vector<double> stress = expansion.mises();
-      run.stress_mpa = std::max(run.stress_mpa, *std::ranges::max_element(stress));
+      const auto most = std::ranges::max_element(stress);
+      if (*most > run.stress_mpa)
+        run.stress_mpa = *most, run.stress_seconds = span.end,
+        run.stress_at = middle_of(static_cast<std::size_t>(most - stress.begin()));
       for (const auto& [i, at] : span.walls) {
         const WallPoint& w = found_.walls[i];
         const Place moved = expansion.moved({w.x, w.y, w.z});
@@ -126,11 +133,36 @@ class Follower {
       }
     }
     run.book = conduction.book();
+    if (film > 0) LEKALO_CHECK(cool_down(conduction, run));  // else it never does
     run.work = conduction.work() + expansion.work();
     return run;
   }
 
  private:
+  [[nodiscard]] Place middle_of(std::size_t cell) const {
+    const heat::Grid& grid = found_.grid;
+    const std::size_t row = cell / grid.count[0];
+    return grid.middle(cell % grid.count[0], row % grid.count[1], row / grid.count[1]);
+  }
+
+  /// Goes on without the program, in steps that grow, until little of the heat is left. Between them what is
+  /// left falls as a power of a number.
+  static Result<void> cool_down(heat::Conduction& conduction, Run& run) {
+    constexpr double kFirst = 0.5, kGrowth = 1.25, kHalf = 0.5, kTenth = 0.1;
+    const double whole = run.book.stored;
+    double at = 0, left = 1;
+    for (double step = kFirst; whole > 0 && !run.tenth_s && at < kLongestWait; step *= kGrowth) {
+      ask();
+      LEKALO_CHECK(conduction.step(step, {}));
+      const double now = conduction.book().stored / whole;
+      for (const auto& [part, seconds] : {std::pair{kHalf, &run.half_s}, {kTenth, &run.tenth_s}})
+        if (now > 0 && now <= part && !*seconds)
+          *seconds = at + step * std::log(left / part) / std::log(left / now);
+      at += step, left = now;
+    }
+    return {};
+  }
+
   /// Steps have about one length, but for waits, in which nothing happens but that heat spreads.
   void divide(const std::vector<heat::ToolPiece>& pieces, double seconds) {
     double waits = 0;
@@ -234,47 +266,85 @@ class Follower {
   std::vector<Span> spans_;
 };
 
-/// Returns the products of share and force, as parts of the middle of all work, from least to greatest.
-Interval factors_of(const HeatFound& found, const Interval& share) {
-  const Interval& work = found.source.work.work_j;
-  return {share.least * work.least / work.middle(), share.greatest * work.greatest / work.middle()};
-}
-
 Interval hull(const Interval& a, double b) { return {std::min(a.least, b), std::max(a.greatest, b)}; }
 
-/// Takes the runs together. The middle one stands in the middle.
-void take(const std::vector<Run>& runs, const Interval& factors, double middle, HeatFound& found) {
-  const Run& usual = runs[runs.size() / 2];
-  std::vector<double> errors;
+constexpr Interval kNothing{std::numeric_limits<double>::infinity(),
+                            -std::numeric_limits<double>::infinity()};
+
+/// Returns the least and the greatest product of share and force, as parts of that of the middles.
+Interval heat_parts_of(const Interval& work, const Interval& share) {
+  const double middle = share.middle() * work.middle();
+  if (!(middle > 0)) return {1, 1};
+  return {share.least * work.least / middle, share.greatest * work.greatest / middle};
+}
+
+HeatCase case_of(const Run& run, double film, double share, const std::vector<WallPoint>& walls) {
+  HeatCase one;
+  one.film = film;
+  for (const double e : run.errors_um) one.errors_um.push_back(share * e);
+  one.errors = summary_of(one.errors_um);
+  one.scaling = best_scaling(walls, one.errors_um);
+  one.warmest_k = share * run.warmest_k, one.stress_mpa = share * run.stress_mpa;
+  one.stress_at = run.stress_at, one.stress_seconds = run.stress_seconds;
+  one.half_s = run.half_s, one.tenth_s = run.tenth_s;
+  one.book = run.book;
+  for (double* j : {&one.book.in, &one.book.lost, &one.book.removed, &one.book.stored}) *j *= share;
+  one.not_placed_j = share * run.not_placed_j;
+  return one;
+}
+
+/// Returns the hull of a figure of all cases at both ends and at the middle of their heat, `of(case, part)`.
+template <class F>
+Interval over(const HeatFound& found, F of) {
+  Interval all = kNothing;
+  for (const HeatCase& one : found.cases)
+    for (const double part : {found.heat_parts.least, 1.0, found.heat_parts.greatest})
+      all = hull(all, of(one, part));
+  return all;
+}
+
+/// The same of errors, `of(case, part)`.
+template <class F>
+WallIntervals walls_over(const HeatFound& found, F of) {
+  return {over(found, [&](const HeatCase& c, double part) { return of(c, part).least; }),
+          over(found, [&](const HeatCase& c, double part) { return of(c, part).most; }),
+          over(found, [&](const HeatCase& c, double part) { return of(c, part).mean; }),
+          over(found, [&](const HeatCase& c, double part) { return of(c, part).largest(); })};
+}
+
+/// \param work, share  of which the middles are those of the cases
+HeatSensitivity sensitivity_of(const HeatFound& found, const Interval& work, const Interval& share) {
+  const double largest = found.middle().errors.largest();
+  const auto by = [&](const Interval& figure) {
+    if (!(figure.middle() > 0)) return Interval{largest, largest};
+    return Interval{largest * figure.least / figure.middle(), largest * figure.greatest / figure.middle()};
+  };
+  Interval film = kNothing;
+  for (const HeatCase& one : found.cases) film = hull(film, one.errors.largest());
+  return {by(share), by(work), film};
+}
+
+/// Takes the cases together. \param usual  the run of the middle one
+void take(const Run& usual, HeatFound& found) {
+  const HeatCase& middle = found.middle();
   for (std::size_t i = 0; i < found.walls.size(); ++i) {
     WallPoint& w = found.walls[i];
-    w.error_um = middle * usual.errors_um[i], w.seconds = usual.decided[i];
-    w.errors_um = {w.error_um, w.error_um};
-    for (const Run& run : runs)
-      for (const double factor : {factors.least, factors.greatest})
-        w.errors_um = hull(w.errors_um, factor * run.errors_um[i]);
-    errors.push_back(w.error_um);
+    w.error_um = middle.errors_um[i], w.seconds = usual.decided[i];
+    w.errors_um = over(found, [&](const HeatCase& c, double part) { return part * c.errors_um[i]; });
   }
-  found.errors = summary_of(errors);
-  found.scaling = best_scaling(found.walls);
-  const auto largest = [](const Run& run) {
-    double most = 0;
-    for (const double e : run.errors_um) most = std::max(most, std::abs(e));
-    return most;
-  };
-  const auto over_all = [&](auto&& of) {
-    Interval all{middle * of(usual), middle * of(usual)};
-    for (const Run& run : runs)
-      for (const double factor : {factors.least, factors.greatest}) all = hull(all, factor * of(run));
-    return all;
-  };
-  found.largest_um = over_all(largest);
-  found.warmest_k = over_all([](const Run& run) { return run.warmest_k; });
-  found.stress_mpa = over_all([](const Run& run) { return run.stress_mpa; });
-  found.book = usual.book;
-  for (double* j : {&found.book.in, &found.book.lost, &found.book.removed, &found.book.stored}) *j *= middle;
-  found.not_placed_j = middle * usual.not_placed_j;
-  for (const Run& run : runs) found.work += run.work;
+  found.errors = middle.errors, found.scaling = middle.scaling;
+  found.errors_over = walls_over(found, [](const HeatCase& c, double part) {
+    return WallErrors{part * c.errors.least, part * c.errors.most, part * c.errors.mean};
+  });
+  found.largest_um = found.errors_over.largest;
+  found.factors =
+      over(found, [](const HeatCase& c, double part) { return 1 + part * (c.scaling.factor - 1); });
+  found.scaled_over = walls_over(found, [&](const HeatCase& c, double part) {
+    return summary_of(scaled(found.walls, c.errors_um, part, found.scaling));
+  });
+  found.warmest_k = over(found, [](const HeatCase& c, double part) { return part * c.warmest_k; });
+  found.stress_mpa = over(found, [](const HeatCase& c, double part) { return part * c.stress_mpa; });
+  found.book = middle.book, found.not_placed_j = middle.not_placed_j;
 }
 
 }  // namespace
@@ -293,15 +363,22 @@ Result<HeatFound> heat(const HeatJob& job, const PhaseListener& phases) {
                                             {box.high_x, box.high_y, top}, job.pitch));
   LEKALO_TRY(CutWalls walls, cut_walls(source, found.source, job.pitch));
   found.walls = std::move(walls.points), found.uncut = walls.uncut;
-  std::vector<double> films{job.film.middle()};
-  if (job.film.least < job.film.greatest) films = {job.film.least, job.film.middle(), job.film.greatest};
+  std::vector<std::pair<double, const char*>> films{{job.film.middle(), "heating"}};
+  if (job.film.least < job.film.greatest)
+    films = {{job.film.least, "heating, least cooling"},
+             {job.film.middle(), "heating, mean cooling"},
+             {job.film.greatest, "heating, greatest cooling"}};
   const Follower follower(job, found, walls.visits);
-  std::vector<Run> runs;
-  for (const double film : films) {
-    LEKALO_TRY(Run run, follower.run(film, begin_phase(phases, "heating")));
-    runs.push_back(std::move(run));
+  found.heat_parts = heat_parts_of(found.source.work.work_j, share);
+  Run usual;
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    LEKALO_TRY(Run run, follower.run(films[i].first, begin_phase(phases, films[i].second)));
+    found.cases.push_back(case_of(run, films[i].first, share.middle(), found.walls));
+    found.work += run.work;
+    if (i == films.size() / 2) usual = std::move(run);
   }
-  take(runs, factors_of(found, share), share.middle(), found);
+  take(usual, found);
+  found.sensitivity = sensitivity_of(found, found.source.work.work_j, share);
   if (const double least = job.ambient_c + found.warmest_k.least; least > job.material.limit_c())
     return failure(ErrorCode::bad_input,
                    fmt::format("{}: the workpiece gets {:.0f} degrees C warm at least, and the figures of {} "

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
-#include "earlier_documents.hpp"
 #include "heat_border.hpp"
+#include "jobs/document/earlier_documents.hpp"
 #include "lekalo/geom/region_index.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/io/formats/outline_file.hpp"

@@ -170,7 +170,22 @@ WallErrors summary_of(const std::vector<double>& errors) {
   return found;
 }
 
-UniformScaling best_scaling(const std::vector<WallPoint>& walls) {
+std::vector<double> scaled(const std::vector<WallPoint>& walls, const std::vector<double>& errors_um,
+                           double part, const UniformScaling& by) {
+  std::vector<double> left;
+  const double growth = 1000 * (by.factor - 1);  // um of a mm
+  for (std::size_t n = 0; n < walls.size(); ++n) {
+    const WallPoint& w = walls[n];
+    const double x = growth * (w.x - by.centre[0]) + by.shift_um[0],
+                 y = growth * (w.y - by.centre[1]) + by.shift_um[1];
+    left.push_back(part * errors_um[n] + x * w.outward[0] + y * w.outward[1]);
+  }
+  return left;
+}
+
+double WallErrors::largest() const noexcept { return std::max(std::abs(least), std::abs(most)); }
+
+UniformScaling best_scaling(const std::vector<WallPoint>& walls, const std::vector<double>& errors_um) {
   double middle_x = 0, middle_y = 0;
   for (const WallPoint& w : walls) middle_x += w.x, middle_y += w.y;
   middle_x /= static_cast<double>(walls.size()), middle_y /= static_cast<double>(walls.size());
@@ -181,23 +196,19 @@ UniformScaling best_scaling(const std::vector<WallPoint>& walls) {
   };
   std::array<std::array<double, 3>, 3> matrix{};
   std::array<double, 3> right{};
-  for (const WallPoint& w : walls) {
-    const auto r = row(w);
+  for (std::size_t n = 0; n < walls.size(); ++n) {
+    const auto r = row(walls[n]);
     for (std::size_t i = 0; i < 3; ++i) {
-      right[i] -= r[i] * w.error_um;
+      right[i] -= r[i] * errors_um[n];
       for (std::size_t k = 0; k < 3; ++k) matrix[i][k] += r[i] * r[k];
     }
   }
   const std::array<double, 3> found = solved(matrix, right);
   UniformScaling scaling;
   scaling.factor = 1 + found[0] / 1000;
+  scaling.centre = {middle_x, middle_y};
   scaling.shift_um = {found[1], found[2]};
-  std::vector<double> left;
-  for (const WallPoint& w : walls) {
-    const auto r = row(w);
-    left.push_back(w.error_um + r[0] * found[0] + r[1] * found[1] + r[2] * found[2]);
-  }
-  scaling.left = summary_of(left);
+  scaling.left = summary_of(scaled(walls, errors_um, 1, scaling));
   return scaling;
 }
 

@@ -1,0 +1,51 @@
+#include "lekalo/jobs/heat_result.hpp"
+
+#include <fmt/core.h>
+
+#include "heat_document.hpp"
+#include "heat_picture.hpp"
+#include "lekalo/verify/claims.hpp"
+
+namespace lekalo::jobs {
+namespace {
+
+std::vector<std::string> warnings_of(const HeatJob& job, const HeatFound& found) {
+  std::vector<std::string> warnings;
+  const double greatest = job.ambient_c + found.warmest_k.greatest;
+  if (greatest > job.material.limit_c())
+    warnings.push_back(
+        fmt::format("the workpiece may get {:.0f} degrees C warm, and the figures of {} hold up "
+                    "to {:.0f}",
+                    greatest, job.material.name, job.material.limit_c()));
+  warnings.insert(warnings.end(), found.source.unsaid.begin(), found.source.unsaid.end());
+  return warnings;
+}
+
+/// The files that the document names, in its order.
+std::vector<verify::Document> files_of(const HeatSourceJob& source) {
+  std::vector<verify::Document> files{{source.program.name, source.program.bytes},
+                                      {source.pocket.name, source.pocket.bytes}};
+  for (const EarlierProgram& before : source.after)
+    files.push_back({before.program.name, before.program.bytes});
+  return files;
+}
+
+}  // namespace
+
+Result<HeatResult> heat_result(const HeatResultJob& job, const PhaseListener& phases) {
+  if (!job.heat.source.stock.block)
+    return failure(ErrorCode::bad_input, "the stock has to be a block, as in 120x100x20@-10,5");
+  HeatResult made;
+  LEKALO_TRY(made.found, heat(job.heat, phases));
+  made.warnings = warnings_of(job.heat, made.found);
+  made.json = heat_json(job.heat, made.found, made.warnings);
+  const ProgressListener listening = begin_phase(phases, "following the program again");
+  LEKALO_TRY(const verify::ClaimReport report,
+             verify::verify_heat_report({"the result", made.json}, files_of(job.heat.source)));
+  if (!report.findings.empty())
+    return failure(ErrorCode::refuted, "the checker refutes the result: " + report.findings.front());
+  LEKALO_TRY(made.picture, drawn_heat(job, made.found));
+  return made;
+}
+
+}  // namespace lekalo::jobs

@@ -1,0 +1,150 @@
+#include "wall_places.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lekalo/base/angle.hpp"
+#include "lekalo/base/stop.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+/// Places stand to 1e-6 mm, times to 1e-6 s.
+constexpr double kRounded = 2e-6;
+/// A wall is cut where the rim comes this near, mm; a pass is as near as another within kAsNear.
+constexpr double kReached = 0.1, kAsNear = 0.03;
+/// A tip is as deep as a place within this, mm.
+constexpr double kAsDeep = 1e-6;
+/// Distances may round to the other side of a limit, mm.
+constexpr double kDistanceRounding = 1e-9;
+
+double middle(Span s) { return 0.5 * (s.low + s.high); }
+
+/// An edge as numbers; a line has no radius.
+struct WallEdge {
+  bool open = false;
+  double from_x = 0, from_y = 0, to_x = 0, to_y = 0;
+  double x = 0, y = 0, radius = 0, begin = 0, turn = 0;  ///< of an arc: centre, first angle, signed turn
+};
+
+WallEdge edge_of(const Side& side) {
+  WallEdge e;
+  e.open = side.open;
+  e.from_x = middle(side.written_from.x), e.from_y = middle(side.written_from.y);
+  e.to_x = middle(side.written_to.x), e.to_y = middle(side.written_to.y);
+  if (!side.arc) return e;
+  e.x = middle(side.centre.x), e.y = middle(side.centre.y), e.radius = middle(side.radius);
+  e.begin = std::atan2(e.from_y - e.y, e.from_x - e.x);
+  e.turn = std::atan2(e.to_y - e.y, e.to_x - e.x) - e.begin;
+  if (side.ccw && e.turn <= 0) e.turn += kTurn;
+  if (!side.ccw && e.turn >= 0) e.turn -= kTurn;
+  return e;
+}
+
+/// Twice the area to the left of the way, with the arcs' bulges.
+double turning_area(const std::vector<WallEdge>& edges) {
+  double sum = 0;
+  for (const WallEdge& e : edges)
+    sum += e.from_x * e.to_y - e.to_x * e.from_y + e.radius * e.radius * (e.turn - std::sin(e.turn));
+  return sum;
+}
+
+/// \param side  1 where the pocket is to the left of the edge, -1 where it is to the right
+void add_stations(const WallEdge& e, double side, double spacing, std::vector<WallStation>& stations) {
+  const double dx = e.to_x - e.from_x, dy = e.to_y - e.from_y;
+  const double whole = e.radius > 0 ? e.radius * std::abs(e.turn) : std::sqrt(dx * dx + dy * dy);
+  const double count = std::max(1.0, std::ceil(whole / spacing));
+  for (double k = 0.5; k < count; ++k) {
+    const double share = k / count;
+    if (e.radius > 0) {
+      const double angle = e.begin + share * e.turn, out = e.turn > 0 ? side : -side;
+      const double c = std::cos(angle), s = std::sin(angle);
+      stations.push_back({e.x + e.radius * c, e.y + e.radius * s, {out * c, out * s}});
+    } else {
+      stations.push_back(
+          {e.from_x + share * dx, e.from_y + share * dy, {side * dy / whole, -side * dx / whole}});
+    }
+  }
+}
+
+double distance(const CutPiece& piece, double x, double y) {
+  const double ux = piece.to_x - piece.from_x, uy = piece.to_y - piece.from_y;
+  const double vx = x - piece.from_x, vy = y - piece.from_y, square = ux * ux + uy * uy;
+  const double share = square > 0 ? std::min(1.0, std::max(0.0, (ux * vx + uy * vy) / square)) : 0;
+  const double rx = vx - share * ux, ry = vy - share * uy;
+  return std::sqrt(rx * rx + ry * ry);
+}
+
+double tip_of(const CutPiece& piece) { return std::max(piece.from_z, piece.to_z); }
+
+}  // namespace
+
+std::vector<WallStation> wall_stations(const Shape& pocket, double spacing) {
+  std::vector<WallStation> stations;
+  for (std::size_t piece = 0; piece + 1 < pocket.piece_starts.size(); ++piece)
+    for (std::size_t c = pocket.piece_starts[piece]; c < pocket.piece_starts[piece + 1]; ++c) {
+      std::vector<WallEdge> edges;
+      for (std::size_t i = pocket.contour_starts[c]; i < pocket.contour_starts[c + 1]; ++i)
+        if (pocket.sides[i].written) edges.push_back(edge_of(pocket.sides[i]));
+      const bool island = c > pocket.piece_starts[piece];
+      const double side = (turning_area(edges) > 0) == island ? -1 : 1;
+      for (const WallEdge& edge : edges)
+        if (!edge.open) add_stations(edge, side, spacing, stations);
+    }
+  return stations;
+}
+
+WallPlaces::WallPlaces(std::vector<WallStation> stations, const CutHistory& history, double top,
+                       double thickness, double reach, double spacing)
+    : stations_(std::move(stations)), reach_(reach) {
+  std::ranges::sort(stations_, {}, &WallStation::x);
+  double deepest = top;
+  for (const CutPiece& piece : history.pieces)
+    if (piece.line > 0 && !piece.rapid && tip_of(piece) < top)
+      down_.push_back(&piece), deepest = std::min(deepest, tip_of(piece));
+  deepest = std::max(deepest, top - thickness);
+  const double count = std::max(1.0, std::round((top - deepest) / spacing));
+  for (double k = 0.5; k < count; ++k) heights_.push_back(top - k * (top - deepest) / count);
+  distances_.resize(down_.size());
+}
+
+std::optional<WallPlaces::Which> WallPlaces::find(double x, double y, double z) const {
+  const auto near = [](double a, double b) { return std::abs(a - b) <= kRounded; };
+  const auto height = std::ranges::find_if(heights_, [&](double h) { return near(h, z); });
+  if (height == heights_.end()) return std::nullopt;
+  for (auto at = std::ranges::lower_bound(stations_, x - kRounded, {}, &WallStation::x);
+       at != stations_.end() && near(at->x, x); ++at)
+    if (near(at->y, y))
+      return Which{static_cast<std::size_t>(at - stations_.begin()),
+                   static_cast<std::size_t>(height - heights_.begin())};
+  return std::nullopt;
+}
+
+void WallPlaces::go_to(std::size_t station) {
+  ask();
+  for (std::size_t i = 0; i < down_.size(); ++i)
+    distances_[i] = distance(*down_[i], stations_[station].x, stations_[station].y);
+}
+
+double WallPlaces::nearest(std::size_t height) const {
+  double least = HUGE_VAL;
+  for (std::size_t i = 0; i < down_.size(); ++i)
+    if (tip_of(*down_[i]) <= heights_[height] + kAsDeep) least = std::min(least, distances_[i]);
+  return least;
+}
+
+WallPlaces::Cut WallPlaces::cut(std::size_t height) const {
+  const double over = nearest(height) - reach_ - kReached;
+  return {over <= 0, std::abs(over) <= kDistanceRounding};
+}
+
+bool WallPlaces::visited(std::size_t height, double seconds) const {
+  const double within = nearest(height) + kAsNear + kDistanceRounding;
+  for (std::size_t i = 0; i < down_.size(); ++i)
+    if (std::abs(down_[i]->start + down_[i]->seconds / 2 - seconds) <= kRounded && distances_[i] <= within &&
+        tip_of(*down_[i]) <= heights_[height] + kAsDeep)
+      return true;
+  return false;
+}
+
+}  // namespace lekalo::verify

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "lekalo/verify/cut_history.hpp"
+#include "verify/shape/shape.hpp"
+
+namespace lekalo::verify {
+
+/// The places of a pocket's walls, and which of them a program cuts, by the checker's own reading (steps 1
+/// and 2 of docs/design/heat-walls.md).
+
+/// A place seen from above, and the direction from the pocket into the workpiece.
+struct WallStation {
+  double x = 0, y = 0;
+  std::array<double, 2> outward{};
+};
+
+/// Along each edge that is no open one, so that they are `spacing` apart at most, mm.
+[[nodiscard]] std::vector<WallStation> wall_stations(const Shape& pocket, double spacing);
+
+class WallPlaces {
+ public:
+  /// \param reach  of the tool's rim, with what stays on walls, mm
+  WallPlaces(std::vector<WallStation> stations, const CutHistory& history, double top, double thickness,
+             double reach, double spacing);
+
+  struct Which {
+    std::size_t station = 0, height = 0;
+  };
+  /// The place that stands there, within what figures are rounded by; none for any other.
+  [[nodiscard]] std::optional<Which> find(double x, double y, double z) const;
+  [[nodiscard]] const WallStation& station(std::size_t i) const { return stations_[i]; }
+  [[nodiscard]] std::size_t stations() const { return stations_.size(); }
+  [[nodiscard]] std::size_t heights() const { return heights_.size(); }
+
+  /// Looks at a station: the functions below are about it.
+  void go_to(std::size_t station);
+  /// Says that the tool comes near enough at a height; rounding decides where `near_limit` is true.
+  struct Cut {
+    bool is_cut = false, near_limit = false;
+  };
+  [[nodiscard]] Cut cut(std::size_t height) const;
+  /// Says whether the tool is at its nearest to the place at this time, s.
+  [[nodiscard]] bool visited(std::size_t height, double seconds) const;
+
+ private:
+  [[nodiscard]] double nearest(std::size_t height) const;
+
+  std::vector<WallStation> stations_;  ///< by x
+  std::vector<double> heights_;        ///< from above
+  std::vector<const CutPiece*> down_;
+  std::vector<double> distances_;  ///< of each of them from the station at hand
+  double reach_;
+};
+
+}  // namespace lekalo::verify

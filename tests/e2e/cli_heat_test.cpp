@@ -1,0 +1,115 @@
+// `lekalo heat` as people use it: results, pictures, and one sentence for what is wrong, with nothing
+// written.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cli_run.hpp"
+
+namespace lekalo::test::cli_heat_test {
+namespace {
+
+Words with(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+const Words kUsual{"heat",    "p.ngc", "--pocket",  "k.json", "--stock",    "40x36x10", "--tool",  "6",
+                   "--teeth", "3",     "--spindle", "8000",   "--material", "6061-T6",  "--voxel", "4"};
+
+void write_files(const TemporaryFolder& folder) {
+  write_bytes(folder / "k.json", R"({"units": "mm", "outer": [{"line": {"from": [0, 0], "to": [20, 0]}},
+    {"line": {"from": [20, 0], "to": [20, 16]}}, {"line": {"from": [20, 16], "to": [0, 16]}},
+    {"line": {"from": [0, 16], "to": [0, 0]}}]})");
+  write_bytes(
+      folder / "p.ngc",
+      "G21 G90 G17 G94 G54\nG0 X3 Y3 Z5\nG1 Z-4 F200\nG1 X17 F600\nG1 Y13\nG1 X3\nG1 Y3\nG1 Y8\nG1 X17\n"
+      "G0 Z5\nM2\n");
+}
+
+TEST(CliHeat, WritesAResultAndAPictureAndDecides) {
+  const TemporaryFolder folder;
+  write_files(folder);
+  const Ran made = run(folder.path(), with(kUsual, {"--share", "0.05..0.2", "-o", "h.json"}));
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_NE(made.err.find("leave it."), std::string::npos) << made.err;
+  EXPECT_NE(made.err.find("computed and not proved"), std::string::npos) << made.err;
+  const Json result = Json::parse(read_bytes(folder / "h.json"));
+  EXPECT_EQ(result["cases"].size(), 3U) << "dry is an interval of films";
+  EXPECT_LT(result["wall_error_um"]["mean"].get<double>(), 0);
+  EXPECT_GT(result["uniform_scaling"]["factor"].get<double>(), 1);
+  EXPECT_NE(read_bytes(folder / "h.svg").find("the walls unrolled"), std::string::npos);
+
+  const Ran verified = run(folder.path(), {"verify", "h.json"});
+  EXPECT_EQ(verified.status, 1) << "what voxels say is not proved: " << verified.err;
+  EXPECT_NE(verified.err.find("computed in voxels and not proved"), std::string::npos) << verified.err;
+  Json lie = result;
+  lie["booked"]["volume_mm3"] = 1000;
+  write_bytes(folder / "lie.json", lie.dump());
+  EXPECT_EQ(run(folder.path(), {"verify", "lie.json"}).status, 4);
+  write_bytes(folder / "p.ngc", "G21 G90 G17\nG0 X3 Y3 Z5\n");
+  EXPECT_EQ(run(folder.path(), {"verify", "h.json"}).status, 4) << "another program";
+}
+
+TEST(CliHeat, OneFilmIsOneCaseAndNoFileIsAskedFor) {
+  const TemporaryFolder folder;
+  write_files(folder);
+  const Ran made = run(folder.path(), with(kUsual, {"--share", "0.1", "--cooling", "20", "--json"}));
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(made.json()["cases"].size(), 1U);
+  EXPECT_FALSE(std::filesystem::exists(folder / "h.svg"));
+}
+
+TEST(CliHeat, WhatIsWrongIsOneSentenceAndNothingIsWritten) {
+  const TemporaryFolder folder;
+  write_files(folder);
+  write_bytes(folder / "wide.ngc", "G21 G90 G17\nG0 X3 Y3 Z5\nG1 Z-4 F200\nG1 X60 F600\nG0 Z5\n");
+  write_bytes(folder / "still.ngc", "G21 G90 G17\nG0 X3 Y3 Z5\n");
+  struct Wrong {
+    Words words;
+    int status;
+    const char* says;
+  };
+  const auto said = [&](const Words& words, int status, const char* says) {
+    const Ran ran = run(folder.path(), with(words, {"-o", "h.json"}));
+    EXPECT_EQ(ran.status, status) << says << ": " << ran.err;
+    EXPECT_NE(ran.err.find(says), std::string::npos) << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "h.json")) << says;
+    EXPECT_FALSE(std::filesystem::exists(folder / "h.svg")) << says;
+  };
+  for (const Wrong& w :
+       {Wrong{{}, 3, "no share of the cutting power"},
+        {{"--share", "0.1", "--cooling", "water"}, 3, "no such cooling"},
+        {{"--share", "1.5"}, 3, "it has to be from 0 to 1"},
+        {{"--share", "0.2..0.1"}, 2, "--share: \"0.2..0.1\""},
+        {{"--share", "0.1", "--wear", "0.5"}, 2, "--wear"},
+        {{"--share", "0.1", "--hold", "hand"}, 2, "--hold"},
+        {{"--share", "0.1", "--datum", "1,2"}, 2, "--datum"},
+        {{"--share", "0.1", "--datum", "1,2,3", "--hold", "plate"}, 2, "--hold free"},
+        {{"--share", "0.1", "--picture", "h.txt"}, 2, ".svg or .png"},
+        {{"--share", "0.9", "--melting", "61", "--ambient", "-80"}, 3, "degrees C warm at least"}})
+    said(with(kUsual, w.words), w.status, w.says);
+  const auto other = [](std::size_t at, const char* word) {
+    Words words = with(kUsual, {"--share", "0.1"});
+    words[at] = word;
+    return words;
+  };
+  said(other(5, "40x36"), 2, "--stock");
+  said(other(5, "40x36x10@100,0"), 3, "the program lies outside of the stock");
+  said(other(5, "40x36x10@5,-10"), 3, "beyond the stock's border");
+  said(other(1, "still.ngc"), 3, "the tool never goes below Z 0");
+  said(other(1, "none.ngc"), 3, "none.ngc");
+  said(other(9, "0"), 2, "without which chips have no thickness");
+  said(other(11, "0"), 2, "without which chips have no thickness");
+  said(other(13, "PMMA"), 3, "PMMA: no cutting force k_c1.1 is known");
+  said(other(13, "brass"), 3, "brass: no such material");
+  Words words = kUsual;
+  words.erase(words.begin() + 8, words.begin() + 10);
+  said(words, 2, "--teeth");
+}
+
+}  // namespace
+}  // namespace lekalo::test::cli_heat_test
