@@ -335,7 +335,11 @@ Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& r
                                   const Stopwatch& stopwatch, const PhaseListener& phases) {
   LEKALO_TRY(SolidInputs in, read_inputs(job, phases));
   double seconds = 0;
-  LEKALO_TRY(Found found, searched(job.options, run, stopwatch, in, seconds));
+  Result<Found> searching = searched(job.options, run, stopwatch, in, seconds);
+  // The meshes are closed, so what is wrong with the problem are the demands.
+  if (!searching && searching.error().code == ErrorCode::bad_input && job.features)
+    return failure(ErrorCode::bad_input, job.features->name + ": " + searching.error().message);
+  LEKALO_TRY(Found found, std::move(searching));
   // The findings are told to the end, whoever asks for the stop, and when: what has been found is not lost.
   const RunControl nobody;
   const Listening to_the_end(nobody);

@@ -39,15 +39,35 @@ std::string allowances_csv(const SolidInputs& in, const io::SolidDocument& d) {
   return text;
 }
 
+/// Says which triangles of a surface lie in the rim of a finished face, by their middles.
+std::vector<bool> in_rims(const SolidInputs& in, const solid::Mesh& surface) {
+  std::vector<bool> made(surface.triangles.size());
+  for (const locate::SolidNear& near : in.problem.nears) {
+    if (!(near.rim > 0)) continue;
+    solid::Mesh face{in.problem.part.vertices, {}};
+    for (const std::uint32_t t : near.triangles) face.triangles.push_back(in.problem.part.triangles[t]);
+    const solid::TriangleTree finished(face);
+    for (std::size_t t = 0; t < made.size(); ++t) {
+      const auto& [a, b, c] = surface.triangles[t];
+      const Vector middle = 1.0 / 3 * (surface.vertices[a] + surface.vertices[b] + surface.vertices[c]);
+      made[t] = made[t] || finished.nearest(middle, near.rim).has_value();
+    }
+  }
+  return made;
+}
+
 /// Gives each vertex what is left over the demand of its triangles instead of its allowance, and no number
-/// where they are as cast. A vertex of triangles with several demands stands once for each.
+/// where they are as cast, finished, or in a rim. A vertex of triangles with several demands stands once for
+/// each.
 void count_from_demands(const SolidInputs& in, const std::vector<std::uint32_t>& numbers,
                         draw::SolidScene& scene) {
   std::map<std::tuple<std::uint32_t, double, double>, std::uint32_t> known;
   solid::Mesh split;
   std::vector<double> left;
+  const std::vector<bool> of_rim = in_rims(in, scene.part);
   for (std::size_t t = 0; t < scene.part.triangles.size(); ++t) {
-    const auto& demand = in.problem.demands[numbers[t]];
+    std::optional<locate::SolidDemand> demand = in.problem.demands[numbers[t]];
+    if (of_rim[t]) demand.reset();
     const auto [minimum, scale] = demand.value_or(locate::SolidDemand{0, 0});
     solid::Triangle corners = scene.part.triangles[t];
     for (std::uint32_t& v : corners) {
