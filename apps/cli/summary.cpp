@@ -231,6 +231,8 @@ std::string headline(const io::SolidDocument& d) {
                        kept_with(" and keeps ", d));
   if (d.scan && !d.scan->proved())
     return "A placement was found, but parts of the blank are unknown, so it is not proved to hold.";
+  if (d.status == "optimal" && d.choice)
+    return "The largest margin was found and proved, and a placement near it chosen.";
   if (d.status == "optimal") return "The best placement was found and proved.";
   if (d.status == "stopped") return "Stopped early: a placement that holds, maybe not the best.";
   return fmt::format("The placement that --method {} found; it proves nothing about others.", d.method);
@@ -379,6 +381,16 @@ std::string demands_line(const io::SolidDocument& d) {
                      bound);
 }
 
+/// The margin that was kept is part of the proof; that no placement lies less deep is none.
+std::string choice_line(const io::SolidDocument& d) {
+  if (!d.choice || !d.choice->largest) return "";
+  return fmt::format(
+      "  largest allowance  {}; of at most {} mm of the margin {} that was found, {} were given up for it; "
+      "that there is no smaller one is not proved\n",
+      mm_up(*d.choice->largest), d.choice->give_up, mm_down(*d.choice->margin_found),
+      mm_up(*d.choice->margin_found - *d.margin()));
+}
+
 std::string demand_line(const io::SolidDocument& d) {
   const std::string demands = d.demands ? datum_lines(d) + maximum_lines(d) + demands_line(d) : "";
   if (!d.inside())
@@ -451,7 +463,7 @@ std::string locate_summary(const io::LocateDocument& d, const std::vector<std::s
 
 std::string solid_summary(const io::SolidDocument& d, const std::vector<std::string>& written) {
   return headline(d) + "\n" + pose_lines(d) + symmetry_lines(d) + start_line(d) + bound_line(d) +
-         demand_line(d) + scan_lines(d) + contact_lines(d) + program_lines(d.nc) +
+         demand_line(d) + choice_line(d) + scan_lines(d) + contact_lines(d) + program_lines(d.nc) +
          note_lines(d.warnings, written);
 }
 

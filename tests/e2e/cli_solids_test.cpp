@@ -304,6 +304,34 @@ TEST_F(Solids, TheExampleOfAFinishedBoreIsMet) {
   EXPECT_EQ(verify("r.json").status, 0);
 }
 
+TEST_F(Solids, ACriterionChoosesThePlacementWithLeastToCut) {
+  // Across there are 4 mm together and along 6, so that along x the part may lie anywhere from 2 to 4.
+  const Ran ran = locate({"--criterion", "largest", "--give-up", "0.1", "--min-allowance", "1.95", "--gap",
+                          "0.02", "-o", "r.json", "--json"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const Json choice = ran.json()["choice"];
+  EXPECT_EQ(choice["criterion"], "largest");
+  EXPECT_EQ(choice["give_up"], 0.1);
+  EXPECT_GE(choice["largest"], 3.0);
+  EXPECT_LE(choice["largest"], 3.02);
+  EXPECT_NEAR(choice["margin_found"], 2, 0.02);
+  EXPECT_GE(ran.json()["clearance"], 1.95);
+  for (const char* words : {"The largest margin was found and proved, and a placement near it chosen.",
+                            "largest allowance  3.0", "that there is no smaller one is not proved"})
+    EXPECT_NE(ran.err.find(words), std::string::npos) << words << " is not in\n" << ran.err;
+  EXPECT_EQ(verify("r.json").status, 0);
+  std::string lie = ran.out;
+  lie.replace(lie.find("\"largest\": 3.0"), 14, "\"largest\": 2.9");
+  write_bytes(folder_ / "lie.json", lie);
+  EXPECT_EQ(verify("lie.json").status, 4);
+  const Ran even = locate({"--criterion", "even"});
+  EXPECT_EQ(even.status, 2);
+  EXPECT_NE(even.err.find("--criterion even is for outlines in the plane"), std::string::npos) << even.err;
+  const Ran icp = locate({"--criterion", "largest", "--method", "icp"});
+  EXPECT_EQ(icp.status, 2);
+  EXPECT_NE(icp.err.find("which --method icp does not look for"), std::string::npos) << icp.err;
+}
+
 TEST_F(Solids, ADemandThatIsMissedIsExitStatusOne) {
   const Ran ran = locate({"--min-allowance", "3", "--method", "climb", "-o", "r.json"});
   EXPECT_EQ(ran.status, 1);

@@ -269,6 +269,12 @@ def of_solids():
          "--gap", "0.05", "-o", "r.json"]])
     yield smooth("placement, solids, finished", inputs=list(deep))
     yield smooth("finished faces of solids", target="f.json", oracle=solids.features, report_of="r.json")
+    evened = ["--criterion", "largest", "--give-up", "0.2"]
+    whole = ["locate", "--part", "part.obj", "--blank", "blank.obj", "--freedom", "xyz", "--shift", "2", "--gap", "0.1", "-o",
+             "r.json"]
+    yield placed("placement, solids, largest", [], [whole + evened], inputs=["part.obj", "blank.obj"], written={
+        "part.obj": box((2, 2, 2), (18, 14, 9)), "blank.obj": box((0, 0, 0), (20, 16, 13))})
+    yield smooth("placement, solids, finished, largest", commands=[smooth.keywords["commands"][0] + evened])
     for role, file in (("part", "part.stl"), ("blank", "casting.stl")):
         yield Kind(f"placement, solids, another {role}", meshes, [start, turned + ["--gap", "0.1"]], file, of_r,
                    solids.mesh(role), form="stl", report_of="r.json")

@@ -33,7 +33,7 @@ INFORMATION = [r"/(seed|work|version|method|run|warnings|start|symmetry)(/.*)?$"
                r"/(nc|offset)/output/path$"]
 # Items that each say something for themselves; a term, a ball or a node is missed where it is needed.
 MAY_GO = r"/(contacts|inputs)/\d+$|/certificate/(part_balls|part_points|datum_points|directions|bodies|blank_balls|planes)/\d+$|" \
-         r"/certificate/trees/\d+/nodes/\d+(/\d+)?$|/scan/touches/(balls|cuts|ways)/\d+(/terms/\d+)?$"
+         r"/certificate/trees/\d+/nodes/\d+(/\d+)?$|/scan/touches/(balls|cuts|ways)/\d+(/terms/\d+)?$|/choice$"
 UNITS = {"mm": F(1), "inch": F(254, 10), "m": F(1000)}
 SLACK = F(4, 10 ** 15)  # of numbers of poses that were computed in doubles
 
@@ -389,10 +389,31 @@ class Solids:
                 return False
         elif not (derived(document, certificate) and self.clearance_holds(document, part, blank, scan)):
             return False
+        if "choice" in document and not self.choice_holds(document, part, blank, faces):
+            return False
         return (pose_is_allowed(document) and
                 program_holds(document, self.files) and offset_holds(document, self.files) and
                 all(contact_holds(document, contact, part, blank, scan) for contact in document["contacts"]) and
                 self.is_proved(document, certificate, part, blank, faces))
+
+    def choice_holds(self, document, part, blank, faces):
+        """No more of the margin was given up than is said, and the deepest place is as deep."""
+        said, asked = document["choice"], faces.of if faces else itertools.repeat(True)
+        if said.keys() != {"criterion", "give_up", "margin_found", "largest"} or said["criterion"] != "largest" or \
+                said["give_up"] < 0 or any((said[key] is not None) != document["inside"] for key in ("margin_found", "largest")):
+            return False
+        if not document["inside"]:
+            return True
+        margin, bound = ((document["demands"]["margin"], document["demands"]["margin_bound"]) if faces
+                         else (document["clearance"], document["upper_bound"]))
+        if not said["margin_found"] - said["give_up"] <= margin <= said["margin_found"] or \
+                (bound is not None and said["margin_found"] > bound):
+            return False
+        triangles = [[list(map(float, place(document, p))) for p in t] for t, demand in zip(part.all, asked)
+                     if demand and any(space.normal(t))]
+        low, high = solid_faces.farthest(triangles, [[list(map(float, p)) for p in t] for t in blank.kept],
+                                         max(float(said["largest"]) * 2e-3, 1e-9))
+        return low * (1 - 1e-12) <= said["largest"] <= high + said["largest"] / 16
 
     def fault_of_body(self, row, surface):
         key = tuple(row), len(surface), str(surface[0])

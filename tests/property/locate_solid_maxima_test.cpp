@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "lekalo/locate/solid.hpp"
 #include "lekalo/solid/mesh_clearance.hpp"
 #include "support/cases.hpp"
+#include "support/prism.hpp"
 #include "support/solid_cases.hpp"
 
 namespace lekalo::locate::locate_solid_maxima_test {
@@ -45,28 +45,11 @@ SolidProblem cube_in_cube() {
   return problem;
 }
 
-/// A prism along y over an outline whose point 3 sees all the others.
-solid::Mesh prism(const std::vector<std::array<double, 2>>& outline, double low, double high) {
-  solid::Mesh mesh;
-  const auto n = static_cast<std::uint32_t>(outline.size());
-  for (const double y : {low, high})
-    for (const auto& [x, z] : outline) mesh.vertices.push_back({x, y, z});
-  for (std::uint32_t k = 0; k < n; ++k) {
-    const std::uint32_t next = (k + 1) % n;
-    mesh.triangles.push_back({k, next, n + k});
-    mesh.triangles.push_back({next, n + next, n + k});
-    if (k == 3 || next == 3) continue;
-    mesh.triangles.push_back({3, next, k});
-    mesh.triangles.push_back({n + 3, n + k, n + next});
-  }
-  return closed_mesh(std::move(mesh)).value().mesh;
-}
-
 /// A step whose upper face has 1 mm of stock, and its lower one 2 mm.
 SolidProblem step_in_step() {
   SolidProblem problem;
-  problem.part = prism({{-10, -5}, {10, -5}, {10, 3}, {0, 3}, {0, 5}, {-10, 5}}, -5, 5);
-  problem.blank = prism({{-11, -6}, {11, -6}, {11, 5}, {1, 5}, {1, 6}, {-11, 6}}, -6, 6);
+  problem.part = cases::prism({{-10, -5}, {10, -5}, {10, 3}, {0, 3}, {0, 5}, {-10, 5}}, -5, 5);
+  problem.blank = cases::prism({{-11, -6}, {11, -6}, {11, 5}, {1, 5}, {1, 6}, {-11, 6}}, -6, 6);
   problem.shift = 2;
   problem.start.shift = {0.1, 0.2, -0.3};
   return problem;

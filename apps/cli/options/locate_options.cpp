@@ -364,7 +364,7 @@ void check_method(const LocateWords& words, WordReader& read, LocateOptions& o) 
 }
 
 /// The options that solids have, too, and those that they alone have; all others are for outlines.
-constexpr std::array<std::string_view, 31> kOfBoth{
+constexpr std::array<std::string_view, 33> kOfBoth{
     "--part",        "--blank",           "--units",         "--window",
     "--gap",         "--method",          "--work",          "--time",
     "--json",        "--output",          "--picture",       "--report",
@@ -372,7 +372,8 @@ constexpr std::array<std::string_view, 31> kOfBoth{
     "--coverage",    "--min-radius",      "--max-dip",       "--drop-outliers",
     "--nc",          "--nc-out",          "--nc-mode",       "--control",
     "--allow",       "--chord-tolerance", "--wcs",           "--nc-angle-decimals",
-    "--scan-frame",  "--features",        "--deviations"};
+    "--scan-frame",  "--features",        "--deviations",    "--criterion",
+    "--give-up"};
 constexpr std::array<std::string_view, 17> kOfSolids{
     "--freedom",         "--tilt",      "--shift",      "--start",
     "--find-start",      "--underside", "--flat",       "--mesh",
@@ -450,6 +451,21 @@ void check_solid_scan(LocateOptions& o) {
                             "what the surface does between its points");
 }
 
+/// Solids have one criterion after the largest margin.
+void check_solid_criterion(const LocateWords& words, LocateOptions& o) {
+  if (o.job.criterion.choose == nullptr) return;
+  o.solid.criterion = jobs::SolidCriterion::largest, o.solid.give_up = o.job.give_up;
+  const auto complain = [&](bool wrong, const std::string& sentence) {
+    if (wrong) o.not_for_solids += (o.not_for_solids.empty() ? "" : "; ") + sentence;
+  };
+  complain(o.job.criterion.name != "largest",
+           fmt::format("--criterion {} is for outlines in the plane, and the files are solids",
+                       o.job.criterion.name));
+  complain(o.solid.method == jobs::SolidMethod::icp || o.solid.method == jobs::SolidMethod::axes,
+           fmt::format("--criterion goes on from the largest margin, which --method {} does not look for",
+                       words.method));
+}
+
 Result<LocateOptions> to_options(const LocateWords& words, const std::vector<FormOption>& options) {
   LocateOptions o;
   WordReader read;
@@ -464,6 +480,7 @@ Result<LocateOptions> to_options(const LocateWords& words, const std::vector<For
   read_search(words, read, o);
   read_solid_search(words, read, o);
   check_turns(words, o);
+  check_solid_criterion(words, o);
   check_solid_scan(o);
   read_program(words, read, o);
   read_offset(words, read, o);

@@ -23,6 +23,10 @@ enum class SolidMethod { certified, climb, icp, axes };
 /// Returns the method's name as it stands in results.
 [[nodiscard]] const char* name_of(SolidMethod method) noexcept;
 
+/// `smallest`: the largest margin is all that counts. `largest`: of the placements that give up no more of it
+/// than is stated, one whose largest allowance is small (locate/solid_criterion.hpp).
+enum class SolidCriterion { smallest, largest };
+
 /// The statements about a blank that is a scanner's mesh, or points.
 struct SolidScanOptions {
   double uncertainty = 0;            ///< standard uncertainty of one point, mm, >= 0
@@ -68,6 +72,9 @@ struct SolidLocateOptions {
   double gap = 1e-2;         ///< see locate::SolidOptions, mm, > 0
   double min_allowance = 0;  ///< mm, >= 0
   SolidMethod method = SolidMethod::certified;
+  /// Goes on from what `certified` or `climb` found, where that meets what is demanded.
+  SolidCriterion criterion = SolidCriterion::smallest;
+  double give_up = 0;  ///< the criterion may take so much off the margin, mm, >= 0
   /// The start is found by locate::find_start; there is no file of one then.
   bool find_start = false;
   /// Without it the blank is taken as drawn.

@@ -111,6 +111,13 @@ void write(JsonWriter& json, const SolidDemandRecord& demands) {
       .end();
 }
 
+void write(JsonWriter& json, const SolidChoiceRecord& choice) {
+  json.object({{"criterion", choice.criterion},
+               {"give_up", choice.give_up},
+               {"margin_found", choice.margin_found},
+               {"largest", choice.largest}});
+}
+
 void write(JsonWriter& json, const std::optional<OffsetRecord>& offset) {
   if (!offset) return void(json.value(nullptr));
   json.begin_object().fields(
@@ -149,6 +156,8 @@ void write_placement(JsonWriter& json, const SolidDocument& d) {
     write(json, *d.demands);
   else
     json.value(nullptr);
+  // Others have none, and not the word either.
+  if (d.choice) write(line_of(json, "choice"), *d.choice);
   list_of_lines(line_of(json, "contacts"), d.contacts,
                 [&](const locate::SolidTouch& one) { write(json, one); });
   line_of(json, "scan");

@@ -12,6 +12,7 @@
 #include "lekalo/base/stop.hpp"
 #include "lekalo/io/locate/solid_certificate.hpp"
 #include "lekalo/io/text/sha256.hpp"
+#include "lekalo/locate/solid_criterion.hpp"
 #include "lekalo/locate/solid_reference.hpp"
 #include "lekalo/solid/symmetry.hpp"
 #include "lekalo/verify/verify.hpp"
@@ -132,6 +133,8 @@ struct Found {
   locate::SolidPlacement best;
   std::optional<double> upper_bound;
   locate::SolidProof proof;
+  /// The best before a criterion went on from it.
+  locate::SolidPlacement before = {};
 };
 
 Result<Found> found_by_method(const SolidInputs& in, const SolidLocateOptions& o, const RunControl& run) {
@@ -161,6 +164,26 @@ Result<Found> found_by_method(const SolidInputs& in, const SolidLocateOptions& o
     }
   }
   return found;
+}
+
+/// Goes on by the criterion, where the demands are met; they are not given up.
+Result<void> choose(const SolidInputs& in, const SolidLocateOptions& o, const RunControl& run,
+                    const PhaseListener& phases, Found& found) {
+  /// So much of the margin is left to rounding, mm.
+  constexpr double kLeft = 1e-6;
+  found.before = found.best;
+  if (o.criterion == SolidCriterion::smallest || !found.best.inside || run.stop_requested()) return {};
+  const double lost = (1 + 0x1p-49) * (decimals_lose(found.best, in, kWordedLoss) + in.deviation()) /
+                      (in.demands ? in.least_scale() : 1),
+               demanded = difference_rounded_up(in.demands ? 0 : o.min_allowance, -lost);
+  if (!(found.best.margin >= demanded)) return {};
+  const double least = std::max(demanded, found.best.margin - o.give_up - kLeft);
+  RunControl choosing = run;
+  choosing.progress = begin_phase(phases, "looking for the smallest largest allowance");
+  choosing.work_limit -= std::min(found.best.work, choosing.work_limit);
+  LEKALO_TRY(found.best,
+             locate::smallest_largest(in.problem, found.best, least, {o.gap, 0, o.threads, choosing}));
+  return {};
 }
 
 /// The search may have met a crossing where the part nearly touches, and that has no triangles.
@@ -246,7 +269,7 @@ Result<locate::SolidPlacement> found_start(const SolidInputs& in, const SolidLoc
 }
 
 Result<Found> searched(const SolidLocateOptions& o, const RunControl& run, const Stopwatch& stopwatch,
-                       SolidInputs& in, double& seconds) {
+                       const PhaseListener& phases, SolidInputs& in, double& seconds) {
   const auto now = [&] { return stopwatch ? stopwatch() : 0; };
   const double start = now();
   const RunControl nobody;
@@ -261,9 +284,26 @@ Result<Found> searched(const SolidLocateOptions& o, const RunControl& run, const
   }
   set_window(o, in);
   LEKALO_TRY(Found found, found_by_method(in, o, searching));
+  LEKALO_CHECK(choose(in, o, searching, phases, found));
   found.best.work += before;
   seconds = now() - start;
   return found;
+}
+
+/// The margin that was found is told no higher than the criterion has kept to, whatever roundings took.
+void tell_choice(const Found& found, const SolidInputs& in, const SolidLocateOptions& o, double share,
+                 io::SolidDocument& d) {
+  if (o.criterion == SolidCriterion::smallest) return;
+  d.choice = {"largest", o.give_up};
+  if (!d.inside()) return;
+  const double margin = *d.margin();
+  double before = margin;
+  if (found.before.inside)
+    before = in.demands ? safe_margin(found.before, in, share)
+                        : safe_clearance(found.before, in, share).value_or(margin);
+  d.choice->margin_found = std::max(margin, std::min(before, difference_rounded_down(margin, -o.give_up)));
+  const double largest = locate::largest_allowance(in.problem, d.pose);
+  d.choice->largest = difference_rounded_up(largest, -decimals_lose(found.best, in, share));
 }
 
 io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&& found) {
@@ -297,6 +337,7 @@ io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&
   } else {
     d.upper_bound = found.upper_bound;
   }
+  tell_choice(found, in, job.options, share, d);
   d.scan = in.scan;
   d.status = found.status;
   const double demanded = d.demands ? 0 : d.min_allowance;
@@ -335,7 +376,7 @@ Result<LocatedSolid> locate_solid(const SolidLocateJob& job, const RunControl& r
                                   const Stopwatch& stopwatch, const PhaseListener& phases) {
   LEKALO_TRY(SolidInputs in, read_inputs(job, phases));
   double seconds = 0;
-  Result<Found> searching = searched(job.options, run, stopwatch, in, seconds);
+  Result<Found> searching = searched(job.options, run, stopwatch, phases, in, seconds);
   // The meshes are closed, so what is wrong with the problem are the demands.
   if (!searching && searching.error().code == ErrorCode::bad_input && job.features)
     return failure(ErrorCode::bad_input, job.features->name + ": " + searching.error().message);

@@ -156,6 +156,11 @@ SolidFrame frame_of(const SolidProblem& problem) {
   return frame;
 }
 
+FramedPose framed(const SolidFrame& frame, const SolidPose& pose) {
+  const auto [w, x, y, z] = frame.start;
+  return frame.framed(product(pose.quaternion, {w, -x, -y, -z}), motion_of(pose)(frame.pivot));
+}
+
 /// Measures what the part has at its pose.
 void measure_at_pose(const SolidMeter& meter, SolidPlacement& made) {
   const Motion motion = motion_of(made.pose);
@@ -228,15 +233,12 @@ Result<std::optional<SolidPlacement>> solid_at(const SolidProblem& problem, cons
   LEKALO_CHECK(check(problem, options));
   const SolidMeter meter(problem, frame_of(problem));
   const SolidFrame& frame = meter.frame();
-  const auto [w, x, y, z] = frame.start;
-  const FramedPose framed =
-      frame.framed(product(pose.quaternion, {w, -x, -y, -z}), motion_of(pose)(frame.pivot));
-  const FramedPose held = frame.window.held(framed);
-  if (!(held.x == framed.x && held.at == framed.at)) return std::nullopt;
+  const FramedPose at = framed(frame, pose), held = frame.window.held(at);
+  if (!(held.x == at.x && held.at == at.at)) return std::nullopt;
   SolidPlacement made;
   made.pose = pose;
   measure_at_pose(meter, made);
-  made.contacts = holding_contacts(meter, {framed, made.clearance, made.inside}, options.gap);
+  made.contacts = holding_contacts(meter, {at, made.clearance, made.inside}, options.gap);
   return made;
 }
 

@@ -1,12 +1,10 @@
 #include "solid_climb.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <set>
 #include <utility>
 
 #include "lekalo/base/stop.hpp"
-#include "locate/search/cell_program.hpp"
+#include "solid_rows.hpp"
 
 namespace lekalo::locate {
 namespace {
@@ -15,8 +13,6 @@ using solid::Motion;
 using solid::Vector;
 
 constexpr int kMostSteps = 100;
-/// A step that found new contacts is tried again with them, so many times, before it is made smaller.
-constexpr int kMostTries = 3;
 /// So many contacts of one pose are looked at, and at a glance.
 constexpr std::size_t kContacts = 64, kGlanced = 24, kMissed = 12;
 /// Glances lead up first, as long as they gain so many times what a climb goes on for. What they missed is
@@ -26,105 +22,21 @@ constexpr double kGlancedGain = 16;
 /// They end where their steps become shorter than this part of the first.
 constexpr double kShortest = 1.0 / 256;
 
-LinearBound<6> row_of(const SolidFrame& frame, const Motion& motion, const SolidContact& contact) {
-  const Vector n = 1 / contact.demand.scale * contact.normal,
-               g = 1 / frame.reach * cross(motion.turned(contact.part - frame.pivot), n);
-  return {{n.x, n.y, n.z, g.x, g.y, g.z}, contact.margin()};
-}
-
-/// The finds of the poses so far.
-struct Pool {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;  ///< of triangles that were near
-  std::vector<SolidContact> over_planes;
-  /// Points that are to be near the blank's surface and were far from it.
-  std::vector<SolidContact> points;
-};
-constexpr std::size_t kMostPoints = 128;
-
-bool add(Pool& pool, const std::vector<SolidContact>& contacts) {
-  bool added = false;
-  for (const SolidContact& c : contacts) {
-    const auto same = [&](const SolidContact& o) { return o.part == c.part && o.normal == c.normal; };
-    const auto same_point = [&](const SolidContact& o) { return o.near == c.near && o.part == c.part; };
-    if (c.part_triangle != kNoTriangle) {
-      added = pool.pairs.insert({c.part_triangle, c.blank_triangle}).second || added;
-    } else if (c.of_plane && std::none_of(pool.over_planes.begin(), pool.over_planes.end(), same)) {
-      pool.over_planes.push_back(c);
-      added = true;
-    } else if (c.near != kNoTriangle && pool.points.size() < kMostPoints &&
-               std::none_of(pool.points.begin(), pool.points.end(), same_point)) {
-      pool.points.push_back(c);
-      added = true;
-    }
-  }
-  return added;
-}
-
-/// A pair of triangles says how to get away from the blank's surface on the side where the part is. Where
-/// that is outside, it is the opposite of what helps, and the crossings say what does.
-bool on_the_inner_side(const solid::Mesh& blank, const SolidContact& contact) {
-  const auto& [i, j, k] = blank.triangles[contact.blank_triangle];
-  const Vector a = blank.vertices[i];
-  return dot(contact.normal, cross(blank.vertices[j] - a, blank.vertices[k] - a)) <= 0;
-}
-
 /// The rows of all known contacts at a pose.
 std::vector<LinearBound<6>> rows_at(const SolidMeter& meter, const FramedPose& pose, bool inside,
-                                    const Pool& pool, const std::vector<SolidContact>& contacts) {
+                                    const ContactPool& pool, const std::vector<SolidContact>& contacts) {
   const Motion motion = meter.frame().motion(pose);
   std::vector<LinearBound<6>> rows;
-  for (const SolidContact& contact : contacts)
-    if (contact.part_triangle == kNoTriangle && !contact.of_plane && contact.near == kNoTriangle)
-      rows.push_back(row_of(meter.frame(), motion, contact));
-  for (const SolidContact& contact : pool.over_planes)
-    rows.push_back(row_of(meter.frame(), motion, SolidMeter::over_plane(motion, contact)));
-  for (const SolidContact& met : pool.points)
-    if (const auto contact = meter.near_contact(motion, met.near, met.part, met.demanded_triangle))
-      rows.push_back(row_of(meter.frame(), motion, *contact));
-  for (const auto& [part, blank] : pool.pairs) {
-    const SolidContact contact = meter.contact(motion, part, blank);
-    if (contact.directed() && (inside || on_the_inner_side(meter.blank(), contact)))
-      rows.push_back(row_of(meter.frame(), motion, contact));
-  }
+  for (const SolidContact& contact : contacts_at(meter, pose, inside, pool, contacts))
+    rows.push_back(row_of(meter.frame(), motion, contact));
   return rows;
 }
-
-/// How far a step goes, which is as far as the rows have been right.
-struct Trust {
-  double widest = 0, reach = widest;
-  int tries = 0;
-
-  /// A step that was no better is tried again with what it met, and made shorter where it met nothing new.
-  void was_no_better(bool met_more) {
-    if (met_more && ++tries < kMostTries) return;
-    reach *= 0.25;
-    tries = 0;
-  }
-  void was_better(double gained, double hoped, bool met_more) {
-    if (gained < 0.25 * hoped && !met_more) reach *= 0.5;
-    if (gained > 0.75 * hoped) reach = std::min(widest, 2 * reach);
-    tries = 0;
-  }
-};
 
 /// A pose to measure, with the margin that it may have.
 struct Lead {
   FramedPose pose;
   double most = kInfinity;
 };
-
-template <class Found, class Look>
-std::optional<Found> unless_stopped(const RunControl& run, const Look& look) {
-  RunControl until_stop;
-  until_stop.stop = run.stop;
-  const Listening listening(until_stop);
-  try {
-    Listening::look();
-    return look();
-  } catch (const Stopped&) {
-    return std::nullopt;
-  }
-}
 
 /// A pose as glances see it.
 struct Glanced {
@@ -135,7 +47,7 @@ struct Glanced {
   std::vector<SolidContact> contacts;
 
   /// Works out what the pose is worth by all contacts that are known by now.
-  void weigh(const SolidMeter& meter, const Pool& pool) {
+  void weigh(const SolidMeter& meter, const ContactPool& pool) {
     inside = std::all_of(contacts.begin(), contacts.end(),
                          [](const SolidContact& c) { return c.part_triangle != kNoTriangle; });
     rows = rows_at(meter, pose, inside, pool, contacts);
@@ -147,7 +59,7 @@ struct Glanced {
 /// Climbs by what glances and the contacts that are known say, with no measurement, as long as that seems to
 /// gain `enough`.
 Lead led_up(const SolidMeter& meter, const FramedPose& from, double enough, const RunControl& run,
-            double widest, Pool& pool, std::uint64_t& work) {
+            double widest, ContactPool& pool, std::uint64_t& work) {
   const SolidFrame& frame = meter.frame();
   Trust trust{widest};
   Glanced here, there;
@@ -158,7 +70,7 @@ Lead led_up(const SolidMeter& meter, const FramedPose& from, double enough, cons
     return true;
   };
   if (!look(here, from, kInfinity)) return {from};
-  add(pool, here.contacts);
+  pool.add(here.contacts);
   Lead lead{from};
   for (int step = 0; step < kMostGlances && trust.reach >= kShortest * widest && !run.stop_requested();
        ++step) {
@@ -171,7 +83,7 @@ Lead led_up(const SolidMeter& meter, const FramedPose& from, double enough, cons
     if (here.inside) lead.most = most;
     if (!(solution.bound > here.value + enough)) break;
     if (!look(there, frame.moved(here.pose, solution.z), most)) break;
-    const bool added = add(pool, there.contacts);
+    const bool added = pool.add(there.contacts);
     there.weigh(meter, pool);
     if (there.inside != here.inside ? there.inside : there.value > here.value) {
       trust.was_better(there.value - here.value, solution.bound - here.value, added);
@@ -201,7 +113,7 @@ MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double wide
                     const RunControl& run, std::uint64_t& work) {
   const SolidFrame& frame = meter.frame();
   std::vector<SolidContact> here, there;
-  Pool pool;
+  ContactPool pool;
   Lead lead{from};
   const RunControl nobody;
   std::optional<Listening> to_the_end;
@@ -214,13 +126,13 @@ MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double wide
   // There is something to show from here on.
   if (!to_the_end) to_the_end.emplace(nobody);
   ++work;
-  for (int more = 1; add(pool, here) && best.inside && lead.most < kInfinity && more < kMostLeads; ++more) {
+  for (int more = 1; pool.add(here) && best.inside && lead.most < kInfinity && more < kMostLeads; ++more) {
     lead = led_up(meter, best.pose, kGlancedGain * enough, run, widest, pool, work);
     const auto next = measured_unless_stopped(meter, lead.pose, lead.most, kMissed, run, there);
     if (!next) break;
     ++work;
     if (!next->better_than(best)) {
-      add(pool, there);
+      pool.add(there);
       break;
     }
     best = *next;
@@ -238,7 +150,7 @@ MeasuredSolid climb(const SolidMeter& meter, const FramedPose& from, double wide
                                 std::max(solution.bound, meter.floor() + enough), kContacts, run, there);
     if (!next) break;
     work += 2;
-    const bool added = add(pool, there);
+    const bool added = pool.add(there);
     if (next->better_than(best)) {
       trust.was_better(next->value - best.value, solution.bound - best.value, added);
       best = *next;

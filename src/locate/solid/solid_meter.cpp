@@ -1,6 +1,5 @@
 #include "solid_meter.hpp"
 
-#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -8,6 +7,7 @@
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/disjoint_sets.hpp"
 #include "lekalo/geom/trig.hpp"
+#include "spread.hpp"
 
 namespace lekalo::locate {
 namespace {
@@ -18,8 +18,6 @@ using solid::Vector;
 
 /// So many vertices of each mesh are looked at where they cross.
 constexpr std::size_t kSamples = 96;
-/// They are spread over so many vertices of a larger mesh.
-constexpr std::size_t kSpreadOver = 4096;
 /// And at most so many of them for a quick word.
 constexpr std::size_t kFewSamples = 32;
 /// A glance looks at a vertex of so many patches of each mesh, and of so many neighbours goes on with the one
@@ -47,26 +45,6 @@ constexpr std::size_t kMostNearPlaces = 512;
 constexpr double kDatumRounding = 0x1p-44;
 /// The square root of 3, rounded up: how far a point is off at most for each of its coordinates.
 constexpr double kDiagonal = 1.7321;
-
-/// Points as far from each other as can be: each is the farthest from those before. Of very many, only some
-/// are looked at. Returns their numbers.
-std::vector<std::size_t> spread(const std::vector<Vector>& points, std::size_t count = kSamples) {
-  const std::size_t step = 1 + points.size() / kSpreadOver;
-  std::vector<Vector> some;
-  for (std::size_t k = 0; k < points.size(); k += step) some.push_back(points[k]);
-  std::vector<std::size_t> chosen;
-  std::vector<double> apart(some.size(), std::numeric_limits<double>::infinity());
-  std::size_t next = 0;
-  while (chosen.size() < std::min(count, some.size())) {
-    chosen.push_back(step * next);
-    for (std::size_t k = 0; k < apart.size(); ++k) {
-      const Vector way = some[k] - some[next];
-      apart[k] = std::min(apart[k], dot(way, way));
-    }
-    next = static_cast<std::size_t>(std::max_element(apart.begin(), apart.end()) - apart.begin());
-  }
-  return chosen;
-}
 
 /// The triangles with these numbers, and the vertices that they have.
 solid::Mesh part_of(const solid::Mesh& mesh, const std::vector<std::uint32_t>& numbers) {
@@ -166,7 +144,7 @@ SolidMeter::SolidMeter(const SolidProblem& problem, const SolidFrame& frame, uns
     convex_ = ConvexBlank::of(problem.blank, clearance_.blank());
   sort_by_demand();
   of_part_ = samples_of_part();
-  for (const std::size_t v : spread(blank_.vertices)) of_blank_.push_back(blank_.vertices[v]);
+  for (const std::size_t v : spread(blank_.vertices, kSamples)) of_blank_.push_back(blank_.vertices[v]);
   cut_in_patches();
   if (!widths_.empty()) {
     const auto [low, high] = std::minmax_element(widths_.begin(), widths_.end());
@@ -315,7 +293,7 @@ std::vector<SolidMeter::Sample> SolidMeter::samples_of_part() const {
   std::vector<Vector> places;
   for (const Sample& sample : all) places.push_back(sample.place);
   std::vector<Sample> chosen;
-  for (const std::size_t k : spread(places)) chosen.push_back(all[k]);
+  for (const std::size_t k : spread(places, kSamples)) chosen.push_back(all[k]);
   return chosen;
 }
 

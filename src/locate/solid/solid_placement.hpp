@@ -12,6 +12,9 @@ namespace lekalo::locate {
 
 [[nodiscard]] SolidFrame frame_of(const SolidProblem& problem);
 
+/// A pose as the search counts it, which may be outside of the window.
+[[nodiscard]] FramedPose framed(const SolidFrame& frame, const SolidPose& pose);
+
 /// The pose in its own doubles, and what it has there.
 [[nodiscard]] SolidPlacement placement(const SolidMeter& meter, const FramedPose& found);
 

@@ -127,6 +127,7 @@ constexpr Known kSolidDatums[] = {{"name"}, {"within"}, {"off"}, {"missed"}};
 constexpr Known kSolidDemands[] = {
     {"minimum"},   {"features", kSolidFeatures}, {"datums", kSolidDatums}, {"margin"}, {"margin_bound"},
     {"margin_gap"}};
+constexpr Known kSolidChoice[] = {{"criterion"}, {"give_up"}, {"margin_found"}, {"largest"}};
 constexpr Known kSolidUnderside[] = {{"z"}, {"flat"}};
 constexpr Known kTouchCuts[] = {{"axis"}, {"above"}, {"at"}, {"terms"}};
 constexpr Known kTouchWays[] = {{"corner"}, {"axis"}, {"above"}, {"at"}, {"multiplier"}, {"terms"}};
@@ -183,6 +184,7 @@ constexpr Known kSolidPlacement[] = {{"format", kFormat},
                                      {"min_allowance"},
                                      {"shortfall"},
                                      {"demands", kSolidDemands},
+                                     {"choice", kSolidChoice},
                                      {"contacts", kSolidContacts},
                                      {"scan", kSolidScan},
                                      {"unknown_area_mm2"},

@@ -24,6 +24,9 @@
 namespace lekalo::verify {
 namespace {
 
+/// A depth may be told larger than it is by this part of it, or of what is allowed.
+constexpr double kDeepSlack = 1.0 / 32;
+
 /// Points of contact are printed for people: they may be off by this share of the blank's size.
 constexpr double kReadingTolerance = 1e-6;
 
@@ -74,12 +77,14 @@ class SolidCheck {
       else if (demands_)
         LEKALO_CHECK(check_margin(pair, *part, *blank));
       if (demands_) check_datums(*blank), check_nears(*part, *blank);
+      if (demands_.has_value() == d_.demands.has_value()) check_largest(*part, *blank);
       check_contacts(pair, *part, *blank);
       if (has_certificate && bound() && demands_.has_value() == d_.demands.has_value())
         LEKALO_CHECK(check_certificate(certificate, *part, *blank));
     }
     check_pose();
     check_derived();
+    for (const std::string& fault : faults_of_choice(d_)) find("{}", fault);
     check_status(has_certificate);
     check_nc();
     if (!d_.inside) note("the part does not lie in the blank at the placement, so there is no clearance");
@@ -114,6 +119,10 @@ class SolidCheck {
   Result<void> check_margin(const SolidPair& pair, const SolidMesh& part, const SolidMesh& blank);
   void check_datums(const SolidMesh& blank);
   void check_nears(const SolidMesh& part, const SolidMesh& blank);
+  void check_largest(const SolidMesh& part, const SolidMesh& blank);
+  void check_farthest(const PlacedSolid& part, const std::vector<std::uint32_t>& triangles,
+                      const PlacedSolid& blank, const Decimal& largest, double slack, double within,
+                      const std::string& what);
   [[nodiscard]] bool keeps_datums() const;
   [[nodiscard]] bool keeps_maximum(std::size_t feature) const;
   [[nodiscard]] bool keeps_maxima() const;
@@ -264,11 +273,20 @@ std::vector<std::uint32_t> SolidCheck::triangles_of(const SolidMesh& part, std::
   return triangles;
 }
 
+void SolidCheck::check_farthest(const PlacedSolid& part, const std::vector<std::uint32_t>& triangles,
+                                const PlacedSolid& blank, const Decimal& largest, double slack, double within,
+                                const std::string& what) {
+  bool is_open = false;
+  if (const auto fault = fault_of_farthest(part, triangles, blank, enclosed(largest), slack, within, is_open))
+    find("{} {}", what, *fault);
+  if (!is_open) return;
+  open_ = true;
+  note(fmt::format("{} was not rechecked to the end, for the meshes are too fine", what));
+}
+
 /// Holds how far the points of features with a maximum, or that are finished, are said to be from the blank's
 /// surface against them.
 void SolidCheck::check_nears(const SolidMesh& part, const SolidMesh& blank) {
-  /// More than this part of the maximum is no largest allowance any more.
-  constexpr double kSlack = 1.0 / 32;
   const PlacedSolid placed(part, SolidMotion(d_.pose)), around(blank);
   for (std::size_t k = 0; k < demands_->features.size(); ++k) {
     const SolidFeature& feature = demands_->features[k];
@@ -276,25 +294,30 @@ void SolidCheck::check_nears(const SolidMesh& part, const SolidMesh& blank) {
     if (!feature.within || !largest) continue;
     const std::vector<std::uint32_t> triangles = triangles_of(part, k);
     if (triangles.empty()) continue;
-    const Span said = enclosed(*largest);
-    const char* const what = feature.finished ? "distance from the blank's surface" : "largest allowance";
     // A maximum far below all distances is not worth a search to its last digits.
-    const double slack = kSlack * std::max(*feature.within, 0x1p-10 * said.low);
-    const FarthestOf is = farthest_of(placed, triangles, around, said.low, slack / 16);
-    if (is.low > said.low || said.high > is.high + slack) {
-      find("feature \"{}\": its {} is said to be {}, but it is {}", feature.name, what, said.low,
-           is.low > said.low ? is.low : is.high);
-    } else if (is.open) {
-      open_ = true;
-      note(fmt::format("feature \"{}\": its {} was not rechecked to the end, for the meshes are too fine",
-                       feature.name, what));
-    }
+    const double slack = kDeepSlack * std::max(*feature.within, 0x1p-10 * approximate(*largest));
+    check_farthest(placed, triangles, around, *largest, slack, slack / 16,
+                   fmt::format("feature \"{}\": its {}", feature.name,
+                               feature.finished ? "distance from the blank's surface" : "largest allowance"));
   }
   for (std::size_t k = 0; k < demands_->features.size(); ++k)
     if (d_.inside && !keeps_maximum(k))
       find("inside is true, but a {}", demands_->features[k].finished
                                            ? "finished face is too far from the blank's surface"
                                            : "maximum is not kept");
+}
+
+/// Holds the largest allowance of all that has a demand against its points.
+void SolidCheck::check_largest(const SolidMesh& part, const SolidMesh& blank) {
+  if (!d_.choice || !d_.choice->largest) return;
+  std::vector<std::uint32_t> triangles;
+  for (std::uint32_t t = 0; t < part.triangles.size(); ++t)
+    if (!demands_ || demand_of(demands_->feature_of[part.numbers[t]])) triangles.push_back(t);
+  if (triangles.empty()) return;
+  const PlacedSolid placed(part, SolidMotion(d_.pose)), around(blank);
+  // Few faces of a part lie nearly as deep as allowed, and many nearly as deep as the deepest.
+  const double slack = kDeepSlack * approximate(*d_.choice->largest);
+  check_farthest(placed, triangles, around, *d_.choice->largest, slack, slack / 2, "choice.largest");
 }
 
 /// Holds how far the part is said to be off its datums against its points.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "verify/read/known_fields.hpp"
@@ -19,6 +20,8 @@ constexpr std::array<std::string_view, 8> kRoles{"part",    "blank",    "start",
 /// In the order of SolidUnit and of SolidFreedom.
 constexpr std::array<std::string_view, 6> kUnits{"mm", "inch", "m", "micron", "cm", "foot"};
 constexpr std::array<std::string_view, 3> kFreedoms{"xyz", "c-xyz", "six"};
+/// Those that are an answer to more than the largest margin.
+constexpr std::array<std::string_view, 1> kCriteria{"largest"};
 constexpr std::array<std::string_view, 6> kAxes{"x", "y", "z", "turn_x", "turn_y", "turn_z"};
 
 tl::unexpected<Error> bad(const std::string& name, const std::string& sentence) {
@@ -68,6 +71,7 @@ class Reader {
     fields_.require({"warnings", "seed", "work", "version", "method", "demands", "scan", "certificate",
                      "certificate_file", "nc", "offset", "run"});
     read_demands();
+    read_choice();
     read_scan();
     read_proof();
     refuse_no_object("offset");
@@ -196,6 +200,25 @@ class Reader {
     demands.gap = fields.number_or_null("margin_gap");
     for (const auto& value : {demands.minimum, demands.margin, demands.bound, demands.gap})
       if (value && is_beyond_all_sizes(*value)) fields.complain("a margin is beyond all sizes");
+  }
+
+  /// A result of the largest margin alone leaves the word out.
+  void read_choice() {
+    const Json written = fields_.get("choice");
+    if (written.text.empty()) return;
+    Fields fields(written, "choice", complaint_);
+    WrittenSolidChoice& choice = d_.choice.emplace();
+    (void)word_of(fields, "criterion", kCriteria);
+    choice.give_up = length(fields, "give_up");
+    if (sgn(choice.give_up.digits) < 0) fields.complain("field choice.give_up is below 0");
+    fields.require({"margin_found", "largest"});
+    choice.margin_found = fields.number_or_null("margin_found");
+    choice.largest = fields.number_or_null("largest");
+    for (const auto& value : {choice.margin_found, choice.largest})
+      if (value && is_beyond_all_sizes(*value)) fields.complain("a length of choice is beyond all sizes");
+    if (choice.margin_found.has_value() != d_.inside || choice.largest.has_value() != d_.inside)
+      fields.complain(fmt::format("choice {} margin_found and largest, but inside is {}",
+                                  d_.inside ? "needs" : "has", d_.inside));
   }
 
   void read_scan() {
@@ -327,6 +350,25 @@ class Reader {
 };
 
 }  // namespace
+
+std::vector<std::string> faults_of_choice(const SolidDocument& d) {
+  std::vector<std::string> faults;
+  const auto& [margin, bound] =
+      d.demands ? std::tie(d.demands->margin, d.demands->bound) : std::tie(d.clearance, d.upper_bound);
+  if (!d.choice || !d.choice->margin_found || !margin) return faults;
+  const Fraction is = to_fraction(*margin), found = to_fraction(*d.choice->margin_found);
+  if (is > found)
+    faults.push_back(fmt::format("choice.margin_found {} is below the margin {}",
+                                 approximate(*d.choice->margin_found), approximate(*margin)));
+  if (is < found - to_fraction(d.choice->give_up))
+    faults.push_back(fmt::format("the margin {} is below choice.margin_found {} less choice.give_up {}",
+                                 approximate(*margin), approximate(*d.choice->margin_found),
+                                 approximate(d.choice->give_up)));
+  if (bound && found > to_fraction(*bound))
+    faults.push_back(fmt::format("choice.margin_found {} is above the bound {}",
+                                 approximate(*d.choice->margin_found), approximate(*bound)));
+  return faults;
+}
 
 bool is_beyond_all_sizes(const Decimal& value) {
   return !(std::abs(approximate(value)) <= limits::kLargestDerived);

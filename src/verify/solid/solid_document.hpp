@@ -112,6 +112,12 @@ struct WrittenSolidDemands {
   std::optional<Decimal> margin, bound, gap;
 };
 
+/// The statements of the result about how its placement was chosen.
+struct WrittenSolidChoice {
+  Decimal give_up;
+  std::optional<Decimal> margin_found, largest;  ///< both, or neither
+};
+
 struct SolidDocument {
   std::string status;
   WrittenSolid part, blank;
@@ -125,6 +131,7 @@ struct SolidDocument {
   std::vector<WrittenSolidContact> contacts;
   std::optional<WrittenSolidScan> scan;
   std::optional<WrittenSolidDemands> demands;
+  std::optional<WrittenSolidChoice> choice;
   /// The certificate where the result itself holds it, else null.
   Json certificate;
   /// The number of boxes that the result states of the certificate's file.
@@ -138,6 +145,9 @@ struct SolidDocument {
 
 /// Returns the certificate of a certificate file.
 [[nodiscard]] Result<Json> read_solid_certificate_document(const Document& document);
+
+/// Says what is false of how the placement is said to be chosen, but for its largest allowance.
+[[nodiscard]] std::vector<std::string> faults_of_choice(const SolidDocument& document);
 
 /// Says whether a number is larger than any that a result may have.
 [[nodiscard]] bool is_beyond_all_sizes(const Decimal& value);

@@ -151,4 +151,15 @@ FarthestOf farthest_of(const PlacedSolid& part, const std::vector<std::uint32_t>
   return made;
 }
 
+std::optional<std::string> fault_of_farthest(const PlacedSolid& part,
+                                             const std::vector<std::uint32_t>& triangles,
+                                             const PlacedSolid& blank, Span said, double slack, double within,
+                                             bool& is_open) {
+  const FarthestOf is = farthest_of(part, triangles, blank, said.low, within);
+  if (is.low > said.low || said.high > is.high + slack)
+    return fmt::format("is said to be {}, but it is {}", said.low, is.low > said.low ? is.low : is.high);
+  is_open = is.open;
+  return std::nullopt;
+}
+
 }  // namespace lekalo::verify

@@ -38,4 +38,12 @@ struct FarthestOf {
 [[nodiscard]] FarthestOf farthest_of(const PlacedSolid& part, const std::vector<std::uint32_t>& triangles,
                                      const PlacedSolid& blank, double said, double within);
 
+/// Holds how far the farthest point is said to be from the surface against the triangles: it may be no
+/// farther, and no nearer by more than `slack`, as far as it is known `within`. Says what is false.
+/// \param is_open  set where it was given up before it was known
+[[nodiscard]] std::optional<std::string> fault_of_farthest(const PlacedSolid& part,
+                                                           const std::vector<std::uint32_t>& triangles,
+                                                           const PlacedSolid& blank, Span said, double slack,
+                                                           double within, bool& is_open);
+
 }  // namespace lekalo::verify

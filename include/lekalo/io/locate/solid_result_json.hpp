@@ -84,6 +84,16 @@ struct SolidDemandRecord {
   std::optional<double> margin_bound;
 };
 
+/// How the placement was chosen of those with nearly the best margin.
+struct SolidChoiceRecord {
+  std::string criterion;  ///< largest
+  double give_up = 0;     ///< mm
+  /// The largest margin found before anything was given up, or clearance where there are no demands; and no
+  /// point of what has a demand is farther from the blank's surface at the pose, mm. None where the part is
+  /// not inside.
+  std::optional<double> margin_found = std::nullopt, largest = std::nullopt;
+};
+
 /// The lines that set work offset and rotation for the placement.
 struct OffsetRecord {
   std::string control;
@@ -115,6 +125,8 @@ struct SolidDocument {
   double min_allowance = 0;
   /// None without a file of features.
   std::optional<SolidDemandRecord> demands;
+  /// None where the largest margin is all that counts.
+  std::optional<SolidChoiceRecord> choice;
   std::vector<locate::SolidTouch> contacts;
   /// Without one the blank is taken as drawn.
   std::optional<SolidScanRecord> scan;
@@ -135,6 +147,10 @@ struct SolidDocument {
   unsigned threads = 1;
 
   [[nodiscard]] bool inside() const noexcept { return clearance.has_value(); }
+  /// The margin, or the clearance where there are no demands, mm; none where the part is not inside.
+  [[nodiscard]] std::optional<double> margin() const noexcept {
+    return demands ? demands->margin : clearance;
+  }
   /// The rest that is missing of the demanded allowance, or of the demands, mm; none where the part is not
   /// inside.
   [[nodiscard]] std::optional<double> shortfall() const noexcept;
