@@ -14,18 +14,18 @@ namespace {
 constexpr double kAbsoluteZero = -273.15;  // degrees Celsius
 
 constexpr std::array<PropertyWords, kProperties> kWords{{
-    {"cutting force k_c1.1", "N/mm2", {1, 10'000}},
-    {"exponent m_c of the cutting force", "", {0, 0.6}},
-    {"conductivity", "W/(m K)", {0.01, 500}},
-    {"density", "kg/m3", {500, 25'000}},
-    {"heat capacity", "J/(kg K)", {100, 5'000}},
-    {"expansion", "1/K", {1e-7, 3e-4}},
-    {"Young's modulus", "MPa", {100, 1e6}},
-    {"Poisson's ratio", "", {0, 0.49}},
-    {"yield stress", "MPa", {1, 5'000}},
-    {"temperature of melting", "degrees C", {40, 4'000}},
-    {"glass transition", "degrees C", {40, 500}},
-    {"share of the cutting power that heats the workpiece", "", {0, 1}},
+    {"cutting force k_c1.1", "cutting-force", "N/mm2", {1, 10'000}},
+    {"exponent m_c of the cutting force", "force-exponent", "", {0, 0.6}},
+    {"conductivity", "conductivity", "W/(m K)", {0.01, 500}},
+    {"density", "density", "kg/m3", {500, 25'000}},
+    {"heat capacity", "heat-capacity", "J/(kg K)", {100, 5'000}},
+    {"expansion", "expansion", "1/K", {1e-7, 3e-4}},
+    {"Young's modulus", "youngs", "MPa", {100, 1e6}},
+    {"Poisson's ratio", "poisson", "", {0, 0.49}},
+    {"yield stress", "yield", "MPa", {1, 5'000}},
+    {"temperature of melting", "melting", "degrees C", {40, 4'000}},
+    {"glass transition", "glass", "degrees C", {40, 500}},
+    {"share of the cutting power that heats the workpiece", "share", "", {0, 1}},
 }};
 
 // ISCAR's material groups by ISO 513 and VDI 3323 stand in many of its catalogues.
@@ -194,13 +194,17 @@ Result<Material> material_of(const MaterialWords& words) {
   for (std::size_t i = 0; i < kProperties; ++i)
     if (!found[i] && known != nullptr && known->figures[i].known()) found[i] = known->figures[i].value;
   Material material{words.name.empty() ? "as stated" : words.name, {}};
+  std::string missing;
+  for (std::size_t i = 0; i < kProperties; ++i)
+    if (!found[i] && is_needed(static_cast<Property>(i), found))
+      missing += fmt::format("{}--{} ({}{}{})", missing.empty() ? "" : ", ", kWords[i].option, kWords[i].name,
+                             kWords[i].unit.empty() ? "" : ", ", kWords[i].unit);
+  if (!missing.empty())
+    return refused(fmt::format("{}: what no public source is known to say has to be stated: {}",
+                               material.name, missing));
   for (std::size_t i = 0; i < kProperties; ++i) {
+    if (!found[i]) continue;
     const PropertyWords& property = kWords[i];
-    if (!found[i]) {
-      if (!is_needed(static_cast<Property>(i), found)) continue;
-      return refused(fmt::format("{}: no {} is known from a public source; state it{}{}", material.name,
-                                 property.name, property.unit.empty() ? "" : ", in ", property.unit));
-    }
     const Interval value = *found[i];
     if (!(value.least >= property.range.least && value.least <= value.greatest &&
           value.greatest <= property.range.greatest))

@@ -104,7 +104,7 @@ TEST(CliHeat, WhatIsWrongIsOneSentenceAndNothingIsWritten) {
   said(other(1, "none.ngc"), 3, "none.ngc");
   said(other(9, "0"), 2, "without which chips have no thickness");
   said(other(11, "0"), 2, "without which chips have no thickness");
-  said(other(13, "PMMA"), 3, "PMMA: no cutting force k_c1.1 is known");
+  said(other(13, "PMMA"), 3, "PMMA: what no public source is known to say has to be stated: --cutting-force");
   said(other(13, "brass"), 3, "brass: no such material");
   Words words = kUsual;
   words.erase(words.begin() + 8, words.begin() + 10);

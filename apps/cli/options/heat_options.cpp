@@ -21,25 +21,28 @@ constexpr std::array kHolds{Word<Hold>{"free", Hold::free}, Word<Hold>{"plate", 
                             Word<Hold>{"vice-x", Hold::vice_x}, Word<Hold>{"vice-y", Hold::vice_y}};
 
 struct FigureOption {
-  const char* option;
   Property property;
   const char* unit;
   const char* help;
 };
 /// Each is a figure, or two as in 0.05..0.2.
 constexpr std::array<FigureOption, heat::kProperties> kFigures{
-    {{"--share", Property::share, "PART", "Of the cutting power that heats the workpiece, as in 0.05..0.2"},
-     {"--cutting-force", Property::cutting_force, "N/MM2", "k_c1.1: of a chip 1 mm thick and wide"},
-     {"--force-exponent", Property::force_exponent, "NUMBER", "m_c: the force is k_c1.1 h^-m_c, h in mm"},
-     {"--conductivity", Property::conductivity, "W/(M.K)", "Of heat"},
-     {"--density", Property::density, "KG/M3", "Of the material"},
-     {"--heat-capacity", Property::heat_capacity, "J/(KG.K)", "Of the material"},
-     {"--expansion", Property::expansion, "1/K", "Thermal"},
-     {"--youngs", Property::youngs, "MPA", "Young's modulus"},
-     {"--poisson", Property::poisson, "RATIO", "Poisson's ratio"},
-     {"--yield", Property::yield, "MPA", "Yield stress"},
-     {"--melting", Property::melting, "C", "Where melting begins"},
-     {"--glass", Property::glass, "C", "Glass transition, of plastics"}}};
+    {{Property::share, "PART", "Of the cutting power that heats the workpiece, as in 0.05..0.2"},
+     {Property::cutting_force, "N/MM2", "k_c1.1: of a chip 1 mm thick and wide"},
+     {Property::force_exponent, "NUMBER", "m_c: the force is k_c1.1 h^-m_c, h in mm"},
+     {Property::conductivity, "W/(M.K)", "Of heat"},
+     {Property::density, "KG/M3", "Of the material"},
+     {Property::heat_capacity, "J/(KG.K)", "Of the material"},
+     {Property::expansion, "1/K", "Thermal"},
+     {Property::youngs, "MPA", "Young's modulus"},
+     {Property::poisson, "RATIO", "Poisson's ratio"},
+     {Property::yield, "MPA", "Yield stress"},
+     {Property::melting, "C", "Where melting begins"},
+     {Property::glass, "C", "Glass transition, of plastics"}}};
+
+std::string option_of(const FigureOption& figure) {
+  return fmt::format("--{}", heat::words_of(figure.property).option);
+}
 
 /// The words of the command line as they were typed.
 struct HeatWords {
@@ -56,7 +59,7 @@ void read_figures(WordReader& read, const HeatWords& w, HeatOptions& o) {
     if (w.figures[i].empty()) continue;
     const auto value = heat::read_interval(w.figures[i]);
     read.require(value.has_value(), fmt::format("{}: \"{}\" is not a number, or two as in 1..2",
-                                                kFigures[i].option, w.figures[i]));
+                                                option_of(kFigures[i]), w.figures[i]));
     o.material.stated[static_cast<std::size_t>(kFigures[i].property)] = value;
   }
   if (w.wear.empty()) return;
@@ -178,7 +181,7 @@ Typed add_heat_form(Form& form) {
   add("--json", w.json, "Print the result as JSON on stdout");
   const OptionAdder figures(form, "Figures of the material: one, or two as in 1..2");
   for (std::size_t i = 0; i < kFigures.size(); ++i)
-    figures(kFigures[i].option, w.figures[i], kFigures[i].unit, kFigures[i].help);
+    figures(option_of(kFigures[i]).c_str(), w.figures[i], kFigures[i].unit, kFigures[i].help);
   figures("--wear", w.wear, "TIMES", "A worn edge needs so many times the force [1]");
   form.footer =
       "Exit codes: 0 a result, 2 wrong command line, 3 a file or a figure that cannot be judged, 4 the "

@@ -47,7 +47,9 @@ inline constexpr std::size_t kProperties = 12;
 
 /// A property's name in sentences, its unit, empty for numbers, and the range in which any material lies.
 struct PropertyWords {
-  std::string_view name, unit;
+  std::string_view name;
+  std::string_view option;  ///< of a command line, without its two dashes
+  std::string_view unit;
   Interval range;
 };
 [[nodiscard]] const PropertyWords& words_of(Property property) noexcept;
