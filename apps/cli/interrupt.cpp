@@ -14,11 +14,14 @@ namespace lekalo::cli {
 namespace {
 
 // A signal handler reaches nothing but globals.
-std::atomic<bool> stop_flag{false};
+std::atomic<bool> stop_flag{false}, interrupt_flag{false};
 std::chrono::steady_clock::time_point began;
 static_assert(std::atomic<bool>::is_always_lock_free, "the flag is set in a signal handler");
 
-void request_stop(int) { stop_flag.store(true, std::memory_order_relaxed); }
+void request_stop(int signal_number) {
+  if (signal_number != SIGALRM) interrupt_flag.store(true, std::memory_order_relaxed);
+  stop_flag.store(true, std::memory_order_relaxed);
+}
 
 void handle(int signal_number) {
   struct sigaction action {};
@@ -45,7 +48,7 @@ constexpr auto kBetweenLines = std::chrono::milliseconds(250);
 
 StopRequests::StopRequests() {
   began = std::chrono::steady_clock::now();
-  stop_flag.store(false);
+  stop_flag.store(false), interrupt_flag.store(false);
   handle(SIGINT);
   handle(SIGTERM);
 }
@@ -56,6 +59,8 @@ StopRequests::~StopRequests() {
 }
 
 const std::atomic<bool>* StopRequests::flag() noexcept { return &stop_flag; }
+
+const std::atomic<bool>* StopRequests::interrupt() noexcept { return &interrupt_flag; }
 
 void StopRequests::end_at(double seconds) noexcept {
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began;

@@ -21,6 +21,8 @@ class StopRequests {
   StopRequests(const StopRequests&) = delete;
   StopRequests& operator=(const StopRequests&) = delete;
   [[nodiscard]] static const std::atomic<bool>* flag() noexcept;
+  /// Set by Ctrl-C and SIGTERM alone, with the flag.
+  [[nodiscard]] static const std::atomic<bool>* interrupt() noexcept;
   /// Lets the flag be set by itself so long after this object was made, s; at once where that is past. `nest`
   /// says so when all is read, because before that a time limit would leave nothing.
   static void end_at(double seconds) noexcept;

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <set>
 
 #include "jobs/locate/locate_checked.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/disk/files.hpp"
 #include "lekalo/io/text/sha256.hpp"
 #include "lekalo/jobs/verify.hpp"
@@ -250,6 +252,29 @@ TEST(JobsLocate, OnlyTheSecondsComeFromTheStopwatch) {
   io::LocateDocument same = timed->document;
   same.seconds = 0;
   EXPECT_EQ(io::result_json(same), made(plate_job()).result);
+}
+
+// The time of `--time` may be up while the result is checked, and Ctrl-C may come then.
+TEST(JobsLocate, ATimeThatIsUpDuringTheCheckLosesNothingAndAnInterruptEndsIt) {
+  const LocateJob job = region_job();
+  std::atomic<bool> time_is_up = false, interrupt = false;
+  const auto set_after_the_search = [&](std::atomic<bool>& flag) {
+    RunControl run;
+    run.stop = &flag;
+    // It is read before and after the search.
+    int reads = 0;
+    const Stopwatch stopwatch = [&] {
+      flag = ++reads == 2;
+      return 0.0;
+    };
+    return stoppable(run, [&] { return locate(job, {}, stopwatch, &interrupt); });
+  };
+  const auto in_time = set_after_the_search(time_is_up);
+  EXPECT_TRUE(time_is_up);
+  ASSERT_TRUE(in_time.has_value()) << in_time.error().what();
+  ASSERT_TRUE(in_time->has_value());
+  EXPECT_EQ((*in_time)->result, made(job).result);
+  EXPECT_FALSE(set_after_the_search(interrupt).has_value());
 }
 
 TEST(JobsLocate, TheRunCanBeStopped) {

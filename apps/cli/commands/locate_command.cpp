@@ -94,7 +94,10 @@ Result<std::vector<std::string>> write_all(const LocateOptions& o, const std::st
 
 Result<int> locate_outline(const LocateOptions& o, jobs::File part, jobs::File blank) {
   LEKALO_TRY(const jobs::LocateJob job, read_files(o, std::move(part), std::move(blank)));
-  LEKALO_TRY(const jobs::Located made, searched(job, o, jobs::locate));
+  const auto located = [](const auto& outlines, const RunControl& run, const jobs::Stopwatch& stopwatch) {
+    return jobs::locate(outlines, run, stopwatch, StopRequests::interrupt());
+  };
+  LEKALO_TRY(const jobs::Located made, searched(job, o, located));
   const ToTheEnd to_the_end;
   std::vector<Output> documents{{&o.output, &made.result},
                                 {&o.outputs.certificate, &made.certificate},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -112,7 +113,9 @@ using Stopwatch = std::function<double()>;
 /// the placement keeps the allowance with the rounding of the program's decimals.
 ///
 /// Deterministic: only LocateDocument::seconds depends on the stopwatch, which is read before and after the
-/// search. `run` is for the search: its unit of work is that of the method.
+/// search. `run` is for the search: its unit of work is that of the method. What was found until a stop is
+/// checked to the end, or until `interrupt` is set, if that is given: then nothing is handed out
+/// (base/stop.hpp). One that is set before the search ends is a stop like others.
 ///
 /// Errors: bad_input and usage as of the readers and searches, and for what only convex outlines can have;
 /// usage for a picture as PDF;
@@ -120,6 +123,7 @@ using Stopwatch = std::function<double()>;
 /// checker does not confirm the result, which is a mistake of ours. Cost: that of the search and about as
 /// much for the check.
 [[nodiscard]] Result<Located> locate(const LocateJob& job, const RunControl& run = {},
-                                     const Stopwatch& stopwatch = {});
+                                     const Stopwatch& stopwatch = {},
+                                     const std::atomic<bool>* interrupt = nullptr);
 
 }  // namespace lekalo::jobs

@@ -347,18 +347,24 @@ Result<Located> locate_checked(const Searcher& searcher, const LocateJob& job) {
   return made;
 }
 
-Result<Located> locate(const LocateJob& job, const RunControl& run, const Stopwatch& stopwatch) {
+Result<Located> locate(const LocateJob& job, const RunControl& run, const Stopwatch& stopwatch,
+                       const std::atomic<bool>* interrupt) {
   const RunControl nobody;
+  RunControl interrupted;
+  interrupted.stop = interrupt;
   std::optional<Listening> to_the_end;
   return locate_checked(
       [&](const locate::Problem& problem, const LocateOptions& options) {
         // The search looks at the control itself, and ends with its best so far. That is then proved and
-        // told, whoever has asked for the stop.
+        // told, whoever has asked for the stop; and a time that is up meanwhile is no reason to lose it.
         auto search = [&] {
           const Listening listening(nobody);
           return searched(problem, options, run, stopwatch);
         }();
-        if (run.stop_requested()) to_the_end.emplace(nobody);
+        if (interrupt != nullptr && !interrupted.stop_requested())
+          to_the_end.emplace(interrupted);
+        else if (run.stop_requested())
+          to_the_end.emplace(nobody);
         return search;
       },
       job);
