@@ -55,7 +55,7 @@ std::string turning_program(const Corrected& corrected, const TurningWords& word
                       words.radius ? "RADIUS" : "DIAMETER");
   text += words.control == Lathe::fanuc
               ? "G21 G18 G40 G80 G97 G98\n"
-              : fmt::format("G21 G18 G40 G80 G90 G94 G97 {}\n", words.radius ? "G8" : "G7");
+              : fmt::format("G21 G18 G40 G80 G90 G94 G97 {} G61\n", words.radius ? "G8" : "G7");
   text += fmt::format("S{:.0f} M3\n", words.spindle_rpm);
   // Beside a seat the shaft goes on, so that the tool comes onto it and leaves it along X.
   const double before = points.front().diameter, behind = points.back().diameter;

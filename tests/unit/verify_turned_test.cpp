@@ -166,7 +166,7 @@ TEST(VerifyTurned, EveryWordOfAProgramCounts) {
     if (fanuc)
       expect("G97 G98", "G97", "a motion before all modes are said");
     else
-      for (const char* mode : {"G90 ", "G94 "}) expect(mode, "", "a motion before all modes are said");
+      for (const char* mode : {"G90 ", "G94 ", " G61"}) expect(mode, "", "a motion before all modes are said");
     expect(" M3", "", "a motion before all modes are said");
     expect("S1200 ", "", "a motion before all modes are said");
     expect("S1200 M3\n", "S1200 M3\nM5\n", "a motion after the spindle stands");
@@ -196,6 +196,7 @@ TEST(VerifyTurned, EveryWordOfAProgramCounts) {
       expect("O0001", "O0002", "O0002 is no word");
       expect("G98", "G98 G7", "G7 is no word");
       expect("G98", "G98 G8", "G8 is no word");
+      expect("G98", "G98 G61", "G61 is no word");
       expect("M30\n%\n", "M30\nG1\n", "something follows M30");
     } else {
       expect_fault(fault_of("%\n" + program, post), "% is no word", "a percent sign");

@@ -25,7 +25,8 @@ struct TurningWords {
 };
 
 /// The finishing cut along the profile: G18, Z0 at the right face of the part, from there to the left. X is a
-/// diameter (LinuxCNC: G7) or a radius (G8); Fanuc has no word for it, so that a comment says it. The tool
+/// diameter (LinuxCNC: G7) or a radius (G8); Fanuc has no word for it, so that a comment says it. LinuxCNC
+/// also gets G61, since blending cuts corners where the tool leaves a seat. The tool
 /// comes from 1 mm before the face and goes off by 1 mm, outwards or into the bore. Onto a seat it comes
 /// along X, and off it too: beside a seat the shaft goes on. Coordinates have 4 decimals.
 [[nodiscard]] std::string turning_program(const Corrected& corrected, const TurningWords& words);
