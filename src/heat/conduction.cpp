@@ -60,6 +60,7 @@ void Conduction::Model::shape(const Body& body) {
   const auto [nx, ny, nz] = grid.count;
   const std::array<double, 3> pitch = grid.pitches();
   const double volume = grid.volume();
+  std::vector<float> whole(level.lattice.size, 0.0F);
   for (std::size_t k = 0; k < nz; ++k)
     for (std::size_t j = 0; j < ny; ++j)
       for (std::size_t i = 0; i < nx; ++i) {
@@ -80,10 +81,15 @@ void Conduction::Model::shape(const Body& body) {
                             films.sides[2 * axis + 1], pitch[axis] / 2, conductor.conductivity);
         }
         level.loss[a] = loss;
+        whole[a] = body.share(cell) == 1 ? 1.0F : 0.0F;
         if (level.capacity[a] > 0) continue;
         level.loss[a] = 0;
         temperature[a] = rate[0][a] = rate[1][a] = 0;
       }
+  std::array<double, 3> links{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    links[axis] = conductor.conductivity * volume / (pitch[axis] * pitch[axis]);
+  system.set_wholes(std::move(whole), links, pitch, conductor.heat_capacity * volume);
   system.coarsen();
 }
 
@@ -160,6 +166,7 @@ Result<void> Conduction::step(double seconds, std::span<const Source> sources) {
     m.book.in += seconds * source.watts;
   }
   m.system.scale(1 / (kGamma * seconds));
+  heat = m.system.spread(heat);
   LEKALO_CHECK(m.stage(heat, base, m.rate[0], seconds, 1 - kGamma));
   for (std::size_t a = 0; a < size; ++a) base[a] += (1 - kGamma) * seconds * m.rate[0][a];
   LEKALO_CHECK(m.stage(heat, base, m.rate[1], seconds, kGamma));

@@ -36,7 +36,7 @@ struct ElasticLevel {
 };
 
 /// Forces by displacements at the corners of voxels, and the displacements that given forces bring about, by
-/// conjugate gradients with one multigrid cycle as preconditioner (docs/design/heat.md, step 9).
+/// conjugate gradients with one multigrid cycle as preconditioner (docs/design/heat.md, step 10).
 class ElasticSystem {
  public:
   ElasticSystem(const std::array<std::size_t, 3>& elements, const std::array<double, 3>& pitch, double youngs,

@@ -2,16 +2,23 @@
 
 #include <cmath>
 
+#include "flow_rows.hpp"
 #include "lekalo/base/stop.hpp"
 
 namespace lekalo::heat {
 namespace {
 
 constexpr int kIterations = 400;
-// All eigenvalues of the matrix scaled by its diagonal lie below 2, since no row's other entries add up to
-// more than its diagonal; what changes from voxel to voxel along an axis lies above a third.
-constexpr float kMost = 2, kLeast = 1.0F / 3;
+// Eigenvalues of the matrix scaled by its diagonal that smoothing is for. All lie below 2, since no row's
+// other entries add up to more than its diagonal; what changes from voxel to voxel along an axis lies above a
+// third with six neighbours, and from 1/2 to 4/3 with eighteen.
+struct Range {
+  float least, most;
+};
+constexpr Range kSix{1.0F / 3, 2}, kEighteen{0.5F, 1.8F};
 constexpr int kSmoothings = 2;
+/// Each neighbour has this part of a whole voxel's capacity, so that the mass matrix is of fourth order.
+constexpr double kShared = 1.0 / 12;
 constexpr std::size_t kCost = 4;  // nanoseconds a voxel
 
 /// Joints of a coarse face: the four fine ones side by side, over twice the way.
@@ -36,6 +43,43 @@ FlowSystem::FlowSystem(const std::array<std::size_t, 3>& count, unsigned threads
       numbers->assign(level.flow.lattice.size, 0.0F);
     levels_.push_back(std::move(level));
     if (n[0] * n[1] * n[2] == 1) break;
+  }
+  finest_.wholes = levels_.front().flow.wholes = wholes_.get();
+  set_wholes(std::vector<float>(finest_.lattice.size, 0.0F), {}, {1, 1, 1}, 0);
+}
+
+void FlowSystem::set_wholes(std::vector<float> voxels, const std::array<double, 3>& links,
+                            const std::array<double, 3>& pitch, double capacity) {
+  wholes_->voxel = std::move(voxels);
+  whole_capacity_ = capacity;
+  Flow<float>& first = levels_.front().flow;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t one = (axis + 1) % 3, other = (axis + 2) % 3;
+    const double ratio = pitch[one] / pitch[other];
+    // Each side has four squares, and no joint may fall below 0.
+    finest_.link[axis] = links[axis];
+    finest_.bend[axis] = std::min({links[one] * (ratio * ratio + 1) / 12, links[one] / 4, links[other] / 4});
+    first.link[axis] = static_cast<float>(links[axis]);
+    first.bend[axis] = static_cast<float>(finest_.bend[axis]);
+  }
+  const Lattice& lattice = finest_.lattice;
+  const std::size_t runs = runs_of(lattice);
+  wholes_->stretches.assign(lattice.rows() * runs, Stretch::six);
+  for (std::size_t r = 0; r < lattice.rows(); ++r) {
+    const Ways ways = ways_of(lattice, r);
+    for (std::size_t run = 0; run < runs; ++run) {
+      const std::size_t begin = run * Lattice::kWide,
+                        end = std::min(begin + Lattice::kWide, lattice.count[0]);
+      const float* row = &wholes_->voxel[lattice.begin_of_row(r)];
+      if (std::all_of(row + begin, row + end, [](float whole) { return whole == 0; })) continue;
+      const std::size_t from = begin - (run > 0 ? 1 : 0), to = end + (run + 1 < runs ? 1 : 0);
+      bool all = true;
+      for (const std::ptrdiff_t y : {-ways[0], std::ptrdiff_t{0}, ways[1]})
+        for (const std::ptrdiff_t z : {-ways[2], std::ptrdiff_t{0}, ways[3]})
+          all =
+              all && std::all_of(row + y + z + from, row + y + z + to, [](float whole) { return whole > 0; });
+      wholes_->stretches[r * runs + run] = all ? Stretch::eighteen : Stretch::mixed;
+    }
   }
 }
 
@@ -76,12 +120,28 @@ void FlowSystem::set_diagonal(Flow<Real>& flow, Real per_second) const {
         Real sum = per_second * flow.capacity[a] + flow.loss[a];
         for (std::size_t axis = 0; axis < 3; ++axis)
           sum += flow.joint[axis][a] + flow.joint[axis][a + steps[axis]];
+        if (flow.wholes != nullptr && flow.wholes->voxel[a] > 0) {
+          const float* whole = &flow.wholes->voxel[a];
+          for (const std::size_t s : steps) sum -= flow.shared * static_cast<Real>(*(whole - s) + whole[s]);
+          each_square(lattice, [&](std::size_t axis, std::ptrdiff_t s, std::ptrdiff_t t) {
+            sum -= flow.bend[axis] * static_cast<Real>(whole[s] * whole[t] * whole[s + t]);
+          });
+        }
         flow.diagonal[a] = sum;
       }
   });
 }
 
 void FlowSystem::scale(double per_second) {
+  Flow<double>& own = finest_;
+  own.held = per_second * whole_capacity_;
+  // Short steps share less, so that no joint falls below 0, and nothing becomes colder than all about it.
+  own.shared = kShared * own.held;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    own.shared =
+        std::min(own.shared, own.link[axis] - 2 * (own.bend[(axis + 1) % 3] + own.bend[(axis + 2) % 3]));
+  levels_.front().flow.held = static_cast<float>(own.held);
+  levels_.front().flow.shared = static_cast<float>(own.shared);
   set_diagonal(finest_, per_second);
   for (FlowLevel& level : levels_) {
     set_diagonal(level.flow, static_cast<float>(per_second));
@@ -93,15 +153,22 @@ void FlowSystem::scale(double per_second) {
 template <class Real, class Write>
 void FlowSystem::product(const Flow<Real>& level, const std::vector<Real>& x, const Write& write) const {
   const Lattice& lattice = level.lattice;
-  const std::size_t up = lattice.row, over = lattice.layer;
+  const std::size_t runs = runs_of(lattice);
+  const Stencil<Real> stencil(level, level.held, level.shared);
   each_rows(lattice, threads_, kCost, [&](std::size_t first, std::size_t end) {
     for (std::size_t r = first; r < end; ++r) {
       const std::size_t begin = lattice.begin_of_row(r);
-      const Real *v = &x[begin], *d = &level.diagonal[begin], *gx = &level.joint[0][begin],
-                 *gy = &level.joint[1][begin], *gz = &level.joint[2][begin];
-      for (std::size_t i = 0; i < lattice.count[0]; ++i)
-        write(begin + i, d[i] * v[i] - gx[i] * *(v + i - 1) - gx[i + 1] * v[i + 1] - gy[i] * *(v + i - up) -
-                             gy[i + up] * v[i + up] - gz[i] * *(v + i - over) - gz[i + over] * v[i + over]);
+      const Ways ways = ways_of(lattice, r);
+      for (std::size_t run = 0; run < runs; ++run) {
+        const std::size_t at = begin + run * Lattice::kWide, left = lattice.count[0] - run * Lattice::kWide;
+        const Stretch stretch =
+            level.wholes != nullptr ? level.wholes->stretches[r * runs + run] : Stretch::six;
+        Run<Real> sum = stretch == Stretch::eighteen
+                            ? by_eighteen(stencil, &level.loss[at], &x[at], ways, run == 0, left)
+                            : by_six(level, &x[at], at);
+        if (stretch == Stretch::mixed) add_wholes(level, &x[at], at, sum);
+        for (std::size_t i = 0; i < std::min(Lattice::kWide, left); ++i) write(at + i, sum[i]);
+      }
     }
   });
 }
@@ -116,23 +183,63 @@ void FlowSystem::flow(const Numbers& t, Numbers& out) const {
   const Flow<double>& level = finest_;
   const Lattice& lattice = level.lattice;
   const auto steps = lattice.steps();
+  const std::size_t runs = runs_of(lattice);
+  const Stencil<double> stencil(level, 0, 0);
+  const auto by_differences = [&](std::size_t a) {
+    double sum = level.loss[a] * t[a];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t s = steps[axis];
+      sum += level.joint[axis][a] * (t[a] - t[a - s]) + level.joint[axis][a + s] * (t[a] - t[a + s]);
+    }
+    if (!(wholes_->voxel[a] > 0)) return sum;
+    const float* whole = &wholes_->voxel[a];
+    const double* own = &t[a];
+    each_square(lattice, [&](std::size_t axis, std::ptrdiff_t u, std::ptrdiff_t v) {
+      sum -= level.bend[axis] * static_cast<double>(whole[u] * whole[v] * whole[u + v]) *
+             ((own[0] - own[u]) - (own[v] - own[u + v]));
+    });
+    return sum;
+  };
   each_rows(lattice, threads_, kCost, [&](std::size_t first, std::size_t end) {
-    for (std::size_t r = first; r < end; ++r)
-      for (std::size_t a = lattice.begin_of_row(r), last = a + lattice.count[0]; a < last; ++a) {
-        double sum = level.loss[a] * t[a];
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          const std::size_t s = steps[axis];
-          sum += level.joint[axis][a] * (t[a] - t[a - s]) + level.joint[axis][a + s] * (t[a] - t[a + s]);
+    for (std::size_t r = first; r < end; ++r) {
+      const Ways ways = ways_of(lattice, r);
+      for (std::size_t run = 0; run < runs; ++run) {
+        const std::size_t at = lattice.begin_of_row(r) + run * Lattice::kWide,
+                          left = lattice.count[0] - run * Lattice::kWide,
+                          count = std::min(Lattice::kWide, left);
+        if (wholes_->stretches[r * runs + run] == Stretch::eighteen) {
+          const Run<double> sum = by_eighteen(stencil, &level.loss[at], &t[at], ways, run == 0, left);
+          std::copy_n(sum.begin(), count, &out[at]);
+        } else {
+          for (std::size_t a = at; a < at + count; ++a) out[a] = by_differences(a);
         }
-        out[a] = sum;
       }
+    }
   });
+}
+
+Numbers FlowSystem::spread(const Numbers& heat) const {
+  const Lattice& lattice = finest_.lattice;
+  const std::vector<float>& whole = wholes_->voxel;
+  const double part = finest_.held > 0 ? finest_.shared / finest_.held : 0;
+  Numbers out = heat;
+  for (std::size_t r = 0; r < lattice.rows(); ++r)
+    for (std::size_t a = lattice.begin_of_row(r), last = a + lattice.count[0]; a < last; ++a) {
+      if (heat[a] == 0 || !(whole[a] > 0)) continue;
+      for (const std::size_t s : lattice.steps())
+        for (const std::size_t b : {a - s, a + s}) {
+          const double given = part * static_cast<double>(whole[b]) * heat[a];
+          out[a] -= given, out[b] += given;
+        }
+    }
+  return out;
 }
 
 /// Chebyshev's polynomial of the second degree in the scaled matrix, the same before and after the coarser
 /// levels, so that the cycle is symmetric.
 void FlowSystem::smooth(FlowLevel& level, bool from_zero) const {
-  constexpr float middle = (kMost + kLeast) / 2, half = (kMost - kLeast) / 2;
+  const Range range = level.flow.wholes != nullptr ? kEighteen : kSix;
+  const float middle = (range.most + range.least) / 2, half = (range.most - range.least) / 2;
   float rho = half / middle;
   const std::size_t size = level.flow.lattice.size;
   for (int step = 0; step < kSmoothings; ++step) {

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <functional>
 
+#include "lekalo/heat/conduction.hpp"
+
 namespace lekalo::heat_expansion_test {
 namespace {
 
@@ -136,6 +138,63 @@ TEST(Expansion, AHoleInAWarmDiscConvergesToItsClosedForm) {
   EXPECT_LT(coarse, 0.02);
   EXPECT_LT(fine, 0.02);
   EXPECT_LT(fine, 0.7 * coarse);
+}
+
+/// The same in a disc whose hole is heated evenly, with the temperature that conduction finds.
+double heated_error(double pitch) {
+  const double bore = 8, outside = 24, watts = 10, seconds = 40;
+  const Body body(*Grid::divide({-25, -25, 0}, {25, 25, pitch}, pitch), [&](Place p) {
+    const double r = std::hypot(p.x, p.y);
+    return std::min(r - bore, outside - r);
+  });
+  const Grid& grid = body.grid();
+  const heat::Conductor metal{0.02, 2.42e-3};
+  heat::Conduction conduction(body, metal, {});
+  std::vector<heat::Source> sources;
+  double wall = 0;
+  for (std::size_t n = 0; n < grid.size(); ++n) {
+    const Place p = grid.middle(n % grid.count[0], n / grid.count[0], 0);
+    if (!(std::hypot(p.x, p.y) < 16 && body.wall(n) > 0)) continue;
+    sources.push_back({n, body.wall(n)});
+    wall += body.wall(n);
+  }
+  for (heat::Source& source : sources) source.watts *= watts * pitch / wall;
+  for (int n = 0; n < 40; ++n) EXPECT_TRUE(conduction.step(seconds / 40, sources));
+  Expansion expansion(grid, kAluminium, {});
+  expansion.follow(body);
+  EXPECT_TRUE(expansion.solve(conduction.temperatures()));
+
+  // T = c (r^2 / 2 - b^2 ln r) + a shift by the heat that is there; moments are of T r.
+  const double a2 = bore * bore, b2 = outside * outside, pi = 3.14159265358979323846;
+  const double c = watts / (pi * (b2 - a2)) / (2 * metal.conductivity);
+  const auto shape = [&](double r) {
+    const double r2 = r * r;
+    return c * (r2 * r2 / 8 - b2 * (r2 / 2 * std::log(r) - r2 / 4));
+  };
+  const double heat_of_disc = watts * seconds / (2 * pi * metal.heat_capacity);
+  const double shift = (heat_of_disc - shape(outside) + shape(bore)) / ((b2 - a2) / 2);
+  const auto moment = [&](double r) { return shape(r) - shape(bore) + shift * (r * r - a2) / 2; };
+  const double nu = kAluminium.poisson;
+  double off = 0, largest_one = 0;
+  for (int n = 0; n < 90; ++n)
+    for (const double r : {bore + 2 * pitch, 16.0, 20.0, outside}) {
+      const double angle = 0.0698 * n, x = std::cos(angle), y = std::sin(angle);
+      const double form =
+          kAlpha / r *
+          ((1 + nu) * moment(r) + ((1 - nu) * r * r + (1 + nu) * a2) / (b2 - a2) * moment(outside));
+      const Place by = expansion.moved({r * x, r * y, pitch / 2});
+      off = std::max(off, std::hypot(by.x - form * x, by.y - form * y));
+      largest_one = std::max(largest_one, form);
+    }
+  return off / largest_one;
+}
+
+TEST(Expansion, AHeatedHoleMovesADiscAsItsClosedFormDoes) {
+  const double coarse = heated_error(2), fine = heated_error(1);
+  RecordProperty("parts", std::to_string(coarse) + " " + std::to_string(fine));
+  EXPECT_LT(coarse, 0.02);
+  EXPECT_LT(fine, 0.005);
+  EXPECT_GT(std::log2(coarse / fine), 1.5);
 }
 
 struct PlateErrors {

@@ -21,7 +21,7 @@ inline constexpr std::size_t kSides = 6;
 /// Returns where a side stands in an array of all of them.
 [[nodiscard]] constexpr std::size_t of(Side side) noexcept { return static_cast<std::size_t>(side); }
 
-/// Voxels need 450 bytes each while a program is followed, 0.9 GB for this many.
+/// Voxels need 470 bytes each while a program is followed, 0.9 GB for this many.
 inline constexpr std::size_t kMostVoxels = 2'000'000;
 
 /// A box in equal voxels, whose borders lie on the box: its pitches differ a little from axis to axis.

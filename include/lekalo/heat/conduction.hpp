@@ -47,10 +47,10 @@ struct HeatBook {
 };
 
 /// Transient conduction in a body's voxels (finite volumes with open shares of faces, second order in time,
-/// docs/design/heat.md, steps 3 to 5). The same input gives the same bits for any number of threads.
+/// docs/design/heat.md, steps 3 to 6). The same input gives the same bits for any number of threads.
 ///
 /// Cost of a step: two systems of one unknown a voxel, each some 7 iterations of 50 ns a voxel. Memory:
-/// 190 bytes a voxel.
+/// 200 bytes a voxel.
 class Conduction {
  public:
   /// \pre body is settled

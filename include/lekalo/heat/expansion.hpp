@@ -29,7 +29,7 @@ struct Holding {
 
 /// Quasi-static thermoelastic displacement of a body's voxels: hexahedra with incompatible modes (Wilson; R.
 /// Taylor, P. Beresford & E. Wilson, Int. J. Numer. Meth. Eng. 10, 1976), as stiff as their share of
-/// material. docs/design/heat.md, steps 7 to 10. The same input gives the same bits for any number of
+/// material. docs/design/heat.md, steps 8 to 11. The same input gives the same bits for any number of
 /// threads.
 ///
 /// Cost: one system of three unknowns a corner, some 5 to 25 iterations of 0.7 microseconds a voxel; memory
