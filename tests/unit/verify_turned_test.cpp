@@ -166,7 +166,8 @@ TEST(VerifyTurned, EveryWordOfAProgramCounts) {
     if (fanuc)
       expect("G97 G98", "G97", "a motion before all modes are said");
     else
-      for (const char* mode : {"G90 ", "G94 ", " G61"}) expect(mode, "", "a motion before all modes are said");
+      for (const char* mode : {"G90 ", "G94 ", " G61"})
+        expect(mode, "", "a motion before all modes are said");
     expect(" M3", "", "a motion before all modes are said");
     expect("S1200 ", "", "a motion before all modes are said");
     expect("S1200 M3\n", "S1200 M3\nM5\n", "a motion after the spindle stands");

@@ -117,7 +117,8 @@ class TurningProgram {
       if (word == "M30" && !ended_) return "M30 comes before M5";
       modes_.insert(std::string(word));
     } else {
-      static const std::set<std::string_view> linuxcnc{"G21", "G18", "G40", "G80", "G61", "G90", "G94", "G97", "M3"};
+      static const std::set<std::string_view> linuxcnc{"G21", "G18", "G40", "G80", "G61",
+                                                       "G90", "G94", "G97", "M3"};
       static const std::set<std::string_view> fanuc{"G21", "G18", "G40", "G80", "G97", "G98", "M3"};
       const bool known = (claim_.fanuc ? fanuc : linuxcnc).contains(word) ||
                          (!claim_.fanuc && word == (claim_.radius ? "G8" : "G7"));
