@@ -17,11 +17,11 @@ namespace {
 using solid::Motion;
 using solid::Vector;
 
-constexpr int kMostSteps = 100;
+constexpr int kMostLargestSteps = 100;
 /// So many contacts of one pose are looked at.
-constexpr std::size_t kContacts = 64;
+constexpr std::size_t kContactsOfAPose = 64;
 /// So many points are looked at to see how deep a pose is, and to say how deep the last one is.
-constexpr std::size_t kLooked = 20'000, kLookedAtLast = 2'000'000;
+constexpr std::size_t kLookedDeep = 20'000, kLookedDeepAtLast = 2'000'000;
 /// So many of the deepest become rows, and so many are kept of all poses; none that is less deep than this
 /// part of the deepest.
 constexpr std::size_t kDeepest = 8, kMostKept = 256;
@@ -48,9 +48,9 @@ constexpr double kNearGaps = 32;
 /// It goes on while a step promises this part of the gap.
 constexpr double kWorthAStep = 1.0 / 128;
 /// Distances are rounded by less than this part of the coordinates.
-constexpr double kRounding = 0x1p-44;
+constexpr double kDepthRounding = 0x1p-44;
 /// The square root of 3, rounded up: how far a point is off at most for each of its coordinates.
-constexpr double kDiagonal = 1.7321;
+constexpr double kDiagonalOfACube = 1.7321;
 
 /// The triangles that have a demand. How near they are to be says how well their distances are looked for.
 SolidNear demanded(const SolidProblem& problem, double within) {
@@ -99,8 +99,9 @@ class Descent {
     // A step that is too long in freedoms that do not matter yet ends where nothing small helps.
     trust.reach *= kFirstReach;
     spare_ = here->at.value - least_;
-    for (int step = 0; step < kMostSteps && !ended(); ++step) {
-      if (options_.run.progress) options_.run.progress({work_, static_cast<double>(step) / kMostSteps});
+    for (int step = 0; step < kMostLargestSteps && !ended(); ++step) {
+      if (options_.run.progress)
+        options_.run.progress({work_, static_cast<double>(step) / kMostLargestSteps});
       const double room = room_of(trust.reach);
       const LinearSolution<6> solution = smallest_step(*here, room, trust.reach);
       const double hoped = solution.bound + here->deepest;
@@ -132,8 +133,8 @@ class Descent {
   /// asked for.
   std::optional<DeepPose> looked_at(const FramedPose& pose, double reach) {
     DeepPose made;
-    const auto measured =
-        measured_unless_stopped(meter_, pose, least_ + 2 * reach, kContacts, options_.run, made.contacts);
+    const auto measured = measured_unless_stopped(meter_, pose, least_ + 2 * reach, kContactsOfAPose,
+                                                  options_.run, made.contacts);
     ++work_;
     if (!measured) return std::nullopt;
     if (pool_.add(made.contacts)) ++met_;
@@ -141,7 +142,7 @@ class Descent {
     made.at = *measured;
     const Motion motion = meter_.frame().motion(pose);
     const auto found = unless_stopped<Farthest>(
-        options_.run, [&] { return face_.at(meter_.clearance().blank(), motion, 0, kLooked); });
+        options_.run, [&] { return face_.at(meter_.clearance().blank(), motion, 0, kLookedDeep); });
     ++work_;
     if (!found) return std::nullopt;
     made.deepest = found->low;
@@ -248,17 +249,17 @@ double largest_allowance(const SolidProblem& problem, const SolidPose& pose) {
     for (const Vector p : mesh->vertices) far = std::max(far, norm(p));
   const SolidNear all = demanded(problem, 1);
   const NearFace face(all, problem.part);
-  Farthest found = face.at(blank, motion, 0, kLooked);
+  Farthest found = face.at(blank, motion, 0, kLookedDeep);
   double told = kToldLarger * found.high;
   if (found.high > kNearlyDeepest * found.low) {
     for (double enough = kNearlyDeepest * found.low;
-         found.high > enough && found.points.size() < kLookedAtLast;
+         found.high > enough && found.points.size() < kLookedDeepAtLast;
          enough = kNearlyDeepest * std::max(enough, found.low))
-      found = face.at(blank, motion, enough, kLookedAtLast);
+      found = face.at(blank, motion, enough, kLookedDeepAtLast);
     told = kToldMuchLarger * found.high;
   }
-  return told + kRounding * far +
-         kDiagonal * (problem.part_coordinate_error + problem.blank_coordinate_error);
+  return told + kDepthRounding * far +
+         kDiagonalOfACube * (problem.part_coordinate_error + problem.blank_coordinate_error);
 }
 
 Result<SolidPlacement> smallest_largest(const SolidProblem& problem, const SolidPlacement& from,
