@@ -14,13 +14,17 @@
 #include "lekalo/verify/claims.hpp"
 #include "support/cases.hpp"
 #include "support/json.hpp"
+#include "support/json_paths.hpp"
 #include "support/prepared.hpp"
 #include "verify/fit/rings.hpp"
 
 namespace lekalo::verify_fit_test {
 namespace {
 
+using cases::each_path;
+using cases::is_number;
 using cases::Json;
+using cases::one_of;
 
 jobs::FitJob article() {
   jobs::FitJob job;
@@ -99,31 +103,6 @@ std::string said(const Json& honest, const std::function<void(Json&)>& change) {
   const auto report = verify::verify_fit_report({"r.json", document.dump()}, {});
   if (!report) return report.error().message;
   return report->findings.empty() ? "" : report->findings[0];
-}
-
-bool is_number(const Json& value) {
-  try {
-    return (void)value.get<double>(), true;
-  } catch (const std::exception&) {
-    return false;
-  }
-}
-
-/// Calls each(path) for every field and item, of lists for the first, the second and the last.
-void each_path(const Json& value, const std::string& path,
-               const std::function<void(const std::string&)>& each) {
-  if (!path.empty()) each(path);
-  if (value.is_object()) {
-    for (const std::string& key : value.keys()) each_path(value[key], path + "/" + key, each);
-  } else if (value.is_array()) {
-    for (std::size_t i = 0; i < value.size(); ++i)
-      if (i < 2 || i + 1 == value.size()) each_path(value[i], path + "/" + std::to_string(i), each);
-  }
-}
-
-bool one_of(const std::string& path, std::initializer_list<const char*> parts) {
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](const char* part) { return path.find(part) != path.npos; });
 }
 
 // Provenance and information, and what docs/formats.md says is not rechecked.

@@ -11,11 +11,15 @@
 #include "lekalo/jobs/heat_result.hpp"
 #include "lekalo/verify/claims.hpp"
 #include "support/json.hpp"
+#include "support/json_paths.hpp"
 
 namespace lekalo::verify_heat_test {
 namespace {
 
+using cases::each_path;
+using cases::is_number;
 using cases::Json;
+using cases::one_of;
 using heat::Property;
 
 const std::string kPocket =
@@ -123,35 +127,10 @@ TEST(VerifyHeat, ThePlacesOfARingAreThoseOfBothCircles) {
   EXPECT_EQ(result["uncut_places"], 10);
 }
 
-/// Calls each(path) for every field and item, of lists for the first, the second and the last.
-void each_path(const Json& value, const std::string& path,
-               const std::function<void(const std::string&)>& each) {
-  if (!path.empty()) each(path);
-  if (value.is_object()) {
-    for (const std::string& key : value.keys()) each_path(value[key], path + "/" + key, each);
-  } else if (value.is_array()) {
-    for (std::size_t i = 0; i < value.size(); ++i)
-      if (i < 2 || i + 1 == value.size()) each_path(value[i], path + "/" + std::to_string(i), each);
-  }
-}
-
-bool one_of(const std::string& path, std::initializer_list<const char*> parts) {
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](const char* part) { return path.find(part) != path.npos; });
-}
-
 // Provenance and information.
 bool is_free(const std::string& path) {
   return one_of(path, {"/inputs", "/warnings", "/seed", "/work", "/version", "/run"}) &&
          !one_of(path, {"/work_j"});
-}
-
-bool is_number(const Json& value) {
-  try {
-    return (void)value.get<double>(), true;
-  } catch (const std::exception&) {
-    return false;
-  }
 }
 
 TEST(VerifyHeat, NoFieldCanBeAbsentOrAnother) {

@@ -9,6 +9,7 @@
 
 #include "lekalo/base/angle.hpp"
 #include "lekalo/verify/simulate.hpp"
+#include "machining_fields.hpp"
 #include "report_fields.hpp"
 #include "verify/origin/origin.hpp"
 #include "verify/pocket/nc_moves.hpp"
@@ -123,17 +124,7 @@ class CutReport {
     return failure(ErrorCode::bad_input, fmt::format("{}: {}", report_.name, complaint_));
   }
 
-  void read_options() {
-    options_.tool_diameter = fields_.number("tool_mm");
-    options_.stock_to_leave = fields_.number("stock_to_leave_mm");
-    options_.step_over = fields_.number("step_over");
-    options_.top = fields_.number("top_mm");
-    options_.acceleration = fields_.number("acceleration_mm_per_s2");
-    options_.rapid_feed = fields_.number("rapid_mm_per_min");
-    const auto control = words::control_named(fields_.text("control"));
-    if (!control) fields_.complain("field control is none that programs are read for");
-    options_.control = control.value_or(options_.control);
-  }
+  void read_options() { read_machining(fields_, options_); }
 
   Result<void> read_files() {
     for (std::size_t i = 0; i < names_.size(); ++i) {

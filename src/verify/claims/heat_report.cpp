@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "heat_fields.hpp"
+#include "machining_fields.hpp"
 #include "report_fields.hpp"
 #include "verify/heat/cut_work.hpp"
 #include "verify/heat/wall_places.hpp"
@@ -74,15 +75,7 @@ class HeatReport {
   }
 
   void read_words() {
-    options_.tool_diameter = fields_.number("tool_mm");
-    options_.stock_to_leave = fields_.number("stock_to_leave_mm");
-    options_.step_over = fields_.number("step_over");
-    options_.top = fields_.number("top_mm");
-    options_.acceleration = fields_.number("acceleration_mm_per_s2");
-    options_.rapid_feed = fields_.number("rapid_mm_per_min");
-    const auto control = words::control_named(fields_.text("control"));
-    if (!control) fields_.complain("field control is none that programs are read for");
-    options_.control = control.value_or(options_.control);
+    read_machining(fields_, options_);
     cutting_.diameter = options_.tool_diameter;
     cutting_.teeth = static_cast<double>(fields_.index("teeth"));
     cutting_.spindle_rpm = fields_.number("spindle_rpm");
