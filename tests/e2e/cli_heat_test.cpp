@@ -81,7 +81,7 @@ TEST(CliHeat, WhatIsWrongIsOneSentenceAndNothingIsWritten) {
     EXPECT_FALSE(std::filesystem::exists(folder / "h.svg")) << says;
   };
   for (const Wrong& w :
-       {Wrong{{}, 3, "no share of the cutting power"},
+       {Wrong{{}, 3, "has to be stated: --share (share of the cutting power"},
         {{"--share", "0.1", "--cooling", "water"}, 3, "no such cooling"},
         {{"--share", "1.5"}, 3, "it has to be from 0 to 1"},
         {{"--share", "0.2..0.1"}, 2, "--share: \"0.2..0.1\""},
