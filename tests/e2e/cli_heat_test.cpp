@@ -62,6 +62,14 @@ TEST(CliHeat, OneFilmIsOneCaseAndNoFileIsAskedFor) {
   EXPECT_FALSE(std::filesystem::exists(folder / "h.svg"));
 }
 
+TEST(CliHeat, WithoutHeatNothingIsOff) {
+  const TemporaryFolder folder;
+  write_files(folder);
+  const Ran made = run(folder.path(), with(kUsual, {"--share", "0", "--cooling", "20", "-o", "h.json"}));
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_NE(made.err.find("lie +0.00 to +0.00 um"), std::string::npos) << made.err;
+}
+
 TEST(CliHeat, WhatIsWrongIsOneSentenceAndNothingIsWritten) {
   const TemporaryFolder folder;
   write_files(folder);
@@ -102,6 +110,8 @@ TEST(CliHeat, WhatIsWrongIsOneSentenceAndNothingIsWritten) {
   said(other(5, "40x36x10@5,-10"), 3, "beyond the stock's border");
   said(other(1, "still.ngc"), 3, "the tool never goes below Z 0");
   said(other(1, "none.ngc"), 3, "none.ngc");
+  Words cut_before = with(kUsual, {"--share", "0.1", "--after", "p.ngc:6"});
+  said(cut_before, 3, "p.ngc: the program cuts nothing of the stock");
   said(other(9, "0"), 2, "without which chips have no thickness");
   said(other(11, "0"), 2, "without which chips have no thickness");
   said(other(13, "PMMA"), 3, "PMMA: what no public source is known to say has to be stated: --cutting-force");

@@ -45,6 +45,9 @@ std::string between(const char* form, const Interval& value) {
   return least == greatest ? least : least + " to " + greatest;
 }
 
+/// Rounds to hundredths, and to no -0.
+double hundredths(double um) { return std::round(100 * um) / 100 + 0.0; }
+
 /// Rounds away from 0, so that what is below it may be left alone.
 double up(double um) { return std::ceil(10 * um) / 10; }
 
@@ -95,7 +98,8 @@ std::string words_of(const jobs::HeatResultJob& job, const jobs::HeatResult& mad
   text += fmt::format(
       "When the workpiece is cold, walls lie {:+.2f} to {:+.2f} um from their places, {:+.2f} in the mean\n"
       "(below 0: the pocket is too small); the largest error is {} um over share, force and cooling.\n",
-      found.errors.least, found.errors.most, found.errors.mean, between("{:.2f}", found.largest_um));
+      hundredths(found.errors.least), hundredths(found.errors.most), hundredths(found.errors.mean),
+      between("{:.2f}", found.largest_um));
   text += decision(found);
   const double balance = found.book.in > 0 ? found.book.in : 1,
                of_yield = 100 / job.heat.material[heat::Property::yield].least;
