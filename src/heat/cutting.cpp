@@ -15,32 +15,6 @@ constexpr double kGrazed = 1e-3;
 
 tl::unexpected<Error> refused(const std::string& sentence) { return failure(ErrorCode::bad_input, sentence); }
 
-Result<void> check(const CuttingConditions& c) {
-  if (!(c.teeth >= 1))
-    return refused(fmt::format(
-        "the tool has {} teeth; state how many there are, since chips have no thickness without", c.teeth));
-  if (!(c.spindle_rpm > 0 && std::isfinite(c.spindle_rpm)))
-    return refused(fmt::format(
-        "the spindle turns {:g} times a minute; state its speed, since chips have no thickness without",
-        c.spindle_rpm));
-  if (!(c.tool_diameter > 0 && std::isfinite(c.tool_diameter)))
-    return refused(fmt::format("the tool's diameter is {:g} mm; it has to be above 0", c.tool_diameter));
-  if (!(c.cutting_force.least > 0 && c.cutting_force.least <= c.cutting_force.greatest))
-    return refused(fmt::format("the cutting force k_c1.1 is {:g} to {:g} N/mm2; it has to be above 0",
-                               c.cutting_force.least, c.cutting_force.greatest));
-  if (!(c.wear.least >= 1 && c.wear.least <= c.wear.greatest && c.wear.greatest <= 5))
-    return refused(
-        fmt::format("wear makes the cutting force {:g} to {:g} times as large; it has to be from 1, "
-                    "for a sharp edge, to 5",
-                    c.wear.least, c.wear.greatest));
-  if (!(c.share.least >= 0 && c.share.least <= c.share.greatest && c.share.greatest <= 1))
-    return refused(
-        fmt::format("the share of the power that heats the workpiece is {:g} to {:g}; it has to be "
-                    "from 0 to 1",
-                    c.share.least, c.share.greatest));
-  return {};
-}
-
 Interval operator*(const Interval& a, double b) { return {a.least * b, a.greatest * b}; }
 Interval operator*(const Interval& a, const Interval& b) {
   return {a.least * b.least, a.greatest * b.greatest};  // of what is not below 0
@@ -136,9 +110,35 @@ Interval specific_force(const CuttingConditions& c, double chip) noexcept {
   return c.cutting_force * Interval{std::min(a, b), std::max(a, b)} * c.wear;
 }
 
+Result<void> check_conditions(const CuttingConditions& c) {
+  if (!(c.teeth >= 1))
+    return refused(fmt::format(
+        "the tool has {} teeth; state how many there are, since chips have no thickness without", c.teeth));
+  if (!(c.spindle_rpm > 0 && std::isfinite(c.spindle_rpm)))
+    return refused(fmt::format(
+        "the spindle turns {:g} times a minute; state its speed, since chips have no thickness without",
+        c.spindle_rpm));
+  if (!(c.tool_diameter > 0 && std::isfinite(c.tool_diameter)))
+    return refused(fmt::format("the tool's diameter is {:g} mm; it has to be above 0", c.tool_diameter));
+  if (!(c.cutting_force.least > 0 && c.cutting_force.least <= c.cutting_force.greatest))
+    return refused(fmt::format("the cutting force k_c1.1 is {:g} to {:g} N/mm2; it has to be above 0",
+                               c.cutting_force.least, c.cutting_force.greatest));
+  if (!(c.wear.least >= 1 && c.wear.least <= c.wear.greatest && c.wear.greatest <= 5))
+    return refused(
+        fmt::format("wear makes the cutting force {:g} to {:g} times as large; it has to be from 1, "
+                    "for a sharp edge, to 5",
+                    c.wear.least, c.wear.greatest));
+  if (!(c.share.least >= 0 && c.share.least <= c.share.greatest && c.share.greatest <= 1))
+    return refused(
+        fmt::format("the share of the power that heats the workpiece is {:g} to {:g}; it has to be "
+                    "from 0 to 1",
+                    c.share.least, c.share.greatest));
+  return {};
+}
+
 Result<CuttingWork> cutting_work(const std::vector<ToolPiece>& pieces, const CuttingConditions& conditions,
                                  double bottom_z) {
-  LEKALO_CHECK(check(conditions));
+  LEKALO_CHECK(check_conditions(conditions));
   return WorkOf(conditions, bottom_z).run(pieces);
 }
 

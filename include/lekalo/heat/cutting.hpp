@@ -80,10 +80,13 @@ struct CuttingWork {
 /// Kienzle's law k_c1.1 h^-m_c with wear, N/mm2. \pre chip above 0, mm
 [[nodiscard]] Interval specific_force(const CuttingConditions& conditions, double chip) noexcept;
 
+/// bad_input with one sentence for figures of which no force follows: no teeth, no speed.
+[[nodiscard]] Result<void> check_conditions(const CuttingConditions& conditions);
+
 /// Returns the work of each contact: specific force times volume. The feed per tooth is that of the speed at
 /// which the machine really goes; the floor under a descending tip is cut with the feed per tooth downwards.
-/// What lies below `bottom_z` is no material. bad_input with one sentence where there are no teeth or speed,
-/// where a rapid cuts, and where nothing is cut. Cost: linear.
+/// What lies below `bottom_z` is no material. bad_input with one sentence as of check_conditions(), where a
+/// rapid cuts, and where nothing is cut. Cost: linear.
 [[nodiscard]] Result<CuttingWork> cutting_work(const std::vector<ToolPiece>& pieces,
                                                const CuttingConditions& conditions, double bottom_z);
 

@@ -145,6 +145,7 @@ Result<HeatSource> heat_source(const HeatSourceJob& job, const PhaseListener& ph
   LEKALO_CHECK(Clip(job, made.stock).run(made.pieces));
   heat::CuttingConditions cutting = job.cutting;
   cutting.tool_diameter = job.machining.tool_diameter;
+  LEKALO_CHECK(heat::check_conditions(cutting));
   Result<heat::CuttingWork> work =
       heat::cutting_work(made.pieces, cutting, job.machining.top - made.stock.box.thickness);
   if (!work) return failure(work.error().code, fmt::format("{}: {}", job.program.name, work.error().message));
