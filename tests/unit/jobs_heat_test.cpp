@@ -78,6 +78,19 @@ TEST(JobsHeat, AfterALongWaitOnlyPlainGrowthIsLeft) {
   EXPECT_LT(std::max(std::abs(found.scaling.left.least), found.scaling.left.most), 0.15 * growth);
 }
 
+TEST(JobsHeat, WallsOfMoreThanAMillionPlacesAreRefused) {
+  HeatJob job = job_of();
+  job.source.pocket.bytes =
+      R"({"units": "mm", "outer": [{"line": {"from": [0, 0], "to": [4e5, 0]}},
+    {"line": {"from": [4e5, 0], "to": [4e5, 4e5]}}, {"line": {"from": [4e5, 4e5], "to": [0, 4e5]}},
+    {"line": {"from": [0, 4e5], "to": [0, 0]}}]})";
+  job.source.stock.block = heat::read_stock("40x36x10@-10,-10");
+  const Result<HeatFound> found = heat(job);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().message,
+            "pocket.json: its walls have more than 1000000 places 2.5 mm apart; choose larger voxels");
+}
+
 TEST(JobsHeat, AWarmPocketIsTooSmallWhenItIsCold) {
   const HeatFound& found = usual();
   EXPECT_LT(found.errors.mean, 0);

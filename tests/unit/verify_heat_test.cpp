@@ -12,6 +12,7 @@
 #include "lekalo/verify/claims.hpp"
 #include "support/json.hpp"
 #include "support/json_paths.hpp"
+#include "support/prepared.hpp"
 
 namespace lekalo::verify_heat_test {
 namespace {
@@ -61,17 +62,16 @@ std::vector<verify::Document> files_of(const jobs::HeatResultJob& job) {
 }
 
 /// A result with three films.
-const Json& honest() {
-  static const Json document = Json::parse(jobs::heat_result(job_of(0.05, 0.2)).value().json);
-  return document;
-}
+const cases::Prepared<Json> kHonest([] {
+  return Json::parse(jobs::heat_result(job_of(0.05, 0.2)).value().json);
+});
 
 Result<verify::ClaimReport> judged(const Json& document, const jobs::HeatResultJob& job) {
   return verify::verify_heat_report({"r.json", document.dump()}, files_of(job));
 }
 
 bool refuted(const std::function<void(Json&)>& change) {
-  Json document = honest();
+  Json document = *kHonest;
   change(document);
   const auto report = judged(document, job_of(0.05, 0.2));
   return !report || !report->findings.empty();
@@ -79,7 +79,7 @@ bool refuted(const std::function<void(Json&)>& change) {
 
 /// The sentence of what is refused, or all findings.
 std::string said(const std::function<void(Json&)>& change) {
-  Json document = honest();
+  Json document = *kHonest;
   change(document);
   const auto report = judged(document, job_of(0.05, 0.2));
   if (!report) return report.error().message;
@@ -133,10 +133,23 @@ bool is_free(const std::string& path) {
          !one_of(path, {"/work_j"});
 }
 
+// A result of a kilobyte may not ask for a million places.
+TEST(VerifyHeat, VoxelsTooSmallForTheWallsAreRefusedAtOnce) {
+  for (const double voxel : {1e-12, 1e-6, 0.01}) {
+    const std::string sentence = said([&](Json& d) { d["voxel_mm"] = voxel; });
+    EXPECT_NE(sentence.find("the walls of pocket.json have more than 1000000 places"), std::string::npos)
+        << sentence.substr(0, 200);
+  }
+  // Of many places that are not there some are named.
+  const std::string sentence = said([](Json& d) { d["voxel_mm"] = 0.05; });
+  EXPECT_NE(sentence.find("walls has no place at"), std::string::npos) << sentence.substr(0, 200);
+  EXPECT_LT(std::count(sentence.begin(), sentence.end(), ';'), 400);
+}
+
 TEST(VerifyHeat, NoFieldCanBeAbsentOrAnother) {
   EXPECT_FALSE(refuted([](Json&) {}));
   std::size_t count = 0;
-  each_path(honest(), "", [&](const std::string& path) {
+  each_path(*kHonest, "", [&](const std::string& path) {
     // One wall and one case stand for all.
     if (is_free(path) ||
         one_of(path, {"/walls/1", "/walls/2", "/walls/3", "/cases/1", "/cases/2", "/errors_um/"}))
@@ -162,8 +175,8 @@ TEST(VerifyHeat, NoFieldCanBeAbsentOrAnother) {
 
 TEST(VerifyHeat, NoFigureCanBeAnother) {
   std::size_t count = 0;
-  each_path(honest(), "", [&](const std::string& path) {
-    if (!is_number(honest().at(path)) || is_free(path)) return;
+  each_path(*kHonest, "", [&](const std::string& path) {
+    if (!is_number(kHonest->at(path)) || is_free(path)) return;
     // These were stated, or are computed in voxels and held by nothing else; a little more of the stock, or
     // left on walls, changes no cut.
     if (one_of(path, {"/conductivity", "/density", "/heat_capacity", "/expansion_per_k", "/youngs",

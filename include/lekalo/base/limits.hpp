@@ -32,6 +32,9 @@ inline constexpr std::size_t kMostCertificateRows = 1'000'000, kMostCertificateN
 /// Programs and the pockets that they cut, mm: a kilometre, beyond any machine.
 inline constexpr double kLargestProgramCoordinate = 1e6;
 
+/// Places of a pocket's walls at which the heat of milling is looked for, at all heights together.
+inline constexpr std::size_t kMostHeatPlaces = 1'000'000;
+
 /// Layouts. Outlines, strips and gaps, mm; 2^38 steps of the grid.
 inline constexpr double kLargestOutline = 0x1p18;
 /// Placements, mm.

@@ -1,11 +1,15 @@
 #include "heat_walls.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/limits.hpp"
+#include "lekalo/base/stop.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/io/shape/region_json.hpp"
 
@@ -31,9 +35,9 @@ void add_stations(const geom::Edge& edge, double spacing, std::vector<Station>& 
   const geom::Point way = edge.to - edge.from;
   if (edge.kind == geom::EdgeKind::line) {
     const double length = geom::norm(way);
-    const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(length / spacing)));
-    for (std::size_t k = 0; k < count; ++k) {
-      const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
+    const double count = std::max(1.0, std::ceil(length / spacing));
+    for (double k = 0; k < count && stations.size() <= limits::kMostHeatPlaces; ++k) {
+      const double t = (k + 0.5) / count;
       stations.push_back({edge.from + t * way, {way.y / length, -way.x / length}});
     }
     return;
@@ -44,10 +48,9 @@ void add_stations(const geom::Edge& edge, double spacing, std::vector<Station>& 
   double turn = geom::direction_angle(b.x, b.y) - from;
   if (ccw && turn <= 0) turn += kTurn;
   if (!ccw && turn >= 0) turn -= kTurn;
-  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(radius * std::abs(turn) / spacing)));
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto direction =
-        geom::sincos(from + turn * (static_cast<double>(k) + 0.5) / static_cast<double>(count));
+  const double count = std::max(1.0, std::ceil(radius * std::abs(turn) / spacing));
+  for (double k = 0; k < count && stations.size() <= limits::kMostHeatPlaces; ++k) {
+    const auto direction = geom::sincos(from + turn * (k + 0.5) / count);
     const double sign = ccw ? 1 : -1;
     stations.push_back({{edge.centre.x + radius * direction.cosine, edge.centre.y + radius * direction.sine},
                         {sign * direction.cosine, sign * direction.sine}});
@@ -117,10 +120,16 @@ Result<CutWalls> cut_walls(const HeatSourceJob& job, const HeatSource& source, d
       deepest = std::min(deepest, tip);
     }
   deepest = std::max(deepest, top - source.stock.box.thickness);
-  const auto levels = static_cast<std::size_t>(std::max(1.0, std::round((top - deepest) / spacing)));
+  const double wanted = std::max(1.0, std::round((top - deepest) / spacing));
+  if (!(wanted * static_cast<double>(stations.size()) <= static_cast<double>(limits::kMostHeatPlaces)))
+    return failure(ErrorCode::bad_input,
+                   fmt::format("{}: its walls have more than {} places {} mm apart; choose larger voxels",
+                               job.pocket.name, limits::kMostHeatPlaces, spacing));
+  const auto levels = static_cast<std::size_t>(wanted);
   CutWalls walls;
   std::vector<double> distances(down.size());
   for (const Station& station : stations) {
+    ask(1 + down.size() / 16);
     for (std::size_t i = 0; i < down.size(); ++i) distances[i] = distance_from(*down[i], station.at);
     for (std::size_t k = 0; k < levels; ++k) {
       const double z = top - (static_cast<double>(k) + 0.5) * (top - deepest) / static_cast<double>(levels);

@@ -110,8 +110,9 @@ class CutReport {
     check_format(fields_, pocket_report_ ? "lekalo-pocket" : "lekalo-simulate", complaint_);
     (void)fields_.get("inputs"), (void)fields_.text("version");
     if (pocket_report_) (void)fields_.get("outputs");
-    read_options();
-    LEKALO_CHECK(read_files());
+    read_machining(fields_, options_);
+    read_followed(fields_, names_, files_, followed_);
+    LEKALO_CHECK(fine());
     LEKALO_CHECK(judge());
     fields_.refuse_others();
     LEKALO_CHECK(fine());
@@ -124,32 +125,10 @@ class CutReport {
     return failure(ErrorCode::bad_input, fmt::format("{}: {}", report_.name, complaint_));
   }
 
-  void read_options() { read_machining(fields_, options_); }
-
-  Result<void> read_files() {
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      const std::string& role = names_[i].role;
-      if (role == "after")
-        earlier_.push_back({files_[i], names_[i].tool_mm});
-      else if (role == "program" && !program_)
-        program_ = files_[i];
-      else if (role == "pocket" && !pocket_)
-        pocket_ = files_[i];
-      else
-        fields_.complain(
-            fmt::format("the files that it names have the role \"{}\" twice, or no such report "
-                        "has it",
-                        excerpt(role)));
-    }
-    if (!program_) fields_.complain("it names no file with the role \"program\"");
-    if (!pocket_) fields_.complain("it names no file with the role \"pocket\"");
-    return fine();
-  }
-
   /// Returns what the program is judged by: for a simulate report the file itself, for a pocket report the
   /// regions stated.
   Document regions() {
-    if (!pocket_report_) return *pocket_;
+    if (!pocket_report_) return *followed_.pocket;
     const Json stated = fields_.get("regions");
     if (!stated.is_object()) fields_.complain("field regions is not an object");
     return {report_.name + ", regions", stated.text};
@@ -157,8 +136,8 @@ class CutReport {
 
   void leave_open(const std::string& why) {
     claims_.stated_regions = true;
-    claims_.unchecked.push_back(
-        fmt::format("regions: that they are what {} becomes was not rechecked: {}", pocket_->name, why));
+    claims_.unchecked.push_back(fmt::format("regions: that they are what {} becomes was not rechecked: {}",
+                                            followed_.pocket->name, why));
   }
 
   /// Derives the regions from the pocket's file anew.
@@ -184,10 +163,10 @@ class CutReport {
     for (const auto& [key, value] : {std::pair{"drawing", drawing}, {"scan", scan}})
       refuse_unknown_fields(value, key, complaint_);
     LEKALO_CHECK(fine());
-    const Origin origin = check_origin({*pocket_, stated, tolerance, scan, drawing});
+    const Origin origin = check_origin({*followed_.pocket, stated, tolerance, scan, drawing});
     if (origin.fault)
       claims_.findings.push_back(
-          fmt::format("regions are not what {} means: {}", pocket_->name, *origin.fault));
+          fmt::format("regions are not what {} means: {}", followed_.pocket->name, *origin.fault));
     else if (origin.open)
       leave_open(*origin.open);
     else
@@ -202,7 +181,7 @@ class CutReport {
                           const std::vector<std::string>& open_layers, double tolerance) {
     if (origin.in_file) {
       if (!same_edges(stated, *origin.in_file, tolerance, true))
-        claims_.findings.push_back(fmt::format("the open edges are not those of {}", pocket_->name));
+        claims_.findings.push_back(fmt::format("the open edges are not those of {}", followed_.pocket->name));
       return;
     }
     // A scan has no layers.
@@ -227,10 +206,10 @@ class CutReport {
   Result<void> judge() {
     const Document where = regions();
     LEKALO_CHECK(fine());
-    std::vector<EarlierProgram> earlier = earlier_;
+    std::vector<EarlierProgram> earlier = followed_.earlier;
     read_supposed(earlier);
     LEKALO_CHECK(fine());
-    const Result<SimulateReport> judged = simulate(*program_, where, options_, earlier);
+    const Result<SimulateReport> judged = simulate(*followed_.program, where, options_, earlier);
     // An option out of its range is one of the report, and not of a command line.
     if (!judged && judged.error().code == ErrorCode::usage)
       return failure(ErrorCode::bad_input, fmt::format("{}: {}", report_.name, judged.error().message));
@@ -238,7 +217,7 @@ class CutReport {
     const SimulateReport& found = *judged;
     for (const Figure& figure : figures_of(found)) compare(fields_, figure.key, figure.value, claims_);
     compare_spots(found);
-    claims_.notes.push_back(fmt::format("the figures were made anew from {}", program_->name));
+    claims_.notes.push_back(fmt::format("the figures were made anew from {}", followed_.program->name));
     LEKALO_CHECK(compare_unsaid());
     if (!pocket_report_) return fine();
     LEKALO_CHECK(compare_regions());
@@ -249,7 +228,8 @@ class CutReport {
 
   /// All that the programs leave to the control is unchecked. A report of simulate tells the same.
   Result<void> compare_unsaid() {
-    LEKALO_TRY(const std::vector<std::string> unsaid, unsaid_modes(*program_, options_, earlier_));
+    LEKALO_TRY(const std::vector<std::string> unsaid,
+               unsaid_modes(*followed_.program, options_, followed_.earlier));
     claims_.unchecked.insert(claims_.unchecked.end(), unsaid.begin(), unsaid.end());
     if (pocket_report_ || !fields_.has("unsaid")) return fine();
     std::vector<std::string> told;
@@ -333,7 +313,7 @@ class CutReport {
   Result<void> compare_depth() {
     const double depth = fields_.number("depth_mm"), stays = fields_.number("floor_stock_mm");
     LEKALO_CHECK(fine());
-    LEKALO_TRY(const std::vector<Move> moves, read_moves(*program_, options_.top, options_.control));
+    LEKALO_TRY(const std::vector<Move> moves, read_moves(*followed_.program, options_.top, options_.control));
     double deepest = options_.top;
     for (const Move& move : moves) deepest = std::min({deepest, move.from_z, move.to_z});
     if (!(std::abs(options_.top - depth + stays - deepest) <= kWordRounding) || !(stays >= 0))
@@ -349,9 +329,8 @@ class CutReport {
   ReportFields fields_;
   bool pocket_report_;
   SimulateOptions options_;
-  std::optional<Document> program_, pocket_;
+  FollowedFiles followed_;  ///< without a program that is supposed
   std::string supposed_;
-  std::vector<EarlierProgram> earlier_;  ///< without one that is supposed
   ClaimReport claims_;
 };
 

@@ -90,26 +90,10 @@ class FitReport {
       find(fmt::format("{} is {} and is to be {:.9g}", what, written, found));
   }
 
-  std::optional<double> number_or_null(ReportFields& fields, std::string_view key) {
-    if (fields.get(key).is_null()) return {};
-    return fields.number(key);
-  }
   /// Two numbers, or none where there is null.
-  std::optional<std::array<double, 2>> pair_or_null(ReportFields& fields, std::string_view key) {
+  static std::optional<std::array<double, 2>> pair_or_null(ReportFields& fields, std::string_view key) {
     if (fields.get(key).is_null()) return {};
-    std::array<double, 2> pair{};
-    std::size_t count = 0;
-    fields.each(key, [&](Json item, const std::string& path) {
-      if (count < 2) pair[count] = approximate(number_of(item, path));
-      ++count;
-    });
-    if (count != 2) fields.complain(fmt::format("field {} has not two numbers", fields.name(key)));
-    return pair;
-  }
-  Decimal number_of(Json item, const std::string& path) {
-    const auto number = item.is_number() ? parse_decimal(item.text) : std::nullopt;
-    if (!number) fields_.complain(fmt::format("{} is not a number", path));
-    return number.value_or(Decimal{});
+    return fields.numbers<2>(key);
   }
 
   void read_rings() {
@@ -149,7 +133,7 @@ class FitReport {
     if (!complaint_.empty()) return;
     roughness_ = pair_or_null(fields_, "roughness_um");
     friction_ = pair_or_null(fields_, "friction");
-    clearance_ = number_or_null(fields_, "clearance_um");
+    clearance_ = fields_.number_or_null("clearance_um");
   }
 
   /// The cases that a named fit has, by the table of the checker.
@@ -205,7 +189,7 @@ class FitReport {
     const std::vector<Row> rows = read_profile(f, path);
     const double touching = f.number("touching_mm"), pressure = f.number("pressure_mpa");
     const double growth = f.number("hub_outer_growth_um");
-    const std::optional<double> closure = number_or_null(f, "shaft_bore_closure_um");
+    const std::optional<double> closure = f.number_or_null("shaft_bore_closure_um");
     (void)f.number("middle_pressure_mpa");
     check_state(f, path, yields);
     check_released(f);
@@ -316,7 +300,7 @@ class FitReport {
     else if (force)
       for (const std::size_t i : {0U, 1U})
         hold(path + ".press_force_n", (*force)[i], (*friction_)[i] * force_, kShown * (1 + (*friction_)[i]));
-    const std::optional<double> shrink = number_or_null(f, "shrink_difference_k");
+    const std::optional<double> shrink = f.number_or_null("shrink_difference_k");
     const bool known = clearance_ && rings_[1].expansion > 0;
     if (shrink.has_value() != known)
       find(path + ".shrink_difference_k does not go with the clearance");
@@ -331,8 +315,8 @@ class FitReport {
     f.each("profile", [&](Json item, const std::string& place) {
       ReportFields r(item, place, complaint_);
       if (!complaint_.empty()) return;
-      Row row{r.number("z_mm"), number_or_null(r, "bore_um"), number_or_null(r, "shaft_um"),
-              number_or_null(r, "hub_bore_um"), number_or_null(r, "hub_um")};
+      Row row{r.number("z_mm"), r.number_or_null("bore_um"), r.number_or_null("shaft_um"),
+              r.number_or_null("hub_bore_um"), r.number_or_null("hub_um")};
       r.refuse_others();
       rows.push_back(row);
     });

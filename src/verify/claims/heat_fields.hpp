@@ -60,33 +60,8 @@ struct HeatCaseRead {
   HeatBalance balance;
 };
 
-inline double number_of(ReportFields& fields, Json item, const std::string& path) {
-  const auto number = item.is_number() ? parse_decimal(item.text) : std::nullopt;
-  if (!number) fields.complain(fmt::format("{} is not a number", path));
-  return number ? approximate(*number) : 0;
-}
-
-/// Reads a list of so many numbers.
-template <std::size_t N>
-std::array<double, N> numbers_of(ReportFields& fields, std::string_view key) {
-  std::array<double, N> numbers{};
-  std::size_t count = 0;
-  fields.each(key, [&](Json item, const std::string& path) {
-    if (count < N) numbers[count] = number_of(fields, item, path);
-    ++count;
-  });
-  if (count != N) fields.complain(fmt::format("field {} has not {} numbers", fields.name(key), N));
-  return numbers;
-}
-
-inline std::optional<double> number_or_null(ReportFields& fields, Json item, const std::string& path) {
-  if (item.text.empty()) fields.complain(fmt::format("field {} is missing", path));
-  if (item.text.empty() || item.is_null()) return std::nullopt;
-  return number_of(fields, item, path);
-}
-
 inline CheckedRange range_of(ReportFields& fields, std::string_view key) {
-  const std::array<double, 2> pair = numbers_of<2>(fields, key);
+  const std::array<double, 2> pair = fields.numbers<2>(key);
   return {pair[0], pair[1]};
 }
 

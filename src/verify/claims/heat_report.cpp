@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "heat_fields.hpp"
+#include "lekalo/base/limits.hpp"
 #include "machining_fields.hpp"
 #include "report_fields.hpp"
 #include "verify/heat/cut_work.hpp"
@@ -19,6 +20,8 @@ namespace {
 constexpr double kPiece = 0.125;
 /// Sums over many pieces are told apart to this part.
 constexpr double kSummed = 1e-9;
+/// So many faults of places are told.
+constexpr std::size_t kMostFaults = 100;
 /// The heat may miss its balance by this part (docs/design/heat-walls.md).
 constexpr double kBalanced = 1e-3;
 
@@ -34,9 +37,9 @@ class HeatReport {
       (void)fields_.get(known);
     if (fields_.text("status") != "computed") fields_.complain("field status is not \"computed\"");
     read_words();
-    read_files();
+    read_followed(fields_, names_, files_, followed_);
     LEKALO_CHECK(fine());
-    LEKALO_TRY(const CutHistory history, followed());
+    LEKALO_TRY(const CutHistory history, follow());
     check_booked(history);
     read_walls();
     read_cases();
@@ -90,7 +93,7 @@ class HeatReport {
     read_holding();
     ReportFields stock(fields_.get("stock"), "stock", complaint_);
     if (!complaint_.empty()) return;
-    const auto low = numbers_of<2>(stock, "low_mm"), high = numbers_of<2>(stock, "high_mm");
+    const auto low = stock.numbers<2>("low_mm"), high = stock.numbers<2>("high_mm");
     stock_ = {low[0], low[1], high[0], high[1], stock.number("thickness_mm")};
     stock.refuse_others();
     require(low[0] < high[0] && low[1] < high[1] && stock_.thickness > 0, "field stock is no block");
@@ -110,8 +113,7 @@ class HeatReport {
     (void)read_range(m, "poisson", 0, 0.49);
     std::array<double, 2> borders{};
     for (const auto& [key, border] : {std::pair{"melting_c", &borders[0]}, {"glass_c", &borders[1]}}) {
-      if (m.get(key).text.empty()) m.complain(fmt::format("field {} is missing", m.name(key)));
-      if (!m.get(key).text.empty() && !m.get(key).is_null()) *border = read_range(m, key, 40, 4000).least;
+      if (!m.get(key).is_null()) *border = read_range(m, key, 40, 4000).least;
     }
     m.refuse_others();
     require(borders[0] > 0 || borders[1] > 0, "field material has neither melting_c nor glass_c");
@@ -124,32 +126,13 @@ class HeatReport {
     constexpr std::array<std::string_view, 4> kKinds{"free", "plate", "vice-x", "vice-y"};
     if (std::ranges::find(kKinds, holding.text("kind")) == kKinds.end())
       holding.complain("field holding.kind is not free, plate, vice-x or vice-y");
-    if (holding.get("datum_mm").text.empty()) holding.complain("field holding.datum_mm is missing");
-    if (!holding.get("datum_mm").text.empty() && !holding.get("datum_mm").is_null())
-      (void)numbers_of<3>(holding, "datum_mm");
+    if (!holding.get("datum_mm").is_null()) (void)holding.numbers<3>("datum_mm");
     holding.refuse_others();
   }
 
-  void read_files() {
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      const std::string& role = names_[i].role;
-      if (role == "after")
-        earlier_.push_back({files_[i], names_[i].tool_mm});
-      else if (role == "program" && !program_)
-        program_ = files_[i];
-      else if (role == "pocket" && !pocket_)
-        pocket_ = files_[i];
-      else
-        fields_.complain(fmt::format(
-            "the files that it names have the role \"{}\" twice, or no such result has it", excerpt(role)));
-    }
-    require(program_ && pocket_,
-            "it names no file with the role \"program\", or none with the role \"pocket\"");
-  }
-
-  Result<CutHistory> followed() {
-    Result<CutHistory> history =
-        cut_history(*program_, *pocket_, options_, earlier_, kPiece * options_.tool_diameter);
+  Result<CutHistory> follow() {
+    Result<CutHistory> history = cut_history(*followed_.program, *followed_.pocket, options_,
+                                             followed_.earlier, kPiece * options_.tool_diameter);
     // An option out of its range is one of the result, and not of a command line.
     if (!history && history.error().code == ErrorCode::usage)
       return failure(ErrorCode::bad_input, fmt::format("{}: {}", report_.name, history.error().message));
@@ -172,7 +155,8 @@ class HeatReport {
                                      {"greatest_power_w", found.power_w}})
       hold(b.name(key), range_of(b, key), range, within(range.greatest));
     b.refuse_others();
-    claims_.notes.push_back(fmt::format("the work of the cuts was made anew from {}", program_->name));
+    claims_.notes.push_back(
+        fmt::format("the work of the cuts was made anew from {}", followed_.program->name));
     const CheckedRange& work = found.work_j;
     work_ = work, seconds_ = found.seconds;
     heat_ = work.middle() * cutting_.share.middle();
@@ -185,8 +169,8 @@ class HeatReport {
     fields_.each("walls", [&](Json item, const std::string& path) {
       ReportFields f(item, path, complaint_);
       if (!complaint_.empty()) return;
-      const auto at = numbers_of<3>(f, "at_mm");
-      const auto outward = numbers_of<2>(f, "outward");
+      const auto at = f.numbers<3>("at_mm");
+      const auto outward = f.numbers<2>("outward");
       walls_.push_back({at, outward, f.number("seconds"), f.number("error_um"), range_of(f, "errors_um")});
       f.refuse_others();
     });
@@ -204,7 +188,7 @@ class HeatReport {
       HeatCaseRead one;
       one.film = f.number("film_w_m2k");
       f.each("errors_um",
-             [&](Json number, const std::string& at) { one.errors.push_back(number_of(f, number, at)); });
+             [&](Json number, const std::string& at) { one.errors.push_back(f.number_of(number, at)); });
       if (one.errors.size() != walls_.size())
         f.complain(fmt::format("field {} has {} numbers, and walls {} places", f.name("errors_um"),
                                one.errors.size(), walls_.size()));
@@ -232,7 +216,7 @@ class HeatReport {
   /// The largest stress is in the block, while the program runs; what cools down comes to a half before it
   /// comes to a tenth, and without a film to neither.
   void read_stress_and_waits(ReportFields& f, HeatCaseRead& one) {
-    const auto at = numbers_of<3>(f, "stress_at_mm");
+    const auto at = f.numbers<3>("stress_at_mm");
     const bool inside = at[0] >= stock_.low_x && at[0] <= stock_.high_x && at[1] >= stock_.low_y &&
                         at[1] <= stock_.high_y && at[2] <= options_.top &&
                         at[2] >= options_.top - stock_.thickness;
@@ -240,8 +224,8 @@ class HeatReport {
     const double seconds = f.number("stress_seconds");
     if (!(seconds >= 0 && seconds <= seconds_ + kShown))
       find(f.name("stress_seconds") + " is outside of the program");
-    one.half = number_or_null(f, f.get("half_s"), f.name("half_s"));
-    one.tenth = number_or_null(f, f.get("tenth_s"), f.name("tenth_s"));
+    one.half = f.number_or_null("half_s");
+    one.tenth = f.number_or_null("tenth_s");
     const bool falls =
         (!one.half && !one.tenth) || (one.half && *one.half > 0 && (!one.tenth || *one.tenth > *one.half));
     if (!falls || (one.half && one.film == 0))
@@ -274,8 +258,8 @@ class HeatReport {
   void read_scaling(ReportFields& parent, HeatCaseRead& one) {
     ReportFields f(parent.get("uniform_scaling"), parent.name("uniform_scaling"), complaint_);
     if (!complaint_.empty()) return;
-    one.factor = f.number("factor"), one.shift = numbers_of<2>(f, "shift_um");
-    const auto centre = numbers_of<2>(f, "centre_mm");
+    one.factor = f.number("factor"), one.shift = f.numbers<2>("shift_um");
+    const auto centre = f.numbers<2>("centre_mm");
     for (const std::size_t axis : {0U, 1U})
       hold(f.name("centre_mm"), centre[axis], centre_[axis], 2 * kShown);
     const std::vector<double> left = left_by(one, 1, one);
@@ -331,13 +315,17 @@ class HeatReport {
   /// Every place of a wall that the program cuts is there once, where the wall is, and the tool was beside it
   /// when it is said to have been.
   Result<void> check_places(const CutHistory& history) {
-    LEKALO_TRY(const Json root, parse_json(pocket_->bytes, pocket_->name));
+    LEKALO_TRY(const Json root, parse_json(followed_.pocket->bytes, followed_.pocket->name));
     std::string fault;
     refuse_unknown_words(root, fault);
-    const Shape pocket = read_shape(root, pocket_->name, fault);
+    const Shape pocket = read_shape(root, followed_.pocket->name, fault);
     if (!fault.empty()) return failure(ErrorCode::bad_input, fault);
     WallPlaces places(wall_stations(pocket, spacing_), history, options_.top, stock_.thickness,
                       options_.tool_diameter / 2 + options_.stock_to_leave, spacing_);
+    if (places.too_many())
+      return failure(ErrorCode::bad_input,
+                     fmt::format("{}: the walls of {} have more than {} places {} mm apart (voxel_mm)",
+                                 report_.name, followed_.pocket->name, limits::kMostHeatPlaces, spacing_));
     std::vector<std::vector<std::size_t>> walls(places.stations() * places.heights());
     for (std::size_t i = 0; i < walls_.size(); ++i) {
       const HeatWall& w = walls_[i];
@@ -353,6 +341,7 @@ class HeatReport {
     }
     std::size_t uncut = 0;
     for (std::size_t s = 0; s < places.stations(); ++s) {
+      if (claims_.findings.size() > kMostFaults) return {};
       places.go_to(s);
       for (std::size_t h = 0; h < places.heights(); ++h) {
         const std::vector<std::size_t>& here = walls[s * places.heights() + h];
@@ -409,7 +398,7 @@ class HeatReport {
     ReportFields scaling(fields_.get("uniform_scaling"), "uniform_scaling", complaint_);
     if (!complaint_.empty()) return;
     hold("uniform_scaling.factor", scaling.number("factor"), middle.factor, 0);
-    const auto shift = numbers_of<2>(scaling, "shift_um"), centre = numbers_of<2>(scaling, "centre_mm");
+    const auto shift = scaling.numbers<2>("shift_um"), centre = scaling.numbers<2>("centre_mm");
     for (const std::size_t axis : {0U, 1U}) {
       hold("uniform_scaling.shift_um", shift[axis], middle.shift[axis], 0);
       hold("uniform_scaling.centre_mm", centre[axis], centre_[axis], 2 * kShown);
@@ -450,7 +439,8 @@ class HeatReport {
     for (const auto& [key, wait] :
          {std::pair{"half_s", &HeatCaseRead::half}, {"tenth_s", &HeatCaseRead::tenth}}) {
       std::vector<std::optional<double>> said;
-      f.each(key, [&](Json item, const std::string& path) { said.push_back(number_or_null(f, item, path)); });
+      f.each(key,
+             [&](Json item, const std::string& path) { said.push_back(f.number_or_null_of(item, path)); });
       bool always = true;
       double least = HUGE_VAL, greatest = 0;
       for (const HeatCaseRead& one : cases_) {
@@ -493,15 +483,14 @@ class HeatReport {
 
   Result<void> name_unchecked() {
     claims_.unchecked = {
-        "cases: by how much walls lie off is computed in voxels and not proved; that all figures made of it "
-        "go "
-        "together is rechecked",
-        "heat_balance: how much heat is stored, lost and removed is computed in voxels and not proved; that "
-        "it "
-        "is the heat of the cuts is rechecked",
+        "cases: by how much walls lie off is computed in voxels and not proved; that all figures made of "
+        "it go together is rechecked",
+        "heat_balance: how much heat is stored, lost and removed is computed in voxels and not proved; "
+        "that it is the heat of the cuts is rechecked",
         "warmest_k, stress_mpa, cooling_down: they are computed in voxels and not proved",
         "material, film_w_m2k, holding, ambient_c: they are what was stated, and nobody measured them"};
-    LEKALO_TRY(const std::vector<std::string> unsaid, unsaid_modes(*program_, options_, earlier_));
+    LEKALO_TRY(const std::vector<std::string> unsaid,
+               unsaid_modes(*followed_.program, options_, followed_.earlier));
     claims_.unchecked.insert(claims_.unchecked.end(), unsaid.begin(), unsaid.end());
     return {};
   }
@@ -518,8 +507,7 @@ class HeatReport {
   CheckedRange work_;
   double ambient_ = 0, spacing_ = 0, limit_ = 0, yield_ = 1, seconds_ = 0;
   double heat_ = 0;  ///< of the workpiece at the middles, J
-  std::optional<Document> program_, pocket_;
-  std::vector<EarlierProgram> earlier_;
+  FollowedFiles followed_;
   std::vector<HeatWall> walls_;
   std::size_t uncut_ = 0;
   std::array<double, 2> centre_{};

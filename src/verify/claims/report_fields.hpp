@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -31,6 +33,31 @@ class ReportFields {
   [[nodiscard]] double number(std::string_view key) {
     known_.insert(std::string(key));
     return approximate(fields_.number(key));
+  }
+  [[nodiscard]] std::optional<double> number_or_null(std::string_view key) {
+    if (get(key).is_null()) return std::nullopt;
+    return number(key);
+  }
+  /// An item of a list.
+  [[nodiscard]] double number_of(Json item, const std::string& path) {
+    return approximate(fields_.number_of(item, path));
+  }
+  [[nodiscard]] std::optional<double> number_or_null_of(Json item, const std::string& path) {
+    if (item.is_null()) return std::nullopt;
+    return number_of(item, path);
+  }
+  /// A list of so many numbers.
+  template <std::size_t N>
+  [[nodiscard]] std::array<double, N> numbers(std::string_view key) {
+    std::array<double, N> numbers{};
+    std::size_t count = 0;
+    each(key, [&](Json item, const std::string& path) {
+      const double number = number_of(item, path);
+      if (count < N) numbers[count] = number;
+      ++count;
+    });
+    if (count != N) complain(fmt::format("field {} has not {} numbers", name(key), N));
+    return numbers;
   }
   [[nodiscard]] std::size_t index(std::string_view key) {
     known_.insert(std::string(key));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/limits.hpp"
 #include "lekalo/base/stop.hpp"
 
 namespace lekalo::verify {
@@ -54,7 +55,8 @@ void add_stations(const WallEdge& e, double side, double spacing, std::vector<Wa
   const double dx = e.to_x - e.from_x, dy = e.to_y - e.from_y;
   const double whole = e.radius > 0 ? e.radius * std::abs(e.turn) : std::sqrt(dx * dx + dy * dy);
   const double count = std::max(1.0, std::ceil(whole / spacing));
-  for (double k = 0.5; k < count; ++k) {
+  for (double k = 0.5; k < count && stations.size() <= limits::kMostHeatPlaces; ++k) {
+    ask();
     const double share = k / count;
     if (e.radius > 0) {
       const double angle = e.begin + share * e.turn, out = e.turn > 0 ? side : -side;
@@ -65,14 +67,6 @@ void add_stations(const WallEdge& e, double side, double spacing, std::vector<Wa
           {e.from_x + share * dx, e.from_y + share * dy, {side * dy / whole, -side * dx / whole}});
     }
   }
-}
-
-double distance(const CutPiece& piece, double x, double y) {
-  const double ux = piece.to_x - piece.from_x, uy = piece.to_y - piece.from_y;
-  const double vx = x - piece.from_x, vy = y - piece.from_y, square = ux * ux + uy * uy;
-  const double share = square > 0 ? std::min(1.0, std::max(0.0, (ux * vx + uy * vy) / square)) : 0;
-  const double rx = vx - share * ux, ry = vy - share * uy;
-  return std::sqrt(rx * rx + ry * ry);
 }
 
 double tip_of(const CutPiece& piece) { return std::max(piece.from_z, piece.to_z); }
@@ -104,9 +98,21 @@ WallPlaces::WallPlaces(std::vector<WallStation> stations, const CutHistory& hist
       down_.push_back(&piece), deepest = std::min(deepest, tip_of(piece));
   deepest = std::max(deepest, top - thickness);
   const double count = std::max(1.0, std::round((top - deepest) / spacing));
-  for (double k = 0.5; k < count; ++k) heights_.push_back(top - k * (top - deepest) / count);
-  distances_.resize(down_.size());
+  for (double k = 0.5; k < count && heights_.size() <= limits::kMostHeatPlaces; ++k)
+    heights_.push_back(top - k * (top - deepest) / count);
+  Place low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
+  for (const CutPiece* piece : down_) {
+    const Place from{piece->from_x, piece->from_y}, to{piece->to_x, piece->to_y};
+    strokes_.push_back({false, true, from, to, {}, 0});
+    low = {std::min({low.x, from.x, to.x}), std::min({low.y, from.y, to.y})};
+    high = {std::max({high.x, from.x, to.x}), std::max({high.y, from.y, to.y})};
+  }
+  if (down_.empty()) return;
+  index_ = {low, high, reach_};
+  for (std::uint32_t i = 0; i < strokes_.size(); ++i) index_.add(i, strokes_[i]);
 }
+
+bool WallPlaces::too_many() const { return stations_.size() * heights_.size() > limits::kMostHeatPlaces; }
 
 std::optional<WallPlaces::Which> WallPlaces::find(double x, double y, double z) const {
   const auto near = [](double a, double b) { return std::abs(a - b) <= kRounded; };
@@ -121,15 +127,17 @@ std::optional<WallPlaces::Which> WallPlaces::find(double x, double y, double z) 
 }
 
 void WallPlaces::go_to(std::size_t station) {
-  ask();
-  for (std::size_t i = 0; i < down_.size(); ++i)
-    distances_[i] = distance(*down_[i], stations_[station].x, stations_[station].y);
+  const Place at{stations_[station].x, stations_[station].y};
+  near_.clear(), distances_.clear();
+  if (!down_.empty()) index_.near(at, reach_ + kReached + kAsNear + 2 * kDistanceRounding, near_);
+  for (const std::uint32_t i : near_) distances_.push_back(distance(at, strokes_[i]));
+  ask(1 + near_.size());
 }
 
 double WallPlaces::nearest(std::size_t height) const {
   double least = HUGE_VAL;
-  for (std::size_t i = 0; i < down_.size(); ++i)
-    if (tip_of(*down_[i]) <= heights_[height] + kAsDeep) least = std::min(least, distances_[i]);
+  for (std::size_t k = 0; k < near_.size(); ++k)
+    if (tip_of(*down_[near_[k]]) <= heights_[height] + kAsDeep) least = std::min(least, distances_[k]);
   return least;
 }
 
@@ -140,10 +148,12 @@ WallPlaces::Cut WallPlaces::cut(std::size_t height) const {
 
 bool WallPlaces::visited(std::size_t height, double seconds) const {
   const double within = nearest(height) + kAsNear + kDistanceRounding;
-  for (std::size_t i = 0; i < down_.size(); ++i)
-    if (std::abs(down_[i]->start + down_[i]->seconds / 2 - seconds) <= kRounded && distances_[i] <= within &&
-        tip_of(*down_[i]) <= heights_[height] + kAsDeep)
+  for (std::size_t k = 0; k < near_.size(); ++k) {
+    const CutPiece& piece = *down_[near_[k]];
+    if (std::abs(piece.start + piece.seconds / 2 - seconds) <= kRounded && distances_[k] <= within &&
+        tip_of(piece) <= heights_[height] + kAsDeep)
       return true;
+  }
   return false;
 }
 

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "lekalo/verify/cut_history.hpp"
+#include "verify/pocket/stroke_index.hpp"
 #include "verify/shape/shape.hpp"
 
 namespace lekalo::verify {
@@ -19,7 +21,8 @@ struct WallStation {
   std::array<double, 2> outward{};
 };
 
-/// Along each edge that is no open one, so that they are `spacing` apart at most, mm.
+/// Along each edge that is no open one, so that they are `spacing` apart at most, mm. Of more than
+/// limits::kMostHeatPlaces so many and one are returned.
 [[nodiscard]] std::vector<WallStation> wall_stations(const Shape& pocket, double spacing);
 
 class WallPlaces {
@@ -36,8 +39,10 @@ class WallPlaces {
   [[nodiscard]] const WallStation& station(std::size_t i) const { return stations_[i]; }
   [[nodiscard]] std::size_t stations() const { return stations_.size(); }
   [[nodiscard]] std::size_t heights() const { return heights_.size(); }
+  /// Says that there are more than limits::kMostHeatPlaces; then not all heights are there.
+  [[nodiscard]] bool too_many() const;
 
-  /// Looks at a station: the functions below are about it.
+  /// Looks at a station: the functions below are about it. Cost: the pieces of the path near it.
   void go_to(std::size_t station);
   /// Says that the tool comes near enough at a height; rounding decides where `near_limit` is true.
   struct Cut {
@@ -53,7 +58,10 @@ class WallPlaces {
   std::vector<WallStation> stations_;  ///< by x
   std::vector<double> heights_;        ///< from above
   std::vector<const CutPiece*> down_;
-  std::vector<double> distances_;  ///< of each of them from the station at hand
+  std::vector<Stroke> strokes_;  ///< of each of them
+  StrokeIndex index_;
+  std::vector<std::uint32_t> near_;  ///< which of them are near the station at hand
+  std::vector<double> distances_;    ///< of these
   double reach_;
 };
 
