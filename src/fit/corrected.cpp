@@ -43,6 +43,14 @@ double diameter_at(const std::vector<TurnedPoint>& profile, double z) {
   return last.diameter + (z - last.z) / (next->z - last.z) * (next->diameter - last.diameter);
 }
 
+/// By how much growths differ.
+double variation(const std::vector<Growth>& surface) {
+  const auto [least, most] =
+      std::minmax_element(surface.begin(), surface.end(),
+                          [](const Growth& a, const Growth& b) { return a.diameter < b.diameter; });
+  return most->diameter - least->diameter;
+}
+
 /// The variation of diameters that grow.
 double variation(const std::vector<TurnedPoint>& before, const std::vector<double>& growths) {
   double least = HUGE_VAL, most = -HUGE_VAL;
@@ -111,8 +119,6 @@ Result<Corrected> corrected(const Assembly& assembly, const std::vector<std::vec
     for (const std::size_t i : nodes) of.push_back(surface_of[i].diameter);
     return of;
   };
-  std::vector<TurnedPoint> cylinder = made.profile;
-  for (TurnedPoint& p : cylinder) p.diameter = made.nominal;
   const int ring = surface == Surface::outside ? static_cast<int>(assembly.rings.size()) - 1 : 0;
   const auto turned = [&](double z) { return diameter_at(made.profile, z); };
   Pressing again(
@@ -121,7 +127,7 @@ Result<Corrected> corrected(const Assembly& assembly, const std::vector<std::vec
   for (std::size_t i = 0; i < interferences.size(); ++i) {
     LEKALO_TRY(Pressed one, again.press(interferences[i]));
     const std::vector<double> after = growths_of(one);
-    made.variations.push_back({variation(cylinder, growths_of(pressed[i])), variation(made.profile, after)});
+    made.variations.push_back({variation(growths(pressed[i], surface)), variation(made.profile, after)});
     if (i == at) made.growths = after;
     made.pressed.push_back(std::move(one));
   }
