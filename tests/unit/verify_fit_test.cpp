@@ -551,11 +551,10 @@ TEST(VerifyFit, EveryRuleOfCorrectionsIsSaid) {
   EXPECT_EQ(said_of(*kHardlyLonger, [](Json&) {}), "");
   const Json longer = Json::parse(kHardlyLonger->made.json);
   EXPECT_LT(longer.at("/correction/profile").size(), longer.at("/cases/0/profile").size());
-  for (const double more : {0.0002, 0.0006, 0.001}) {
-    jobs::FitJob job = stated(0.04);
-    job.shaft_length = job.length + more;
-    EXPECT_EQ(said_of(turned(job, fit::Surface::bore), [](Json&) {}), "") << more;
-  }
+  jobs::FitJob job = stated(0.04);
+  job.shaft_length = job.length + 0.0006;
+  EXPECT_EQ(said_of(turned(job, fit::Surface::bore), [](Json&) {}), "")
+      << "it varies where it is not written";
   for (const Turned* each : {&*kFanuc, &kTurned->front()})
     for (const char* key : {"control", "x"})
       says(*each, "is of no such control, or X", [&](Json& d) { d["correction"]["turning"][key] = "haas"; });
