@@ -77,7 +77,7 @@ long_counts() {
   build_preset dev
   [ -x "$root/build/dev/lekalo-step" ] || fail "there is no OCCT, so STEP files would not be tested; tools/setup.sh --full installs it"
   command -v ccx >/dev/null ||
-    fail "there is no CalculiX, so interference fits would not be held against it; tools/setup.sh --full installs it"
+    fail "there is no CalculiX, so interference fits and heat would not be held against it; tools/setup.sh --full installs it"
   LEKALO_FULL=1 run_ctest dev --timeout 7200
 }
 

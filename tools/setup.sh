@@ -34,7 +34,7 @@ test_packages=(
   python3-jsonschema         # the schema of layouts
 )
 full_packages=(
-  calculix-ccx # an oracle of interference fits, in a process of its own; GPL, and part of nothing that is shipped
+  calculix-ccx # an oracle of interference fits and of heat, in a process of its own; GPL, and part of nothing that is shipped
   clang libclang-rt-14-dev lld llvm libbenchmark-dev
   occt-misc netgen-doc # solids of others, which lekalo-step reads
   libpolyclipping-dev libcgal-dev # rivals and oracle of Booleans; CGAL is under the GPL and linked by nothing that is shipped
