@@ -381,14 +381,23 @@ std::string demands_line(const io::SolidDocument& d) {
                      bound);
 }
 
-/// The margin that was kept is part of the proof; that no placement lies less deep is none.
+/// The margin that was kept is part of the proof; that no placement lies less deep, or is more even, is none.
 std::string choice_line(const io::SolidDocument& d) {
   if (!d.choice || !d.choice->largest) return "";
-  return fmt::format(
-      "  largest allowance  {}; of at most {} mm of the margin {} that was found, {} were given up for it; "
-      "that there is no smaller one is not proved\n",
-      mm_up(*d.choice->largest), d.choice->give_up, mm_down(*d.choice->margin_found),
-      mm_up(*d.choice->margin_found - *d.margin()));
+  const io::SolidChoiceRecord& choice = *d.choice;
+  const std::string largest = fmt::format(
+      "  largest allowance  {}; of at most {} mm of the margin {} that was "
+      "found, {} were given up for it",
+      mm_up(*choice.largest), choice.give_up, mm_down(*choice.margin_found),
+      mm_up(*choice.margin_found - *d.margin()));
+  if (!choice.deviation) return largest + "; that there is no smaller one is not proved\n";
+  return largest +
+         fmt::format(
+             ", and of the smallest {} that was found, {}\n"
+             "  even               allowances deviate by {} from their targets or their mean, as the "
+             "root of the mean square; that no placement is more even is not proved\n",
+             mm_up(*choice.largest_found), mm_up(std::max(0.0, *choice.largest - *choice.largest_found)),
+             mm_up(*choice.deviation));
 }
 
 std::string demand_line(const io::SolidDocument& d) {

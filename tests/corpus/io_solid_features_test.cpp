@@ -28,7 +28,7 @@ TEST(SolidFeaturesSchema, AcceptsTheExamples) {
           "datums": [{"name": "a", "feature": "a", "point": [0, 0, 0], "within": 0.1},
                      {"name": "b", "points": [[0, 0, 0]], "axis": {"along": [0, 0, 1], "through": [0, 0, 0]},
                       "within": 0.1}]})"};
-  for (const char* name : {"features", "datums"})
+  for (const char* name : {"features", "datums", "maxima", "finished", "targets"})
     texts.push_back(disk::read_file(cases::source_dir() + "/examples/solid/" + name + ".json").value());
   for (const std::string& text : texts) EXPECT_TRUE(is_read(text)) << text;
   const auto said = cases::schema_verdicts(kSchema, texts);
@@ -45,7 +45,8 @@ TEST(SolidFeaturesSchema, RefusesWhatTheReaderRefuses) {
        {R"("minimum": 1)", R"("triangles": [0], "label": "x")", R"("triangles": [-1])",
         R"("box": [[0, 0, 0]])", R"("plane": {"normal": [0, 0, 1], "at": 0})",
         R"("triangles": [0], "scale": 0)", R"("triangles": [0], "as_cast": true, "scale": 1)",
-        R"("triangles": [0], "as_cast": 1)"})
+        R"("triangles": [0], "as_cast": 1)", R"("triangles": [0], "target": -1)",
+        R"("triangles": [0], "finished": 1, "target": 1)", R"("triangles": [0], "as_cast": true, "target": 1)"})
     texts.push_back(std::string(R"({"features": [{"name": "a", )") + feature + "}]}");
   for (
       const char* datum :

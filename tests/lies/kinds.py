@@ -199,6 +199,13 @@ FINISHED = """{"units": "mm", "minimum": 0.25, "features": [
 """
 
 
+# Top and underside have 4 mm together, and should have one much more than the other.
+TARGETS = """{"units": "mm", "minimum": 0.25, "features": [
+  {"name": "top", "plane": {"normal": [0, 0, 1], "at": 9, "within": 0.001}, "target": 2.25},
+  {"name": "underside", "plane": {"normal": [0, 0, 1], "at": 2, "within": 0.001}, "minimum": 0.5, "target": 1.75}]}
+"""
+
+
 def of_solids():
     meshes = ["examples/solid/part.stl", "examples/solid/casting.stl"]
     climb = ["locate", "--part", "part.stl", "--blank", "casting.stl", "--method", "climb"]
@@ -274,6 +281,12 @@ def of_solids():
              "r.json"]
     yield placed("placement, solids, largest", [], [whole + evened], inputs=["part.obj", "blank.obj"], written={
         "part.obj": box((2, 2, 2), (18, 14, 9)), "blank.obj": box((0, 0, 0), (20, 16, 13))})
+    aimed = functools.partial(
+        placed, files=[], inputs=["part.obj", "blank.obj", "f.json"],
+        commands=[whole + ["--features", "f.json", "--criterion", "even", "--give-up", "0.3"]],
+        written={"part.obj": box((2, 2, 2), (18, 14, 9)), "blank.obj": box((0, 0, 0), (20, 16, 13)), "f.json": TARGETS})
+    yield aimed("placement, solids, even")
+    yield aimed("targets of solids", target="f.json", oracle=solids.features, report_of="r.json")
     yield smooth("placement, solids, finished, largest", commands=[smooth.keywords["commands"][0] + evened])
     for role, file in (("part", "part.stl"), ("blank", "casting.stl")):
         yield Kind(f"placement, solids, another {role}", meshes, [start, turned + ["--gap", "0.1"]], file, of_r,

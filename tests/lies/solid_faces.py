@@ -3,7 +3,9 @@
 What the file of features demands says tests/support/solid_demands.py, which was written from docs/formats.md alone.
 """
 
+import bisect
 import heapq
+import itertools
 import math
 
 import solid_demands as asked
@@ -39,6 +41,23 @@ def farthest(triangles, surface, within):
             low = max(low, half[1])
             heapq.heappush(open_, half)
     return low, -open_[0][0]
+
+
+def deviation(triangles, targets, place, surface):
+    """How far 600 points of triangles are from a surface, off their targets or their mean, in doubles (docs/formats.md,
+    "Criteria"). Triangles are those of the part's file; `place` puts a point where the part is placed."""
+    corners = [sorted(tuple(map(float, p)) for p in t) for t in triangles]
+    until = list(itertools.accumulate(0.5 * math.dist((0, 0, 0), normal(t)) for t in corners))
+    rows = []
+    for n in range(600):
+        k = min(bisect.bisect_right(until, (n + 0.4142) / 600 * until[-1]), len(until) - 1)
+        u, v = math.sqrt((n + 1) * 0.7548776662466927 % 1), (n + 1) * 0.5698402909980532 % 1
+        a, b, c = corners[k]
+        p = [float(x) for x in place([F(x + u * (1 - v) * (y - x) + u * v * (z - x)) for x, y, z in zip(a, b, c)])]
+        rows.append((math.sqrt(min(squared_distance(p, s) for s in surface)), targets[k]))
+    free = [far for far, target in rows if target is None]
+    mean = sum(free) / len(free) if free else 0
+    return math.sqrt(sum((far - (mean if target is None else target)) ** 2 for far, target in rows) / 600)
 
 
 def beside_rim(triangle, face, rim):
@@ -106,6 +125,8 @@ class Faces:
     def feature(self, one):
         more = {key: float(self.unit) * float(one[key]) for key in ("maximum", "finished") if one.get(key) is not None}
         rough = one.get("as_cast", False) or "finished" in more
+        if one.get("target") is not None:
+            more["target"] = float(self.unit) * float(one["target"])
         if float(one.get("rim") or 0) > 0:
             more["rim"] = float(self.unit) * float(one["rim"])
         return more | {"name": one["name"], "triangles": len(asked.triangles_of(one, self.unit, self.part.all)),
@@ -155,6 +176,14 @@ class Faces:
             if most < low * (1 - 1e-12) or most > high + within / 32:
                 return False
         return not document["inside"] or self.are_kept(document)
+
+    def targets(self):
+        """The target of each triangle of the part, or None."""
+        made = [None] * len(self.part.all)
+        for one, told in zip(self.file.values(), self.features):
+            for f in asked.triangles_of(one, self.unit, self.part.all):
+                made[f] = told.get("target")
+        return made
 
     def demanded(self):
         """The triangles of each demand."""

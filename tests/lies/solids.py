@@ -345,7 +345,7 @@ class Solids:
     """What a placement of solids claims. Meshes, clearances and leaves that were looked at before are kept, also from
     one kind to the next, many of which are of the same meshes and proof."""
 
-    meshes, clearances, leaves, measured, margins, bodies = {}, {}, {}, {}, {}, {}
+    meshes, clearances, leaves, measured, margins, bodies, evenness = {}, {}, {}, {}, {}, {}, {}
 
     def __init__(self, files):
         self.files = files
@@ -397,10 +397,11 @@ class Solids:
                 self.is_proved(document, certificate, part, blank, faces))
 
     def choice_holds(self, document, part, blank, faces):
-        """No more of the margin was given up than is said, and the deepest place is as deep."""
+        """No more of the margin was given up than is said, the deepest place is as deep, and all is as even."""
         said, asked = document["choice"], faces.of if faces else itertools.repeat(True)
-        if said.keys() != {"criterion", "give_up", "margin_found", "largest"} or said["criterion"] != "largest" or \
-                said["give_up"] < 0 or any((said[key] is not None) != document["inside"] for key in ("margin_found", "largest")):
+        numbers = {"margin_found", "largest"} | ({"largest_found", "deviation"} if said["criterion"] == "even" else set())
+        if said.keys() != {"criterion", "give_up"} | numbers or said["criterion"] not in ("largest", "even") or \
+                said["give_up"] < 0 or any((said[key] is not None) != document["inside"] for key in numbers):
             return False
         if not document["inside"]:
             return True
@@ -413,7 +414,22 @@ class Solids:
                      if demand and any(space.normal(t))]
         low, high = solid_faces.farthest(triangles, [[list(map(float, p)) for p in t] for t in blank.kept],
                                          max(float(said["largest"]) * 2e-3, 1e-9))
-        return low * (1 - 1e-12) <= said["largest"] <= high + said["largest"] / 16
+        if not low * (1 - 1e-12) <= said["largest"] <= high + said["largest"] / 16:
+            return False
+        return said["criterion"] == "largest" or self.is_as_even(document, part, blank, faces)
+
+    def is_as_even(self, document, part, blank, faces):
+        """No more of the smallest largest allowance was given up than is said, and points deviate as far."""
+        said = document["choice"]
+        targets = faces.targets() if faces else [None] * len(part.all)
+        chosen = [(t, target) for t, target, demand in zip(part.all, targets, faces.of if faces else itertools.repeat(True))
+                  if demand and any(space.normal(t))]
+        pose = tuple(document[key] for key in ("x", "y", "z")), tuple(document["quaternion"]), str(chosen), str(blank.kept)
+        if pose not in self.evenness:
+            self.evenness[pose] = solid_faces.deviation(*zip(*chosen), lambda p: place(document, p), [
+                [list(map(float, p)) for p in t] for t in blank.kept])
+        return said["largest"] <= said["largest_found"] + said["give_up"] and \
+            abs(float(said["deviation"]) - self.evenness[pose]) <= 2e-6 * float(said["largest"]) * (1 + 1e-9)
 
     def fault_of_body(self, row, surface):
         key = tuple(row), len(surface), str(surface[0])

@@ -69,7 +69,7 @@ TEST(SolidFeatures, APatchEndsWhereTheSurfaceBends) {
 TEST(SolidFeatures, DemandsAndUnits) {
   const auto all = found(
       R"({"units": "inch", "minimum": 0.1, "features": [
-        {"name": "a", "triangles": [0], "minimum": 2, "maximum": 3, "scale": 0.5},
+        {"name": "a", "triangles": [0], "minimum": 2, "target": 2.5, "maximum": 3, "scale": 0.5},
         {"name": "b", "box": [[-1, -1, 0.39370], [2, 1, 0.39371]]},
         {"name": "c", "triangles": [4], "as_cast": true},
         {"name": "d", "triangles": [5], "finished": 0.1, "rim": 1}]})",
@@ -79,7 +79,8 @@ TEST(SolidFeatures, DemandsAndUnits) {
   EXPECT_DOUBLE_EQ((*all)[0].demand->minimum, 50.8);
   EXPECT_EQ((*all)[0].demand->scale, 0.5);
   EXPECT_NEAR((*all)[0].maximum.value_or(0), 76.2, 1e-12);
-  EXPECT_FALSE((*all)[1].maximum);
+  EXPECT_NEAR((*all)[0].target.value_or(0), 63.5, 1e-12);
+  EXPECT_FALSE((*all)[1].maximum || (*all)[1].target);
   EXPECT_EQ((*all)[1].triangles, (Numbers{2, 3}));
   EXPECT_EQ((*all)[1].demand, locate::SolidDemand{});
   EXPECT_FALSE((*all)[2].demand || (*all)[2].within());
@@ -120,6 +121,14 @@ TEST(SolidFeatures, WhatCannotBeUnderstoodIsRefused) {
       R"(f.json, feature "a": "finished" is how far its points may lie from the blank's surface, above 0)");
   EXPECT_EQ(refusal_of(R"("triangles": [0], "finished": 1, "scale": 2)"),
             R"(f.json, feature "a": a feature that is finished has no "scale")");
+  EXPECT_EQ(refusal_of(R"("triangles": [0], "finished": 1, "target": 2)"),
+            R"(f.json, feature "a": a feature that is finished has no "target")");
+  EXPECT_EQ(refusal_of(R"("triangles": [0], "as_cast": true, "target": 2)"),
+            R"(f.json, feature "a": a feature that is as cast has no "target")");
+  EXPECT_EQ(refusal_of(R"("triangles": [0], "target": "much")"),
+            R"(f.json, feature "a": "target" must be a length that is not negative)");
+  EXPECT_EQ(refusal_of(R"("triangles": [0], "target": 2e9)"),
+            R"(f.json, feature "a": "target" is 2000000000 mm; demands go up to 1e+09 mm)");
   EXPECT_EQ(refusal_of(R"("triangles": [0], "finished": 1, "as_cast": true)"),
             R"(f.json, feature "a": a feature is not both as cast and finished)");
   EXPECT_EQ(refusal_of(R"("triangles": [0], "minimum": -1)"),

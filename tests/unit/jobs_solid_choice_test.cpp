@@ -46,6 +46,30 @@ TEST(JobsSolidChoice, TheDeepestPlaceLiesLessDeep) {
   EXPECT_EQ(held->document.shortfall(), 0);
 }
 
+TEST(JobsSolidChoice, TargetsAreCloserAfterTheCriterionEven) {
+  SolidLocateJob job = block_job();
+  job.blank.bytes = solid_files::obj(cases::block({-22, -20, -16}, {24, 20, 16}));
+  job.options.criterion = SolidCriterion::even, job.options.give_up = 0.6;
+  job.features = {"f.json", R"({"as_cast": true, "features": [
+      {"name": "left", "plane": {"normal": [1, 0, 0], "at": -20, "within": 0.001}, "target": 2.5},
+      {"name": "right", "plane": {"normal": [1, 0, 0], "at": 20, "within": 0.001}, "target": 3.5}]})"};
+  const auto located = locate_solid(job);
+  ASSERT_TRUE(located) << located.error().message;
+  const io::SolidDocument& d = located->document;
+  ASSERT_TRUE(d.choice && d.choice->deviation && d.choice->largest_found);
+  EXPECT_EQ(d.choice->criterion, "even");
+  EXPECT_LE(*d.choice->largest, *d.choice->largest_found + 0.6);
+  EXPECT_EQ(d.demands->features[0].target, 2.5);
+  EXPECT_NEAR(d.pose.shift.x, 0.5, 0.01);
+  EXPECT_LE(*d.choice->deviation, 0.01);
+  // Without, either side has 3.
+  job.options.criterion = SolidCriterion::largest;
+  const auto shallow = locate_solid(job);
+  ASSERT_TRUE(shallow) << shallow.error().message;
+  EXPECT_FALSE(shallow->document.choice->deviation || shallow->document.choice->largest_found);
+  EXPECT_NEAR(shallow->document.pose.shift.x, 1, 0.02);
+}
+
 TEST(JobsSolidChoice, NothingIsGivenUpWhereTheDemandIsNotMet) {
   SolidLocateJob job = block_job();
   job.options.min_allowance = 2.5;

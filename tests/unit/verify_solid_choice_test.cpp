@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "support/solid_results.hpp"
 
@@ -108,10 +112,105 @@ TEST(SolidChoice, FacesThatAreAsCastMayLieDeeper) {
   EXPECT_TRUE(says(more.told(), "choice.margin_found 1.1 is above the bound 1")) << more.told();
 }
 
+/// The top of that cube alone demands something: 0.75 over it are left everywhere, and half a millimetre
+/// should be.
+SolidResultFiles evened(Json deviation = 0.25, Json largest_found = 0.7525, Json target = 0.5) {
+  const Json top{{"name", "top"}, {"plane", {{"normal", {0, 0, 1}}, {"at", 5}, {"within", 0}}}};
+  Json features{{"minimum", 0}, {"features", Json::array({top})}};
+  Json told = cases::demand_of_result("top", 2, 0, 1);
+  for (Json* one : {&features["features"][0], &told})
+    if (!target.is_null()) (*one)["target"] = target;
+  const Json rest{{"name", "rest"}, {"triangles", Json::array()}, {"as_cast", true}};
+  features["features"].push_back(rest);
+  // All but the triangles of the top, whichever these are.
+  const solid::Mesh cube = cases::block({-5, -5, -5}, {5, 5, 5});
+  for (std::uint32_t t = 0; t < cube.triangles.size(); ++t) {
+    double height = 0;
+    for (const std::uint32_t v : cube.triangles[t]) height += cube.vertices[v].z;
+    if (height < 14) features["features"][1]["triangles"].push_back(t);
+  }
+  SolidResultFiles made = cases::with_demands(
+      features, Json::array({told, cases::demand_of_result("rest", 10, nullptr, nullptr)}), nullptr, 0.75, 1);
+  made.result["choice"] = {{"criterion", "even"}, {"give_up", 0.25},        {"margin_found", 1},
+                           {"largest", 0.7525},   {"deviation", deviation}, {"largest_found", largest_found}};
+  made.result["z"] = 0.25, made.result["clearance"] = 0.75, made.result["contacts"] = Json::array();
+  made.result["status"] = "unproved";
+  return made;
+}
+
+TEST(SolidChoice, HowEvenAllowancesAreIsMeasured) {
+  EXPECT_EQ(evened().told(), "unproved");
+  for (const double wrong : {0.2499, 0.2501, 0.0})
+    EXPECT_TRUE(says(evened(wrong).told(), "choice.deviation is said to be")) << evened(wrong).told();
+  // Without a target the mean is aimed at, and all of the top has that.
+  EXPECT_EQ(evened(0, 0.7525, nullptr).told(), "unproved");
+  EXPECT_TRUE(says(evened(0.25, 0.7525, nullptr).told(), "choice.deviation is said to be 0.25, but it is"))
+      << evened(0.25, 0.7525, nullptr).told();
+  SolidResultFiles other = evened();
+  other.result["demands"]["features"][0]["target"] = 0.6;
+  EXPECT_TRUE(says(other.told(), "demands.features[0] has the target 0.6, but features.json says 0.5"))
+      << other.told();
+  other.result["demands"]["features"][0].erase("target");
+  EXPECT_TRUE(says(other.told(), "demands.features[0] has the target nothing")) << other.told();
+}
+
+TEST(SolidChoice, PointsByAreaTellHowEvenTheCubeLies) {
+  // Of the faces the top has 0.75, the underside up to 1.25, and all others 1 but near the top. In between is
+  // what a much finer sum over them says.
+  Chosen whole;
+  whole.criterion = "even";
+  SolidResultFiles files = whole.files();
+  double squares = 0, sum = 0;
+  constexpr int kSteps = 400;
+  std::vector<double> all;
+  for (int i = 0; i < kSteps; ++i)
+    for (int j = 0; j < kSteps; ++j) {
+      const double u = 10 * (i + 0.5) / kSteps - 5, v = 10 * (j + 0.5) / kSteps - 5;
+      const double beside = 6 - std::max(std::abs(u), std::abs(v)), up = 5.75 - v;
+      all.push_back(std::min(0.75, beside));
+      all.push_back(std::min(1.25, beside));
+      for (int side = 0; side < 4; ++side) all.push_back(std::min({1.0, 6 - std::abs(u), up, 6.25 + v}));
+    }
+  for (const double one : all) sum += one;
+  for (const double one : all) squares += std::pow(one - sum / static_cast<double>(all.size()), 2);
+  const double there = std::sqrt(squares / static_cast<double>(all.size()));
+  files.result["choice"]["largest_found"] = 1.2525;
+  files.result["choice"]["deviation"] = 0;
+  const std::string told = files.told();
+  const std::string words = "choice.deviation is said to be 0, but it is ";
+  ASSERT_TRUE(says(told, words)) << told;
+  const double measured = std::stod(told.substr(told.find(words) + words.size()));
+  EXPECT_NEAR(measured, there, 0.03 * there);
+  files.result["choice"]["deviation"] = measured;
+  EXPECT_EQ(files.told(), "unproved");
+}
+
+TEST(SolidChoice, NoMoreOfTheLargestAllowanceIsGivenUpThanIsSaid) {
+  EXPECT_EQ(evened(0.25, 0.5025).told(), "unproved");
+  EXPECT_TRUE(says(evened(0.25, 0.5).told(),
+                   "choice.largest 0.7525 is above choice.largest_found 0.5 and choice.give_up 0.25"))
+      << evened(0.25, 0.5).told();
+}
+
+TEST(SolidChoice, OnlyWhatIsEvenHasADeviation) {
+  for (const char* field : {"deviation", "largest_found"}) {
+    SolidResultFiles without = evened();
+    without.result["choice"].erase(field);
+    EXPECT_TRUE(says(without.told(), "is missing of a placement by the criterion even")) << without.told();
+    SolidResultFiles nothing = evened();
+    nothing.result["choice"][field] = nullptr;
+    EXPECT_TRUE(says(nothing.told(), "choice needs largest_found and deviation")) << nothing.told();
+    SolidResultFiles more = Chosen{}.files();
+    more.result["choice"][field] = 1;
+    EXPECT_TRUE(says(more.told(), "is of a placement by the criterion even")) << more.told();
+  }
+}
+
 TEST(SolidChoice, OthersAreRefused) {
   Chosen other;
-  other.criterion = "even";
-  EXPECT_TRUE(says(other.told(), "field choice.criterion is \"even\", not \"largest\"")) << other.told();
+  other.criterion = "smallest";
+  EXPECT_TRUE(says(other.told(), "field choice.criterion is \"smallest\", not \"largest\", \"even\""))
+      << other.told();
   Chosen half;
   half.largest = nullptr;
   EXPECT_TRUE(says(half.told(), "choice needs margin_found and largest")) << half.told();

@@ -451,14 +451,16 @@ void check_solid_scan(LocateOptions& o) {
                             "what the surface does between its points");
 }
 
-/// Solids have one criterion after the largest margin.
+/// Solids have two criteria after the largest margin.
 void check_solid_criterion(const LocateWords& words, LocateOptions& o) {
   if (o.job.criterion.choose == nullptr) return;
-  o.solid.criterion = jobs::SolidCriterion::largest, o.solid.give_up = o.job.give_up;
+  const bool is_even = o.job.criterion.name == "even";
+  o.solid.criterion = is_even ? jobs::SolidCriterion::even : jobs::SolidCriterion::largest;
+  o.solid.give_up = o.job.give_up;
   const auto complain = [&](bool wrong, const std::string& sentence) {
     if (wrong) o.not_for_solids += (o.not_for_solids.empty() ? "" : "; ") + sentence;
   };
-  complain(o.job.criterion.name != "largest",
+  complain(!is_even && o.job.criterion.name != "largest",
            fmt::format("--criterion {} is for outlines in the plane, and the files are solids",
                        o.job.criterion.name));
   complain(o.solid.method == jobs::SolidMethod::icp || o.solid.method == jobs::SolidMethod::axes,
@@ -573,8 +575,8 @@ void add_search_options(Form& form, LocateWords& w) {
   add("--lock-x", w.lock_x, "MM", "x of the placement is given");
   add("--lock-y", w.lock_y, "MM", "y of the placement is given");
   add("--features", w.features, "FILE",
-      "Demands by feature: minimum, target, maximum, scale, finished; of solids minimum, maximum, scale, "
-      "finished, as cast, datums (JSON)");
+      "Demands by feature: minimum, target, maximum, scale, finished; of solids minimum, target, maximum, "
+      "scale, finished, as cast, datums (JSON)");
   add("--criterion", w.criterion, locate::criterion_names("|"),
       fmt::format("After the largest smallest allowance: {} [{}]",
                   later_criteria(&locate::Criterion::favours, ", or "), locate::criteria().front().name)

@@ -24,8 +24,9 @@ enum class SolidMethod { certified, climb, icp, axes };
 [[nodiscard]] const char* name_of(SolidMethod method) noexcept;
 
 /// `smallest`: the largest margin is all that counts. `largest`: of the placements that give up no more of it
-/// than is stated, one whose largest allowance is small (locate/solid_criterion.hpp).
-enum class SolidCriterion { smallest, largest };
+/// than is stated, one whose largest allowance is small (locate/solid_criterion.hpp). `even`: then one whose
+/// allowances are near their targets, or their mean, and which gives up no more of either.
+enum class SolidCriterion { smallest, largest, even };
 
 /// The statements about a blank that is a scanner's mesh, or points.
 struct SolidScanOptions {
@@ -74,7 +75,9 @@ struct SolidLocateOptions {
   SolidMethod method = SolidMethod::certified;
   /// Goes on from what `certified` or `climb` found, where that meets what is demanded.
   SolidCriterion criterion = SolidCriterion::smallest;
-  double give_up = 0;  ///< the criterion may take so much off the margin, mm, >= 0
+  /// The criterion may take so much off the margin, and `even` may add it to the smallest largest allowance,
+  /// mm, >= 0.
+  double give_up = 0;
   /// The start is found by locate::find_start; there is no file of one then.
   bool find_start = false;
   /// Without it the blank is taken as drawn.

@@ -89,6 +89,9 @@ struct SolidProblem {
   /// The demand of each triangle of the part; one that is as cast has none and may stick out of the blank.
   /// Then the least margin is maximised. Empty: the allowance counts, everywhere alike.
   std::vector<std::optional<SolidDemand>> demands = {};
+  /// The allowance that each triangle of the part should have where it does not matter otherwise, mm, >= 0
+  /// (most_even). Empty: none has one.
+  std::vector<std::optional<double>> targets = {};
   /// Poses that do not keep these count for nothing.
   std::vector<SolidDatum> datums = {};
   /// So do poses that do not keep these.

@@ -21,4 +21,23 @@ namespace lekalo::locate {
 [[nodiscard]] Result<SolidPlacement> smallest_largest(const SolidProblem& problem, const SolidPlacement& from,
                                                       double least_margin, const SolidOptions& options);
 
+/// How far the allowances deviate from what they should be at a pose: the root of the mean square of
+/// allowance less target over 600 points of the triangles with a demand, chosen by area (docs/formats.md,
+/// "Criteria"), mm. Points of triangles without a target aim at the mean of such points. The allowance is the
+/// distance from the blank's surface; widths of its triangles are not taken off. Cost: O(log n) a point, and
+/// O(n).
+[[nodiscard]] double allowance_deviation(const SolidProblem& problem, const SolidPose& pose);
+
+/// Goes on from a placement, as a rule that of smallest_largest, to one with a smaller allowance_deviation,
+/// among those of the window that are inside, keep datums and distances, and have a margin of at least
+/// `least_margin` and a largest allowance at most `give_up` mm above that of `from`, as far as a 128th of the
+/// gap. It is one that no small motion makes better; nothing is proved of it. Where nothing is better it
+/// returns `from`. A stop, or the work limit, leaves the best so far.
+///
+/// Refuses what smallest_largest refuses. The same result for any number of threads.
+/// Source: Gauss-Newton steps with constraints (docs/design/locate-solid.md, "Criteria").
+[[nodiscard]] Result<SolidPlacement> most_even(const SolidProblem& problem, const SolidPlacement& from,
+                                               double least_margin, double give_up,
+                                               const SolidOptions& options);
+
 }  // namespace lekalo::locate

@@ -62,9 +62,10 @@ class SpecReader {
 
   Result<SolidFeatureSpec> read(JsonValue json, std::size_t index) {
     where_ = fmt::format("{}, feature {}", name_, index);
-    LEKALO_CHECK(detail::expect_object(json, where_,
-                                       {"name", "triangles", "label", "faces", "patch", "box", "plane",
-                                        "minimum", "maximum", "scale", "as_cast", "finished", "rim"}));
+    LEKALO_CHECK(
+        detail::expect_object(json, where_,
+                              {"name", "triangles", "label", "faces", "patch", "box", "plane", "minimum",
+                               "target", "maximum", "scale", "as_cast", "finished", "rim"}));
     SolidFeatureSpec spec;
     const auto name = json.find("name");
     if (!name || !is_word(*name)) return refuse(where_, "\"name\" must be a text");
@@ -86,11 +87,12 @@ class SpecReader {
       if (spec.maximum && !(*spec.maximum > demand.minimum))
         return refuse(where_, fmt::format("\"maximum\" is {} mm; it must be above the minimum, {} mm",
                                           *spec.maximum, demand.minimum));
+      LEKALO_CHECK(detail::take_length(json, "target", scale_, where_, [&](double v) { spec.target = v; }));
       spec.demand = demand;
       return spec;
     }
     if (as_cast && spec.finished) return refuse(where_, "a feature is not both as cast and finished");
-    for (const char* other : {"minimum", "maximum", "scale"})
+    for (const char* other : {"minimum", "target", "maximum", "scale"})
       if (json.find(other))
         return refuse(where_, fmt::format("a feature that is {} has no \"{}\"",
                                           as_cast ? "as cast" : "finished", other));
@@ -519,7 +521,8 @@ Result<std::vector<SolidFeature>> find_solid_features(const SolidFeatureFile& fi
                                          features[owner[t]].name));
       owner[t] = number;
     }
-    features.push_back({spec.name, std::move(triangles), spec.demand, spec.maximum, spec.finished, spec.rim});
+    features.push_back(
+        {spec.name, std::move(triangles), spec.demand, spec.maximum, spec.finished, spec.rim, spec.target});
   }
   return features;
 }

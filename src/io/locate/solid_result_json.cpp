@@ -91,6 +91,7 @@ void write(JsonWriter& json, const SolidFeature& feature, double largest) {
   if (feature.within())
     json.fields({{feature.finished ? "finished" : "maximum", *feature.within()}, {"largest", largest}});
   if (feature.rim > 0) json.field("rim", feature.rim);
+  if (feature.target) json.field("target", *feature.target);
   json.end();
 }
 
@@ -112,10 +113,13 @@ void write(JsonWriter& json, const SolidDemandRecord& demands) {
 }
 
 void write(JsonWriter& json, const SolidChoiceRecord& choice) {
-  json.object({{"criterion", choice.criterion},
-               {"give_up", choice.give_up},
-               {"margin_found", choice.margin_found},
-               {"largest", choice.largest}});
+  json.begin_object().fields({{"criterion", choice.criterion},
+                              {"give_up", choice.give_up},
+                              {"margin_found", choice.margin_found},
+                              {"largest", choice.largest}});
+  if (choice.criterion == "even")
+    json.fields({{"largest_found", choice.largest_found}, {"deviation", choice.deviation}});
+  json.end();
 }
 
 void write(JsonWriter& json, const std::optional<OffsetRecord>& offset) {

@@ -133,8 +133,8 @@ struct Found {
   locate::SolidPlacement best;
   std::optional<double> upper_bound;
   locate::SolidProof proof;
-  /// The best before a criterion went on from it.
-  locate::SolidPlacement before = {};
+  /// The best before a criterion went on from it, and that with the smallest largest allowance.
+  locate::SolidPlacement before = {}, shallowest = {};
 };
 
 Result<Found> found_by_method(const SolidInputs& in, const SolidLocateOptions& o, const RunControl& run) {
@@ -171,18 +171,25 @@ Result<void> choose(const SolidInputs& in, const SolidLocateOptions& o, const Ru
                     const PhaseListener& phases, Found& found) {
   /// So much of the margin is left to rounding, mm.
   constexpr double kLeft = 1e-6;
-  found.before = found.best;
+  found.before = found.shallowest = found.best;
   if (o.criterion == SolidCriterion::smallest || !found.best.inside || run.stop_requested()) return {};
   const double lost = (1 + 0x1p-49) * (decimals_lose(found.best, in, kWordedLoss) + in.deviation()) /
                       (in.demands ? in.least_scale() : 1),
                demanded = difference_rounded_up(in.demands ? 0 : o.min_allowance, -lost);
   if (!(found.best.margin >= demanded)) return {};
   const double least = std::max(demanded, found.best.margin - o.give_up - kLeft);
-  RunControl choosing = run;
-  choosing.progress = begin_phase(phases, "looking for the smallest largest allowance");
-  choosing.work_limit -= std::min(found.best.work, choosing.work_limit);
-  LEKALO_TRY(found.best,
-             locate::smallest_largest(in.problem, found.best, least, {o.gap, 0, o.threads, choosing}));
+  const auto in_phase = [&](const char* name) {
+    RunControl choosing = run;
+    choosing.progress = begin_phase(phases, name);
+    choosing.work_limit -= std::min(found.best.work, choosing.work_limit);
+    return locate::SolidOptions{o.gap, 0, o.threads, choosing};
+  };
+  LEKALO_TRY(found.best, locate::smallest_largest(in.problem, found.best, least,
+                                                  in_phase("looking for the smallest largest allowance")));
+  found.shallowest = found.best;
+  if (o.criterion == SolidCriterion::largest) return {};
+  LEKALO_TRY(found.best, locate::most_even(in.problem, found.best, least, o.give_up,
+                                           in_phase("looking for the most even allowance")));
   return {};
 }
 
@@ -290,11 +297,13 @@ Result<Found> searched(const SolidLocateOptions& o, const RunControl& run, const
   return found;
 }
 
-/// The margin that was found is told no higher than the criterion has kept to, whatever roundings took.
+/// The margin that was found is told no higher than the criterion has kept to, and the largest allowance no
+/// smaller, whatever roundings took.
 void tell_choice(const Found& found, const SolidInputs& in, const SolidLocateOptions& o, double share,
                  io::SolidDocument& d) {
   if (o.criterion == SolidCriterion::smallest) return;
-  d.choice = {"largest", o.give_up};
+  const bool is_even = o.criterion == SolidCriterion::even;
+  d.choice = {is_even ? "even" : "largest", o.give_up};
   if (!d.inside()) return;
   const double margin = *d.margin();
   double before = margin;
@@ -304,6 +313,12 @@ void tell_choice(const Found& found, const SolidInputs& in, const SolidLocateOpt
   d.choice->margin_found = std::max(margin, std::min(before, difference_rounded_down(margin, -o.give_up)));
   const double largest = locate::largest_allowance(in.problem, d.pose);
   d.choice->largest = difference_rounded_up(largest, -decimals_lose(found.best, in, share));
+  if (!is_even) return;
+  d.choice->deviation = locate::allowance_deviation(in.problem, d.pose);
+  d.choice->largest_found = difference_rounded_up(*d.choice->largest, o.give_up);
+  if (found.shallowest.inside)
+    d.choice->largest_found =
+        std::max(*d.choice->largest_found, locate::largest_allowance(in.problem, found.shallowest.pose));
 }
 
 io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&& found) {

@@ -136,9 +136,13 @@ Result<void> set_demands(const SolidLocateJob& job, SolidInputs& in) {
   std::optional<locate::SolidDemand> others;
   if (in.demands->minimum) others = {*in.demands->minimum, 1};
   std::vector<std::optional<locate::SolidDemand>> of_file(in.part.triangles, others);
+  std::vector<std::optional<double>> targets(in.part.triangles);
   for (const io::SolidFeature& feature : in.demands->features)
-    for (const std::uint32_t t : feature.triangles) of_file[t] = feature.demand;
-  for (const std::uint32_t number : in.part.numbers) in.problem.demands.push_back(of_file[number]);
+    for (const std::uint32_t t : feature.triangles) of_file[t] = feature.demand, targets[t] = feature.target;
+  for (const std::uint32_t number : in.part.numbers) {
+    in.problem.demands.push_back(of_file[number]);
+    in.problem.targets.push_back(targets[number]);
+  }
   set_nears(in);
   const auto& demands = in.problem.demands;
   if (std::any_of(demands.begin(), demands.end(), [](const auto& one) { return one.has_value(); })) return {};

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lekalo/geom/trig.hpp"
+#include "locate/search/quadratic_step.hpp"
 
 namespace lekalo::locate {
 namespace {
@@ -13,59 +14,10 @@ using geom::BlankFromPart;
 using geom::Point;
 
 constexpr int kMostSteps = 60;
-/// The dual method goes over the rows of one step at most this often.
-constexpr int kMostSweeps = 200;
 /// A step shorter than this ends the search, mm.
 constexpr double kShortest = 1e-7;
 
 using Vector3 = std::array<double, 3>;
-
-/// The change of a point's allowance with a step (x, y, turn about the pivot).
-struct Row {
-  Vector3 slope{};
-  double level = 0;
-};
-
-double product(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-/// Solves a symmetric positive definite system.
-Vector3 solve(std::array<Vector3, 3> a, Vector3 b) {
-  for (std::size_t j = 0; j < 3; ++j)
-    for (std::size_t k = j + 1; k < 3; ++k) {
-      const double f = a[k][j] / a[j][j];
-      for (std::size_t i = j; i < 3; ++i) a[k][i] -= f * a[j][i];
-      b[k] -= f * b[j];
-    }
-  for (std::size_t j = 3; j-- > 0;) {
-    for (std::size_t i = j + 1; i < 3; ++i) b[j] -= a[j][i] * b[i];
-    b[j] /= a[j][j];
-  }
-  return b;
-}
-
-/// Minimises z H z / 2 + g z subject to level + slope z >= 0 for every row, by Hildreth's dual coordinate
-/// ascent. The result may break a row a little.
-Vector3 constrained_step(const std::array<Vector3, 3>& h, const Vector3& g, const std::vector<Row>& rows) {
-  const Vector3 free = solve(h, {-g[0], -g[1], -g[2]});
-  std::vector<Vector3> reach;  // H^-1 slope
-  for (const Row& row : rows) reach.push_back(solve(h, row.slope));
-  std::vector<double> multiplier(rows.size(), 0.0);
-  Vector3 z = free;
-  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    double change = 0;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      const double curvature = product(rows[k].slope, reach[k]);
-      if (!(curvature > 0)) continue;
-      const double wanted = -(rows[k].level + product(rows[k].slope, z)) / curvature;
-      const double step = std::max(wanted, -multiplier[k]);
-      multiplier[k] += step;
-      for (std::size_t i = 0; i < 3; ++i) z[i] += step * reach[k][i];
-      change = std::max(change, std::abs(step) * std::sqrt(curvature));
-    }
-    if (change < 1e-12) break;
-  }
-  return z;
-}
 
 /// The allowances of all samples at a pose, signed, with how they change.
 class Measurement {
@@ -177,7 +129,7 @@ EvenPose most_even(const EvenSamples& samples, const phi::RegionClearance& clear
       total += sample.length;
     }
     for (std::size_t i = 0; i < 3; ++i) h[i][i] += 1e-9 * total;
-    std::vector<Row> rows;
+    std::vector<CellRow> rows;
     std::vector<phi::RegionContact> contacts;
     // A step should not take side * (distance - from) below 0.
     const auto add_rows = [&](double side, double from) {
@@ -197,7 +149,7 @@ EvenPose most_even(const EvenSamples& samples, const phi::RegionClearance& clear
     }
     for (std::size_t i = 0; i < 3; ++i)
       for (const double side : {1.0, -1.0}) {
-        Row row;
+        CellRow row;
         row.slope[i] = side, row.level = free[i] ? trust : 0;
         rows.push_back(row);
       }

@@ -61,6 +61,17 @@ Result<void> check_demands(const SolidProblem& problem) {
   return {};
 }
 
+Result<void> check_targets(const SolidProblem& problem) {
+  if (!problem.targets.empty() && problem.targets.size() != problem.part.triangles.size())
+    return failure(ErrorCode::usage, fmt::format("there are {} targets for the part's {} triangles",
+                                                 problem.targets.size(), problem.part.triangles.size()));
+  for (const auto& target : problem.targets)
+    if (target && !(*target >= 0 && *target <= limits::kLargestCoordinate))
+      return failure(ErrorCode::usage, fmt::format("a target of {} mm must be a number from 0 to {:g}",
+                                                   *target, limits::kLargestCoordinate));
+  return {};
+}
+
 Result<void> check_datums(const std::vector<SolidDatum>& datums) {
   for (const SolidDatum& datum : datums) {
     const double length = datum.on == SolidDatum::On::point ? 1 : norm(datum.direction);
@@ -133,6 +144,7 @@ Result<void> check(const SolidProblem& problem, const SolidOptions& options) {
                    fmt::format("widths that are off by {} mm must be off by a number from 0 to {:g}",
                                problem.blank_width_error, limits::kLargestCoordinate));
   if (!problem.demands.empty()) LEKALO_CHECK(check_demands(problem));
+  LEKALO_CHECK(check_targets(problem));
   LEKALO_CHECK(check_datums(problem.datums));
   LEKALO_CHECK(check_nears(problem));
   double square = 0;

@@ -122,12 +122,13 @@ constexpr Known kSolidCertificate[] = {{"pivot"},        {"part_balls"}, {"part_
                                        {"datum_points"}, {"directions"}, {"blank_balls"},
                                        {"planes"},       {"bodies"},     {"trees", kSolidTrees}};
 constexpr Known kSolidFeatures[] = {{"name"},    {"triangles"}, {"minimum"}, {"maximum"}, {"scale"},
-                                    {"as_cast"}, {"finished"},  {"rim"},     {"largest"}};
+                                    {"as_cast"}, {"finished"},  {"rim"},     {"largest"}, {"target"}};
 constexpr Known kSolidDatums[] = {{"name"}, {"within"}, {"off"}, {"missed"}};
 constexpr Known kSolidDemands[] = {
     {"minimum"},   {"features", kSolidFeatures}, {"datums", kSolidDatums}, {"margin"}, {"margin_bound"},
     {"margin_gap"}};
-constexpr Known kSolidChoice[] = {{"criterion"}, {"give_up"}, {"margin_found"}, {"largest"}};
+constexpr Known kSolidChoice[] = {{"criterion"}, {"give_up"},       {"margin_found"},
+                                  {"largest"},   {"largest_found"}, {"deviation"}};
 constexpr Known kSolidUnderside[] = {{"z"}, {"flat"}};
 constexpr Known kTouchCuts[] = {{"axis"}, {"above"}, {"at"}, {"terms"}};
 constexpr Known kTouchWays[] = {{"corner"}, {"axis"}, {"above"}, {"at"}, {"multiplier"}, {"terms"}};

@@ -26,6 +26,9 @@ namespace {
 
 /// A depth may be told larger than it is by this part of it, or of what is allowed.
 constexpr double kDeepSlack = 1.0 / 32;
+/// How even allowances are may be told otherwise than it is by this part of the largest: less than any
+/// statement about them means, and more than roundings make.
+constexpr double kDeviationSlack = 0x1p-20;
 
 /// Points of contact are printed for people: they may be off by this share of the blank's size.
 constexpr double kReadingTolerance = 1e-6;
@@ -232,6 +235,10 @@ Result<void> SolidCheck::read_demands(const SolidReading& part) {
              told(told_within ? std::optional(approximate(*told_within)) : std::nullopt),
              inputs_.features->name, told(within));
     }
+    if (!same(one.target, feature.target))
+      find("demands.features[{}] has the target {}, but {} says {}", k,
+           told(one.target ? std::optional(approximate(*one.target)) : std::nullopt), inputs_.features->name,
+           told(feature.target));
     if (!same(one.rim, feature.rim > 0 ? std::optional(feature.rim) : std::nullopt))
       find("demands.features[{}] has the rim {}, but {} says {}", k,
            told(one.rim ? std::optional(approximate(*one.rim)) : std::nullopt), inputs_.features->name,
@@ -307,7 +314,7 @@ void SolidCheck::check_nears(const SolidMesh& part, const SolidMesh& blank) {
                                            : "maximum is not kept");
 }
 
-/// Holds the largest allowance of all that has a demand against its points.
+/// Holds the largest allowance of all that has a demand, and how even allowances are, against its points.
 void SolidCheck::check_largest(const SolidMesh& part, const SolidMesh& blank) {
   if (!d_.choice || !d_.choice->largest) return;
   std::vector<std::uint32_t> triangles;
@@ -318,6 +325,17 @@ void SolidCheck::check_largest(const SolidMesh& part, const SolidMesh& blank) {
   // Few faces of a part lie nearly as deep as allowed, and many nearly as deep as the deepest.
   const double slack = kDeepSlack * approximate(*d_.choice->largest);
   check_farthest(placed, triangles, around, *d_.choice->largest, slack, slack / 2, "choice.largest");
+  if (!d_.choice->deviation) return;
+  std::vector<std::optional<double>> targets;
+  for (const std::uint32_t t : triangles) {
+    const std::uint32_t feature = demands_ ? demands_->feature_of[part.numbers[t]] : 0;
+    targets.push_back(feature > 0 ? demands_->features[feature - 1].target : std::nullopt);
+  }
+  const Span is = deviation_of(placed, triangles, targets, around), said = enclosed(*d_.choice->deviation);
+  const double off = kDeviationSlack * std::max(approximate(*d_.choice->largest), is.high);
+  if (said.high < is.low - off || said.low > is.high + off)
+    find("choice.deviation is said to be {}, but it is {}", approximate(*d_.choice->deviation),
+         0.5 * (is.low + is.high));
 }
 
 /// Holds how far the part is said to be off its datums against its points.

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 8> kRoles{"part",    "blank",    "start",
 constexpr std::array<std::string_view, 6> kUnits{"mm", "inch", "m", "micron", "cm", "foot"};
 constexpr std::array<std::string_view, 3> kFreedoms{"xyz", "c-xyz", "six"};
 /// Those that are an answer to more than the largest margin.
-constexpr std::array<std::string_view, 1> kCriteria{"largest"};
+constexpr std::array<std::string_view, 2> kCriteria{"largest", "even"};
 constexpr std::array<std::string_view, 6> kAxes{"x", "y", "z", "turn_x", "turn_y", "turn_z"};
 
 tl::unexpected<Error> bad(const std::string& name, const std::string& sentence) {
@@ -183,6 +183,7 @@ class Reader {
         of.complain(fmt::format("field {} has one of a maximum and a largest allowance", path));
       if (has("rim") && !has("finished"))
         of.complain(fmt::format("field {} has a rim and is not finished", path));
+      if (has("target")) demands.features.back().target = length(of, "target");
       if (!has("largest")) return;
       if (has("rim")) demands.features.back().rim = length(of, "rim");
       if (has("maximum")) demands.features.back().maximum = length(of, "maximum");
@@ -208,16 +209,27 @@ class Reader {
     if (written.text.empty()) return;
     Fields fields(written, "choice", complaint_);
     WrittenSolidChoice& choice = d_.choice.emplace();
-    (void)word_of(fields, "criterion", kCriteria);
+    choice.even = word_of(fields, "criterion", kCriteria) == 1;
     choice.give_up = length(fields, "give_up");
     if (sgn(choice.give_up.digits) < 0) fields.complain("field choice.give_up is below 0");
     fields.require({"margin_found", "largest"});
     choice.margin_found = fields.number_or_null("margin_found");
     choice.largest = fields.number_or_null("largest");
-    for (const auto& value : {choice.margin_found, choice.largest})
+    for (const auto& [key, value] :
+         {std::pair("largest_found", &choice.largest_found), {"deviation", &choice.deviation}}) {
+      if (fields.get(key).text.empty() == choice.even)
+        fields.complain(fmt::format("choice.{} {} a placement by the criterion even", key,
+                                    choice.even ? "is missing of" : "is of"));
+      if (choice.even) *value = fields.number_or_null(key);
+    }
+    for (const auto& value : {choice.margin_found, choice.largest, choice.largest_found, choice.deviation})
       if (value && is_beyond_all_sizes(*value)) fields.complain("a length of choice is beyond all sizes");
     if (choice.margin_found.has_value() != d_.inside || choice.largest.has_value() != d_.inside)
       fields.complain(fmt::format("choice {} margin_found and largest, but inside is {}",
+                                  d_.inside ? "needs" : "has", d_.inside));
+    const bool is_evened = choice.even && d_.inside;
+    if (choice.largest_found.has_value() != is_evened || choice.deviation.has_value() != is_evened)
+      fields.complain(fmt::format("choice {} largest_found and deviation, but inside is {}",
                                   d_.inside ? "needs" : "has", d_.inside));
   }
 
@@ -356,6 +368,11 @@ std::vector<std::string> faults_of_choice(const SolidDocument& d) {
   const auto& [margin, bound] =
       d.demands ? std::tie(d.demands->margin, d.demands->bound) : std::tie(d.clearance, d.upper_bound);
   if (!d.choice || !d.choice->margin_found || !margin) return faults;
+  if (d.choice->largest_found && to_fraction(*d.choice->largest) >
+                                     to_fraction(*d.choice->largest_found) + to_fraction(d.choice->give_up))
+    faults.push_back(fmt::format("choice.largest {} is above choice.largest_found {} and choice.give_up {}",
+                                 approximate(*d.choice->largest), approximate(*d.choice->largest_found),
+                                 approximate(d.choice->give_up)));
   const Fraction is = to_fraction(*margin), found = to_fraction(*d.choice->margin_found);
   if (is > found)
     faults.push_back(fmt::format("choice.margin_found {} is below the margin {}",

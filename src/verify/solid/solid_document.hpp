@@ -99,6 +99,8 @@ struct WrittenSolidDemands {
     std::optional<Decimal> maximum = std::nullopt, finished = std::nullopt, largest = std::nullopt;
     /// One that is finished may have it.
     std::optional<Decimal> rim = std::nullopt;
+    /// One with a demand may have it.
+    std::optional<Decimal> target = std::nullopt;
   };
   struct Datum {
     std::string name;
@@ -114,8 +116,11 @@ struct WrittenSolidDemands {
 
 /// The statements of the result about how its placement was chosen.
 struct WrittenSolidChoice {
+  bool even = false;
   Decimal give_up;
   std::optional<Decimal> margin_found, largest;  ///< both, or neither
+  /// With `even` likewise, and else neither.
+  std::optional<Decimal> largest_found = std::nullopt, deviation = std::nullopt;
 };
 
 struct SolidDocument {
@@ -146,7 +151,7 @@ struct SolidDocument {
 /// Returns the certificate of a certificate file.
 [[nodiscard]] Result<Json> read_solid_certificate_document(const Document& document);
 
-/// Says what is false of how the placement is said to be chosen, but for its largest allowance.
+/// Says what is false of how the placement is said to be chosen, but for its allowances.
 [[nodiscard]] std::vector<std::string> faults_of_choice(const SolidDocument& document);
 
 /// Says whether a number is larger than any that a result may have.

@@ -243,7 +243,7 @@ class FeatureReader {
   void add(Json item, const std::string& path, SolidDemands& demands) {
     Fields fields(item, path, complaint_);
     refuse_other_words(fields, {"name", "triangles", "label", "faces", "patch", "box", "plane", "minimum",
-                                "maximum", "scale", "as_cast", "finished", "rim"});
+                                "target", "maximum", "scale", "as_cast", "finished", "rim"});
     SolidFeature feature{fields.text("name"), demand(fields), 0};
     if (is_said(fields, "finished")) {
       feature.finished = true;
@@ -256,6 +256,7 @@ class FeatureReader {
       if (feature.demand && !(*feature.within > feature.demand->minimum))
         fields.complain(fmt::format("field {} is not above the minimum", fields.name("maximum")));
     }
+    if (feature.demand && is_said(fields, "target")) feature.target = length(fields, "target");
     if (has(fields, "rim") && !feature.finished)
       fields.complain(fmt::format("field {} is of what is not finished", fields.name("rim")));
     std::vector<std::uint32_t> triangles = triangles_of(fields);
@@ -339,9 +340,9 @@ class FeatureReader {
   }
 
   std::optional<SolidDemand> demand(Fields& fields) {
-    if (is_as_cast(fields, {"minimum", "maximum", "scale", "finished"})) return std::nullopt;
+    if (is_as_cast(fields, {"minimum", "target", "maximum", "scale", "finished"})) return std::nullopt;
     if (is_said(fields, "finished")) {
-      for (const char* one : {"minimum", "maximum", "scale"})
+      for (const char* one : {"minimum", "target", "maximum", "scale"})
         if (has(fields, one))
           fields.complain(fmt::format("field {} is a demand on what is finished", fields.name(one)));
       return std::nullopt;

@@ -25,6 +25,8 @@ struct SolidFeature {
   bool finished = false;
   /// Points of other triangles that are nearer to a finished one than this demand nothing, mm.
   double rim = 0;
+  /// The allowance that it should have, mm.
+  std::optional<double> target = std::nullopt;
   [[nodiscard]] bool as_cast() const { return !demand && !finished; }
 };
 

@@ -59,6 +59,44 @@ NearestTriangle nearest_to(const Vec3& p, const PlacedSolid& body) {
   return found;
 }
 
+/// Some points all over triangles, by area: of which triangle each is, and where as placed.
+constexpr int kSpreadPoints = 600;
+struct SpreadPoint {
+  std::size_t triangle = 0;  ///< by its place in the list
+  Vec3 at{};
+};
+
+double middle_of(Span a) { return 0.5 * (a.low + a.high); }
+
+std::vector<SpreadPoint> spread_points(const PlacedSolid& part, const std::vector<std::uint32_t>& triangles) {
+  const SolidMesh& mesh = part.mesh();
+  std::vector<double> ends;
+  double all = 0;
+  for (const std::uint32_t t : triangles) {
+    ask();
+    Triangle3 at{};
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        at[corner][axis] = mesh.enclosed(mesh.triangles[t][corner], axis);
+    all += 0.5 * middle_of(length(normal(at)));
+    ends.push_back(all);
+  }
+  std::vector<SpreadPoint> made;
+  std::size_t k = 0;
+  for (int n = 0; n < kSpreadPoints; ++n) {
+    const double along = (n + 0.4142) / kSpreadPoints * all;
+    while (k + 1 < ends.size() && !(along < ends[k])) ++k;
+    // The order of the corners is that of their places in the part's file, whichever way it names them.
+    std::array<std::uint32_t, 3> v = mesh.triangles[triangles[k]];
+    std::ranges::sort(v, {}, [&](std::uint32_t one) { return mesh.near[one]; });
+    const double first = (n + 1) * 0.7548776662466927, second = (n + 1) * 0.5698402909980532;
+    const double u = std::sqrt(first - std::floor(first)), w = second - std::floor(second);
+    const Vec3 a = part.at(v[0]);
+    made.push_back({k, a + (part.at(v[1]) - a) * just(u * (1 - w)) + (part.at(v[2]) - a) * just(u * w)});
+  }
+  return made;
+}
+
 struct Piece {
   Triangle3 at{};
   double high = 0;
@@ -149,6 +187,25 @@ FarthestOf farthest_of(const PlacedSolid& part, const std::vector<std::uint32_t>
   }
   made.high = std::max(made.low, open.front().high);
   return made;
+}
+
+Span deviation_of(const PlacedSolid& part, const std::vector<std::uint32_t>& triangles,
+                  const std::vector<std::optional<double>>& targets, const PlacedSolid& blank) {
+  const std::vector<SpreadPoint> points = spread_points(part, triangles);
+  std::vector<Span> apart;
+  Span mean = just(0), squares = just(0);
+  int free = 0;
+  for (const SpreadPoint& one : points) {
+    ask();
+    apart.push_back(nearest_to(one.at, blank).distance);
+    if (!targets[one.triangle]) mean = mean + apart.back(), ++free;
+  }
+  if (free > 0) mean = mean * (just(1) / just(free));
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto& target = targets[points[k].triangle];
+    squares = squares + squared(apart[k] - (target ? just(*target) : mean));
+  }
+  return square_root(squares * (just(1) / just(kSpreadPoints)));
 }
 
 std::optional<std::string> fault_of_farthest(const PlacedSolid& part,

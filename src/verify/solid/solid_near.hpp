@@ -46,4 +46,10 @@ struct FarthestOf {
                                                            const PlacedSolid& blank, Span said, double slack,
                                                            double within, bool& is_open);
 
+/// Encloses how far points of a part are from a surface, off what they should be: the root of the mean square
+/// over 600 points of some triangles (docs/formats.md, "Criteria"). Widths do not count.
+/// \param triangles  at least one; and of each the target of its points, or none, in their order
+[[nodiscard]] Span deviation_of(const PlacedSolid& part, const std::vector<std::uint32_t>& triangles,
+                                const std::vector<std::optional<double>>& targets, const PlacedSolid& blank);
+
 }  // namespace lekalo::verify

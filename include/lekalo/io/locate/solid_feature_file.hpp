@@ -45,6 +45,8 @@ struct SolidFeatureSpec {
   std::optional<locate::SolidDemand> demand;  ///< none: as cast, or finished
   /// No point of it has more allowance, mm; above the minimum.
   std::optional<double> maximum = std::nullopt;
+  /// The allowance that it should have where that does not matter otherwise, mm.
+  std::optional<double> target = std::nullopt;
   /// It is finished, so that no point of it is farther than this from the blank's surface, on either side,
   /// mm, > 0; then it demands nothing.
   std::optional<double> finished = std::nullopt;
@@ -72,8 +74,9 @@ struct SolidFeatureFile {
 };
 
 /// `{"units", "minimum", "as_cast", "features": [{"name", "triangles" | "label" | "faces" | "patch" | "box" |
-/// "plane", "minimum", "maximum", "scale", "as_cast", "finished", "rim"}, ...], "datums": [{"name", "feature"
-/// | "points", "plane" | "axis" | "point", "within"}, ...]}`. `unit` applies where the file does not say.
+/// "plane", "minimum", "target", "maximum", "scale", "as_cast", "finished", "rim"}, ...], "datums": [{"name",
+/// "feature" | "points", "plane" | "axis" | "point", "within"}, ...]}`. `unit` applies where the file does
+/// not say.
 ///
 /// Fails with ErrorCode::bad_input, naming file and feature or datum: words it does not know, numbers out of
 /// range, a feature without exactly one of the six, a demand on what is as cast or finished.
@@ -86,6 +89,7 @@ struct SolidFeature {
   std::optional<locate::SolidDemand> demand;  ///< none: as cast, or finished
   std::optional<double> maximum = std::nullopt, finished = std::nullopt;
   double rim = 0;
+  std::optional<double> target = std::nullopt;
   /// No point of it is to be farther from the blank's surface, mm.
   [[nodiscard]] std::optional<double> within() const noexcept { return finished ? finished : maximum; }
 };

@@ -86,12 +86,15 @@ struct SolidDemandRecord {
 
 /// How the placement was chosen of those with nearly the best margin.
 struct SolidChoiceRecord {
-  std::string criterion;  ///< largest
+  std::string criterion;  ///< largest, even
   double give_up = 0;     ///< mm
   /// The largest margin found before anything was given up, or clearance where there are no demands; and no
   /// point of what has a demand is farther from the blank's surface at the pose, mm. None where the part is
   /// not inside.
   std::optional<double> margin_found = std::nullopt, largest = std::nullopt;
+  /// The smallest largest allowance found before any of it was given up, and how far allowances deviate from
+  /// what they should be at the pose (locate::allowance_deviation), mm. `even` alone has them, likewise.
+  std::optional<double> largest_found = std::nullopt, deviation = std::nullopt;
 };
 
 /// The lines that set work offset and rotation for the placement.
