@@ -21,6 +21,8 @@ constexpr double kInRim = 1 - 0x1p-12;
 /// A piece is halved if it is so many times longer than the triangle that it is cut by, and the rim, are
 /// wide; and after so many cuts it is kept.
 constexpr double kLong = 4;
+/// So is one whose middle lies so many times deeper in a rim than its corners.
+constexpr double kDeepBetween = 2;
 constexpr int kMostCuts = 48;
 /// Cuts move points by less than this part of the coordinates.
 constexpr double kRounding = 0x1p-43;
@@ -60,8 +62,12 @@ class CutPart::Cutter {
     double reach = 0;
     for (const Vector p : piece) reach = std::max(reach, norm(p - middle));
     std::vector<std::uint32_t> near;
-    for (const std::uint32_t g : candidates)
-      if (solid::distance(face_[g], middle) <= rim_ + reach) near.push_back(g);
+    double of_middle = rim_, of_corners = rim_;
+    for (const std::uint32_t g : candidates) {
+      const double far = solid::distance(face_[g], middle);
+      of_middle = std::min(of_middle, far);
+      if (far <= rim_ + reach) near.push_back(g);
+    }
     /// The triangle that has most of the corners in its rim, and which ones.
     std::uint32_t best = 0;
     std::array<bool, 3> inside{};
@@ -71,6 +77,7 @@ class CutPart::Cutter {
       int count = 0, within = 0;
       for (std::size_t k = 0; k < 3; ++k) {
         const double far = solid::distance(face_[g], piece[k]);
+        of_corners = std::min(of_corners, far);
         within += far <= rim_ ? 1 : 0;
         in[k] = far < kInRim * rim_, count += in[k] ? 1 : 0;
       }
@@ -79,7 +86,10 @@ class CutPart::Cutter {
     }
     if (near.empty() || depth == kMostCuts || (most == 0 && of_.is_apart(piece, kKeptFrom * rim_)))
       return kept_.push_back(piece);
-    if (most == 0 || longest_side(piece) > kLong * (rim_ + longest_side(face_[best])))
+    // Where the rims of two triangles of the face meet, a piece may lie deep in them between corners that are
+    // hardly in: what is cut off at a corner is next to nothing.
+    const bool deep_between = rim_ - of_middle > kDeepBetween * (rim_ - of_corners);
+    if (most == 0 || deep_between || longest_side(piece) > kLong * (rim_ + longest_side(face_[best])))
       return halve(piece, near, depth);
     cut_off(piece, inside, face_[best], near, depth);
   }
