@@ -86,8 +86,8 @@ class CutPart::Cutter {
     }
     if (near.empty() || depth == kMostCuts || (most == 0 && of_.is_apart(piece, kKeptFrom * rim_)))
       return kept_.push_back(piece);
-    // Where the rims of two triangles of the face meet, a piece may lie deep in them between corners that are
-    // hardly in: what is cut off at a corner is next to nothing.
+    // A piece may lie deep in the rims of two triangles, between corners that are hardly in either: what is
+    // cut off at a corner is next to nothing then.
     const bool deep_between = rim_ - of_middle > kDeepBetween * (rim_ - of_corners);
     if (most == 0 || deep_between || longest_side(piece) > kLong * (rim_ + longest_side(face_[best])))
       return halve(piece, near, depth);
