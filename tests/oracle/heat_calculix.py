@@ -51,9 +51,9 @@ CASES = {
                    ways=[ring((3.5, 3.5), (40.5, 30.5)), ring((8, 6), (36, 28)), ring((12.5, 8.5), (31.5, 25.5)),
                          ring((3, 3), (41, 31)), ring((13, 9), (31, 25))],
                    words=["--material", "C45", "--share", "0.4", "--wear", "1.5", "--cooling", "200"], mesh=2,
-                   step=0.6),
+                   step=0.3),
     "deep": dict(stock=(60, 50, 20), pocket=(30, 20), islands=[], levels=[-4, -8, -12], feed=500,
-                 ways=[lanes(), ring((3, 3), (27, 17))], words=ALUMINIUM + ["--hold", "plate"], mesh=2, step=0.75),
+                 ways=[lanes(), ring((3, 3), (27, 17))], words=ALUMINIUM + ["--hold", "plate"], mesh=2, step=0.4),
 }
 
 
