@@ -62,6 +62,42 @@ TEST(CliHeat, OneFilmIsOneCaseAndNoFileIsAskedFor) {
   EXPECT_FALSE(std::filesystem::exists(folder / "h.svg"));
 }
 
+TEST(CliHeat, AMeasuredTemperatureNarrowsTheShare) {
+  const TemporaryFolder folder;
+  write_files(folder);
+  const Words share{"--share", "0.01..0.9", "--cutting-force", "500", "--force-exponent", "0.25"};
+  const Ran made = run(folder.path(), with(with(kUsual, share), {"--measured", "30,10,8,-7,8", "--measured",
+                                                                 "29,10,8,-7,8,3", "-o", "h.json"}));
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_NE(made.err.find("of the stated share of 0.01 to 0.9"), std::string::npos) << made.err;
+  const Json result = Json::parse(read_bytes(folder / "h.json"));
+  ASSERT_EQ(result["measured"].size(), 2U);
+  EXPECT_EQ(result["measured"][0]["uncertainty_k"], 2.5);
+  EXPECT_GT(result["calibrated"]["share"][0].get<double>(), 0.02);
+  EXPECT_LT(result["calibrated"]["share"][1].get<double>(), 0.8);
+  EXPECT_EQ(run(folder.path(), {"verify", "h.json"}).status, 1);
+}
+
+TEST(CliHeat, TheStockMayBeAnOutline) {
+  const TemporaryFolder folder;
+  write_files(folder);
+  write_bytes(folder / "blank.json", R"({"units": "mm", "outer": [{"arc": {"from": [40, 8], "to": [40, 8],
+    "centre": [10, 8], "ccw": true}}]})");
+  Words words = with(kUsual, {"--share", "0.1", "-o", "h.json", "--height", "10"});
+  words[5] = "blank.json";
+  const Ran made = run(folder.path(), words);
+  ASSERT_EQ(made.status, 0) << made.err;
+  const Json result = Json::parse(read_bytes(folder / "h.json"));
+  EXPECT_EQ(result["stock"]["low_mm"][0], -20);
+  EXPECT_EQ(result["inputs"][2]["role"], "stock");
+  EXPECT_EQ(run(folder.path(), {"verify", "h.json"}).status, 1);
+  write_bytes(folder / "blank.json", R"({"units": "mm", "outer": [{"arc": {"from": [22, 8], "to": [22, 8],
+    "centre": [10, 8], "ccw": true}}]})");
+  const Ran beyond = run(folder.path(), words);
+  EXPECT_EQ(beyond.status, 3);
+  EXPECT_NE(beyond.err.find("p.ngc:3: the tool cuts"), std::string::npos) << beyond.err;
+}
+
 TEST(CliHeat, WithoutHeatNothingIsOff) {
   const TemporaryFolder folder;
   write_files(folder);
@@ -97,6 +133,10 @@ TEST(CliHeat, WhatIsWrongIsOneSentenceAndNothingIsWritten) {
         {{"--share", "0.1", "--hold", "hand"}, 2, "--hold"},
         {{"--share", "0.1", "--datum", "1,2"}, 2, "--datum"},
         {{"--share", "0.1", "--datum", "1,2,3", "--hold", "plate"}, 2, "--hold free"},
+        {{"--share", "0.1", "--measured", "30,1,2,3"}, 2, "--measured: \"30,1,2,3\" is not a temperature"},
+        {{"--share", "0.1", "--measured", "30,1,2,3,x"}, 2, "a time from 0 s on (in \"30,1,2,3,x\")"},
+        {{"--share", "0.1", "--measured", "30,10,8,-7,100"}, 3, "state the time from its start"},
+        {{"--share", "0.1", "--height", "10"}, 2, "--height is that of an outline"},
         {{"--share", "0.1", "--picture", "h.txt"}, 2, ".svg or .png"},
         {{"--share", "0.9", "--melting", "61", "--ambient", "-80"}, 3, "degrees C warm at least"}})
     said(with(kUsual, w.words), w.status, w.says);

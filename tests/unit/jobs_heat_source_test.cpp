@@ -157,7 +157,7 @@ TEST(JobsHeatSource, AStockMayBeAnOutline) {
   EXPECT_EQ(complaint_of(job), "blank.json: the stock is 0 mm thick; state a thickness above 0");
   job.stock.thickness = 20;
   const HeatSource source = run(job);
-  EXPECT_EQ(source.stock.outline.size(), 1U);
+  EXPECT_EQ(source.stock.read->outline.regions.size(), 1U);
   EXPECT_NEAR(source.stock.box.high_x, 60, 1e-9);
   EXPECT_NEAR(source.work.volume_mm3, run(job_of(kSlot)).work.volume_mm3, 1e-9);
   job.stock.outline = File{"blank.json", rectangle(60, 12)};

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace lekalo::jobs::jobs_heat_test {
 namespace {
@@ -185,6 +187,94 @@ TEST(JobsHeat, ThreadsChangeNothing) {
   const HeatFound& two = usual();
   for (std::size_t i = 0; i < one.walls.size(); ++i) EXPECT_EQ(one.walls[i].error_um, two.walls[i].error_um);
   EXPECT_EQ(one.work, two.work);
+}
+
+/// A temperature of the model itself at this place and time, with the share and the film of job_of().
+MeasuredTemperature from_model(heat::Place at, double seconds, double uncertainty_k) {
+  HeatJob job = job_of();
+  job.measured = {{job.ambient_c, at, seconds, 1000}};
+  const HeatFound found = run(job);
+  return {job.ambient_c + 0.1 * found.cases[0].rises_k[0], at, seconds, uncertainty_k};
+}
+
+TEST(JobsHeat, AMeasuredTemperatureFindsTheShareThatMadeIt) {
+  const MeasuredTemperature m = from_model({10, 8, -6}, 20, 0.05);
+  ASSERT_GT(m.celsius, 20.3);
+  HeatJob job = job_of();
+  // The force is known, so that the share alone is in doubt.
+  job.material.values[static_cast<std::size_t>(heat::Property::cutting_force)] = {400, 400};
+  job.material.values[static_cast<std::size_t>(heat::Property::force_exponent)] = {0.25, 0.25};
+  const double sharp = run(job).cases[0].warmest_k / usual().cases[0].warmest_k;
+  job.material.values[static_cast<std::size_t>(heat::Property::share)] = {0.01, 0.9};
+  job.measured = {m};
+  const HeatFound found = run(job);
+  const double part = 0.05 / (m.celsius - 20), share = 0.1 / sharp;
+  EXPECT_NEAR(found.share.least, (1 - part) * share, 1e-9);
+  EXPECT_NEAR(found.share.greatest, (1 + part) * share, 1e-9);
+  EXPECT_NEAR(found.heat_parts.least, 1 - part, 1e-9);
+  EXPECT_NEAR(found.heat_parts.greatest, 1 + part, 1e-9);
+  // The errors at the middles are those of the share that was true.
+  for (std::size_t i = 0; i < found.walls.size(); ++i)
+    EXPECT_NEAR(found.walls[i].error_um, usual().walls[i].error_um, 1e-6);
+  EXPECT_NEAR(found.sensitivity.share.least, (1 - part) * found.errors.largest(), 1e-9);
+}
+
+TEST(JobsHeat, AMeasuredTemperatureNarrowsTheHeatThoughTheForceIsInDoubt) {
+  HeatJob job = job_of();
+  job.film = {5, 50};
+  job.material = material(0.05, 0.2);
+  const HeatFound wide = run(job);
+  job.measured = {from_model({10, 8, -6}, 20, 0.1), from_model({3, 20, -5}, 15, 0.1)};
+  const HeatFound found = run(job);
+  const double heat = 0.1 * found.source.work.work_j.middle();
+  EXPECT_LE(found.heat_j.least, heat);
+  EXPECT_GE(found.heat_j.greatest, heat);
+  EXPECT_LE(found.share.least, 0.1);
+  EXPECT_GE(found.share.greatest, 0.1);
+  const auto width = [](const heat::Interval& i) { return i.greatest - i.least; };
+  EXPECT_LT(width(found.largest_um), 0.5 * width(wide.largest_um));
+  for (std::size_t i = 0; i < found.walls.size(); ++i) {
+    EXPECT_LE(found.walls[i].errors_um.least, usual().walls[i].error_um + 1e-9);
+    EXPECT_GE(found.walls[i].errors_um.greatest, usual().walls[i].error_um - 1e-9);
+  }
+}
+
+TEST(JobsHeat, MeasurementsThatCannotBeAreToldInOneSentence) {
+  const auto said = [](std::vector<MeasuredTemperature> measured) {
+    HeatJob job = job_of();
+    job.material = material(0.05, 0.2);
+    job.measured = std::move(measured);
+    const Result<HeatFound> found = heat(job);
+    return found ? std::string() : found.error().message;
+  };
+  EXPECT_NE(said({{25, {10, 8, -6}, 1000, 2.5}}).find("state the time from its start"), std::string::npos);
+  EXPECT_NE(said({{25, {31, 8, -6}, 10, 2.5}}).find("the place is outside of the stock"), std::string::npos);
+  EXPECT_NE(said({{25, {10, 8, 1}, 10, 2.5}}).find("the place is outside of the stock"), std::string::npos);
+  EXPECT_NE(said({{25, {10, 3.2, -2}, 10, 2.5}}).find("the place is in the air"), std::string::npos);
+  EXPECT_NE(said({{25, {10, 8, -6}, 0, 2.5}}).find("no heat of the program has come there"),
+            std::string::npos);
+  EXPECT_NE(said({{60, {10, 8, -6}, 20, 2.5}}).find("by what is stated"), std::string::npos);
+  const MeasuredTemperature a = from_model({10, 8, -6}, 20, 0.02);
+  MeasuredTemperature b = a;
+  b.celsius += 0.1;
+  EXPECT_NE(said({a, b}).find("leave out the one that is wrong"), std::string::npos) << said({a, b});
+  // A place on the floor, on a wall and on the stock's side still stands.
+  EXPECT_EQ(said({{21, {10, 8, -4}, 20, 20}, {21, {10, 0, -2}, 20, 20}, {21, {30, 8, -2}, 20, 20}}), "");
+}
+
+TEST(JobsHeat, AnOutlineOfABlockIsTheBlock) {
+  HeatJob job = job_of();
+  job.source.stock.block.reset();
+  job.source.stock.outline = File{
+      "blank.json",
+      R"({"units":"mm","outer":[{"line":{"from":[-10,-10],"to":[30,-10]}},{"line":{"from":[30,-10],"to":[30,26]}},)"
+      R"({"line":{"from":[30,26],"to":[-10,26]}},{"line":{"from":[-10,26],"to":[-10,-10]}}]})"};
+  job.source.stock.thickness = 10;
+  const HeatFound found = run(job);
+  ASSERT_EQ(found.walls.size(), usual().walls.size());
+  for (std::size_t i = 0; i < found.walls.size(); ++i)
+    EXPECT_NEAR(found.walls[i].error_um, usual().walls[i].error_um, 1e-4);
+  EXPECT_NEAR(found.book.lost, usual().book.lost, 1e-4 * usual().book.lost);
 }
 
 TEST(JobsHeat, ImpossibleJobsAreToldInOneSentence) {

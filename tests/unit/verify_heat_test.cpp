@@ -58,12 +58,24 @@ std::vector<verify::Document> files_of(const jobs::HeatResultJob& job) {
                                       {source.pocket.name, source.pocket.bytes}};
   for (const jobs::EarlierProgram& before : source.after)
     files.push_back({before.program.name, before.program.bytes});
+  if (source.stock.outline)
+    files.insert(files.begin() + 2, {source.stock.outline->name, source.stock.outline->bytes});
   return files;
+}
+
+/// With a temperature of the model itself, which narrows the heat.
+jobs::HeatResultJob measured_job() {
+  jobs::HeatResultJob job = job_of(0.05, 0.2);
+  job.heat.measured = {{20, {10, 8, -7}, 15, 1000}};
+  const auto rises = jobs::heat_result(job).value().found.middle().rises_k;
+  job.heat.measured[0].celsius += 0.1 * rises[0];
+  job.heat.measured[0].uncertainty_k = 0.02 * rises[0];
+  return job;
 }
 
 /// A result with three films.
 const cases::Prepared<Json> kHonest([] {
-  return Json::parse(jobs::heat_result(job_of(0.05, 0.2)).value().json);
+  return Json::parse(jobs::heat_result(measured_job()).value().json);
 });
 
 Result<verify::ClaimReport> judged(const Json& document, const jobs::HeatResultJob& job) {
@@ -88,6 +100,67 @@ std::string said(const std::function<void(Json&)>& change) {
   return all;
 }
 
+/// A triangle with a hole, about the pocket.
+const std::string kBlank =
+    R"({"units":"mm","outer":[{"line":{"from":[-20,-10],"to":[50,-10]}},{"line":{"from":[50,-10],"to":[10,50]}},)"
+    R"({"line":{"from":[10,50],"to":[-20,-10]}}],)"
+    R"("holes":[[{"arc":{"from":[34,0],"to":[30,0],"centre":[32,0],"ccw":false}},)"
+    R"({"arc":{"from":[30,0],"to":[34,0],"centre":[32,0],"ccw":false}}]]})";
+const std::string kDrawn =
+    "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\n0\n90\n4\n70\n1\n10\n-10\n20\n-10\n10\n35\n20\n-"
+    "10\n10\n30\n20\n"
+    "30\n10\n-10\n20\n26\n0\nENDSEC\n0\nEOF\n";
+
+jobs::HeatResultJob outline_job() {
+  jobs::HeatResultJob job = job_of(0.1, 0.2);
+  job.heat.source.stock = {};
+  job.heat.source.stock.outline = jobs::File{"blank.json", kBlank};
+  job.heat.source.stock.thickness = 9;
+  return job;
+}
+
+TEST(VerifyHeat, AnOutlineIsThatOfItsFile) {
+  const jobs::HeatResultJob job = outline_job();
+  const Json honest = Json::parse(jobs::heat_result(job).value().json);
+  const auto said_of = [&](const std::function<void(Json&)>& change) {
+    Json document = honest;
+    change(document);
+    const auto report = judged(document, job);
+    if (!report) return report.error().message;
+    return report->findings.empty() ? std::string() : report->findings[0];
+  };
+  EXPECT_EQ(said_of([](Json&) {}), "");
+  EXPECT_NE(said_of([](Json& d) { d["stock"]["outline"] = Json(); }).find("go together"), std::string::npos);
+  EXPECT_NE(said_of([](Json& d) {
+              d["stock"]["outline"]["regions"]["holes"] = Json::array();
+            }).find("is not what blank.json means"),
+            std::string::npos);
+  EXPECT_NE(said_of([](Json& d) { d["stock"]["high_mm"][1] = 51; }).find("stock.high_mm[1]"),
+            std::string::npos);
+  EXPECT_NE(said_of([](Json& d) { d["stock"]["outline"]["regions"]["units"] = "inch"; }).find("units"),
+            std::string::npos);
+  for (const char* key : {"regions", "tolerance_mm", "drawing", "scan"})
+    EXPECT_NE(said_of([&](Json& d) { d["stock"]["outline"].erase(key); }), "") << key;
+}
+
+TEST(VerifyHeat, WhatWasMeasuredIsHeldAgainstTheProgram) {
+  EXPECT_NE(said([](Json& d) {
+              d["measured"][0]["at_mm"][2] = -2;
+              d["measured"][0]["at_mm"][1] = 3.2;
+            }).find("measured[0] is in the air"),
+            std::string::npos);
+  EXPECT_NE(
+      said([](Json& d) { d["measured"][0]["at_mm"][0] = 70; }).find("measured[0] is outside of the stock"),
+      std::string::npos);
+  EXPECT_NE(said([](Json& d) { d["measured"][0]["seconds"] = 1e4; }).find("outside of the program's time"),
+            std::string::npos);
+  EXPECT_NE(said([](Json& d) {
+              d["calibrated"]["share"] = {0.05, 0.06};
+            }).find("calibrated.share"),
+            std::string::npos);
+  EXPECT_NE(said([](Json& d) { d["measured"] = Json::array(); }).find("calibrated"), std::string::npos);
+}
+
 TEST(VerifyHeat, HonestResultsHoldAndWhatIsComputedIsNamed) {
   std::vector<jobs::HeatResultJob> jobs{job_of(0.05, 0.2), job_of(0, 0), job_of(0.1, 0.1)};
   jobs[2].heat.film = {200, 200};
@@ -105,6 +178,9 @@ TEST(VerifyHeat, HonestResultsHoldAndWhatIsComputedIsNamed) {
   jobs.back().heat.holding.datum = heat::Place{0, 0, 0};
   jobs.push_back(job_of(0.1, 0.2));
   jobs.back().heat.source.after = {{{"before.ngc", kProgram.substr(0, 70) + "\nG0 Z5\n"}, 5}};
+  jobs.push_back(outline_job());
+  jobs.push_back(outline_job());
+  jobs.back().heat.source.stock.outline = jobs::File{"blank.dxf", kDrawn};
   for (const jobs::HeatResultJob& job : jobs) {
     const auto made = jobs::heat_result(job);
     ASSERT_TRUE(made) << made.error().message;
@@ -162,7 +238,7 @@ TEST(VerifyHeat, NoFieldCanBeAbsentOrAnother) {
       EXPECT_TRUE(refuted([&](Json& d) { parent(d).erase(key); })) << "without " << path;
       EXPECT_TRUE(refuted([&](Json& d) { parent(d)[key + "_"] = 0; })) << "more beside " << path;
     }
-    const bool may_be_null = one_of(path, {"glass_c", "datum_mm"});
+    const bool may_be_null = one_of(path, {"glass_c", "datum_mm", "outline"});
     if (!may_be_null) {
       EXPECT_TRUE(refuted([&](Json& d) { d.at(path) = Json(); })) << path << " null";
     }
@@ -179,10 +255,11 @@ TEST(VerifyHeat, NoFigureCanBeAnother) {
     if (!is_number(kHonest->at(path)) || is_free(path)) return;
     // These were stated, or are computed in voxels and held by nothing else; a little more of the stock, or
     // left on walls, changes no cut.
-    if (one_of(path, {"/conductivity", "/density", "/heat_capacity", "/expansion_per_k", "/youngs",
-                      "/poisson", "/ambient_c", "/step_over", "/rapid", "stress_at_mm", "stress_seconds",
-                      "/stock/", "stock_to_leave", "/voxel_mm", "/cases/1/half_s", "/cases/1/tenth_s",
-                      "/yield_mpa/1", "/melting_c/1"}))
+    if (one_of(path, {"/conductivity",  "/density",     "/heat_capacity",    "/expansion_per_k",
+                      "/youngs",        "/poisson",     "/ambient_c",        "/step_over",
+                      "/rapid",         "stress_at_mm", "stress_seconds",    "/stock/",
+                      "stock_to_leave", "/voxel_mm",    "/cases/1/half_s",   "/cases/1/tenth_s",
+                      "/yield_mpa/1",   "/melting_c/1", "/measured/0/at_mm", "/measured/0/seconds"}))
       return;
     ++count;
     for (const double factor : {0.98, 1.02})

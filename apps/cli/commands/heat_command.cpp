@@ -21,6 +21,7 @@ using heat::Interval;
 
 Result<void> check_paths(const HeatOptions& o) {
   std::vector<NamedPath> inputs{{"program", o.program}, {"--pocket", o.pocket}};
+  if (!o.stock.empty()) inputs.push_back({"--stock", o.stock});
   for (const EarlierFile& file : o.after) inputs.push_back({"--after", file.path});
   return check_outputs({{"-o", o.output}, {"--picture", o.picture}}, inputs);
 }
@@ -34,6 +35,10 @@ Result<jobs::HeatResultJob> read_job(const HeatOptions& o) {
   LEKALO_TRY(source.program.bytes, disk::read_file(o.program));
   source.pocket.name = o.pocket;
   LEKALO_TRY(source.pocket.bytes, disk::read_file(o.pocket));
+  if (!o.stock.empty()) {
+    source.stock.outline = jobs::File{o.stock, {}};
+    LEKALO_TRY(source.stock.outline->bytes, disk::read_file(o.stock));
+  }
   LEKALO_TRY(source.after, read_earlier(o.after));
   return job;
 }
@@ -70,6 +75,15 @@ std::string decision(const jobs::HeatFound& found) {
         "cooling more closely, or cool more.\n",
         scaling, up(after));
   return text;
+}
+
+/// Says how much measured temperatures leave of the share.
+std::string calibrated(const jobs::HeatJob& job, const jobs::HeatFound& found) {
+  if (job.measured.empty()) return {};
+  const Interval stated = job.material[heat::Property::share];
+  return fmt::format("  measured             leaves {} of the stated share of {}, and {} J of {} J\n",
+                     between("{:.3g}", found.share), between("{:.3g}", stated),
+                     between("{:.0f}", found.heat_j), between("{:.0f}", found.source.work.into_workpiece_j));
 }
 
 /// A wait pays where it is no longer than a minute or a quarter of the program.
@@ -113,7 +127,7 @@ std::string words_of(const jobs::HeatResultJob& job, const jobs::HeatResult& mad
       "  stress               {} MPa by von Mises, {} % of the yield stress, at X {:.1f} Y {:.1f} Z {:.1f}\n"
       "  places of walls      {}, and {} that the program does not cut\n",
       work.seconds, work.cutting_seconds, between("{:.0f}", work.work_j), work.volume_mm3,
-      between("{:.0f}", work.greatest_power_w), between("{:.0f}", work.into_workpiece_j),
+      between("{:.0f}", work.greatest_power_w), between("{:.0f}", found.heat_j),
       100 * found.book.stored / balance, 100 * found.book.lost / balance, 100 * found.book.removed / balance,
       between("{:.3g}", found.warmest_k), job.heat.material.name, job.heat.material.limit_c(),
       between("{:.2f}", found.sensitivity.share), between("{:.2f}", found.sensitivity.force),
@@ -121,6 +135,7 @@ std::string words_of(const jobs::HeatResultJob& job, const jobs::HeatResult& mad
       between("{:.0f}", {found.stress_mpa.least * of_yield, found.stress_mpa.greatest * of_yield}),
       found.middle().stress_at.x, found.middle().stress_at.y, found.middle().stress_at.z, found.walls.size(),
       found.uncut);
+  text += calibrated(job.heat, found);
   return text + waiting(found) +
          "All of this is computed and not proved. The machine's growth, residual stress and deflection by "
          "force\n"

@@ -46,10 +46,11 @@ std::string option_of(const FigureOption& figure) {
 
 /// The words of the command line as they were typed.
 struct HeatWords {
-  std::string program, pocket, stock, tool, teeth, spindle, stock_to_leave, top, acceleration, rapid, control;
+  std::string program, pocket, stock, height, tool, teeth, spindle, stock_to_leave, top, acceleration, rapid,
+      control;
   std::string material, wear, cooling, hold, datum, ambient, voxel;
   std::array<std::string, heat::kProperties> figures;
-  std::vector<std::string> after;
+  std::vector<std::string> after, measured;
   std::string output, picture;
   bool json = false;
 };
@@ -69,19 +70,70 @@ void read_figures(WordReader& read, const HeatWords& w, HeatOptions& o) {
   o.job.source.cutting.wear = wear.value_or(o.job.source.cutting.wear);
 }
 
+std::vector<std::string> between_commas(const std::string& word) {
+  std::vector<std::string> parts(1);
+  for (const char c : word) {
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+/// `T,X,Y,Z,SECONDS` or `T,X,Y,Z,SECONDS,UNCERTAINTY`, as often as something was measured.
+void read_measured(WordReader& read, const std::vector<std::string>& words, jobs::HeatJob& job) {
+  for (const std::string& word : words) {
+    const std::vector<std::string> parts = between_commas(word);
+    const bool whole = (parts.size() == 5 || parts.size() == 6) &&
+                       std::ranges::none_of(parts, [](const std::string& part) { return part.empty(); });
+    read.require(
+        whole, fmt::format("--measured: \"{}\" is not a temperature, a place and a time with commas between, "
+                           "T,X,Y,Z,SECONDS in degrees C, mm and s, maybe with the uncertainty in K behind",
+                           word));
+    if (!whole) continue;
+    jobs::MeasuredTemperature& m = job.measured.emplace_back();
+    const auto number = [&](std::size_t i, double low, double high, const char* wanted, double& value) {
+      const std::string words_of_it = fmt::format("{} (in \"{}\")", wanted, word);
+      read.number("--measured", parts[i], low, high, words_of_it.c_str(), value);
+    };
+    number(0, -273.15, 5000.0, "a temperature from -273.15 to 5000 degrees C", m.celsius);
+    for (const auto& [i, at] : {std::pair{1U, &m.at.x}, {2U, &m.at.y}, {3U, &m.at.z}})
+      number(i, -kLargestLength, kLargestLength, "a length in mm", *at);
+    number(4, 0.0, 1e9, "a time from 0 s on", m.seconds);
+    if (parts.size() == 6) number(5, 1e-3, 1000.0, "an uncertainty from 0.001 to 1000 K", m.uncertainty_k);
+  }
+}
+
+/// A block by its sides, or the file of an outline with a height.
+void read_stock_words(WordReader& read, const HeatWords& w, HeatOptions& o) {
+  jobs::StockGiven& stock = o.job.source.stock;
+  stock.block = heat::read_stock(w.stock);
+  if (stock.block) {
+    read.require(w.height.empty(),
+                 "--height is that of an outline; the sides of a block have it behind the second x");
+    return;
+  }
+  o.stock = w.stock;
+  read.require(
+      !w.height.empty(),
+      fmt::format("--stock: \"{}\" is not the sides of a block in mm, as in 120x100x20, with its lower left "
+                  "corner if the pocket is not in its middle, as in 120x100x20@-10,5; the file of an outline "
+                  "needs --height MM",
+                  w.stock));
+  read.number("--height", w.height, 1e-3, 1e5, "a height from 0.001 to 100000 mm", stock.thickness);
+}
+
 void read_datum(WordReader& read, const std::string& word, heat::Holding& holding) {
   if (word.empty()) return;
   std::array<double, 3> at{};
-  std::size_t begin = 0;
   const std::string wanted = fmt::format("a length in mm (X,Y,Z in \"{}\")", word);
-  read.require(std::ranges::count(word, ',') == 2,
+  const std::vector<std::string> parts = between_commas(word);
+  read.require(parts.size() == 3,
                fmt::format("--datum: \"{}\" is not three lengths with commas between, X,Y,Z in mm", word));
-  for (double& number : at) {
-    const std::size_t end = std::min(word.find(',', begin), word.size());
-    read.require(end > begin, fmt::format("--datum: \"\" is not {}", wanted));
-    read.number("--datum", word.substr(begin, end - begin), -kLargestLength, kLargestLength, wanted.c_str(),
-                number);
-    begin = std::min(end + 1, word.size());
+  for (std::size_t i = 0; i < std::min(parts.size(), at.size()); ++i) {
+    read.require(!parts[i].empty(), fmt::format("--datum: \"\" is not {}", wanted));
+    read.number("--datum", parts[i], -kLargestLength, kLargestLength, wanted.c_str(), at[i]);
   }
   holding.datum = heat::Place{at[0], at[1], at[2]};
 }
@@ -110,12 +162,8 @@ Result<Command> to_heat(const HeatWords& w) {
   o.picture = w.picture.empty() ? picture_beside(w.output) : w.picture;
   read.require(w.picture.empty() || w.picture.ends_with(".svg") || w.picture.ends_with(".png"),
                "--picture " + w.picture + ": the name has to end in .svg or .png");
-  o.job.source.stock.block = heat::read_stock(w.stock);
-  read.require(
-      o.job.source.stock.block.has_value(),
-      fmt::format("--stock: \"{}\" is not the sides of a block in mm, as in 120x100x20, with its lower left "
-                  "corner if the pocket is not in its middle, as in 120x100x20@-10,5",
-                  w.stock));
+  read_stock_words(read, w, o);
+  read_measured(read, w.measured, o.job);
   verify::SimulateOptions& machining = o.job.source.machining;
   read.number("--tool", w.tool, 1e-3, 1e4, "a diameter from 0.001 to 10000 mm", machining.tool_diameter);
   read.number("--teeth", w.teeth, 1, 100,
@@ -157,9 +205,10 @@ Typed add_heat_form(Form& form) {
   add("program", w.program, "FILE", "NC program of X, Y and Z").required = true;
   add("--pocket", w.pocket, "FILE", "The pocket's outline, JSON regions with lines, arcs and islands")
       .required = true;
-  add("--stock", w.stock, "WxDxT[@X,Y]",
-      "Sides of the block, and its lower left corner if the pocket is not in its middle")
+  add("--stock", w.stock, "WxDxT[@X,Y]|FILE",
+      "Sides of the block, and its lower left corner if the pocket is not in its middle; or an outline")
       .required = true;
+  add("--height", w.height, "MM", "Of a stock whose outline is a file");
   add("--tool", w.tool, "MM", "Diameter of the tool").required = true;
   add("--teeth", w.teeth, "N", "Of the tool").required = true;
   add("--spindle", w.spindle, "REV/MIN", "Its speed").required = true;
@@ -168,6 +217,9 @@ Typed add_heat_form(Form& form) {
   add("--hold", w.hold, "WORD", "free, plate (under it), vice-x or vice-y (jaws) [free]");
   add("--datum", w.datum, "X,Y,Z", "A place that does not move, with --hold free [none]");
   add("--ambient", w.ambient, "C", "Temperature about it, degrees C [20]");
+  add("--measured", w.measured, "T,X,Y,Z,S[,K]",
+      "It was T degrees C warm there after S seconds, within K [2.5]; again for more")
+      .one_word_a_time = true;
   add("--voxel", w.voxel, "MM", "What the block is divided into [2]");
   add_after(add, w.after);
   add("--stock-to-leave", w.stock_to_leave, "MM", "What stays on every wall [0]");

@@ -112,6 +112,7 @@ struct FitOptions {
 struct HeatOptions {
   jobs::HeatJob job;
   std::string program, pocket;
+  std::string stock;  ///< the file of its outline; empty for a block
   std::vector<EarlierFile> after;
   heat::MaterialWords material;
   std::string cooling;          ///< empty: dry

@@ -17,6 +17,17 @@
 
 namespace lekalo::jobs {
 
+/// A thermocouple of type K and class 2 may be so far off, K (IEC 60584-1, up to 333 degrees Celsius).
+inline constexpr double kUsualUncertainty = 2.5;
+
+/// A temperature that was measured in the workpiece while the program ran.
+struct MeasuredTemperature {
+  double celsius = 0;
+  heat::Place at;                            ///< mm, in the program's coordinates
+  double seconds = 0;                        ///< of the program, from its start
+  double uncertainty_k = kUsualUncertainty;  ///< above 0; the true one is surely within this
+};
+
 /// A program, and what is needed to say how warm it makes the workpiece and what that does to the walls.
 struct HeatJob {
   HeatSourceJob source;     ///< force and share are those of the material
@@ -25,6 +36,7 @@ struct HeatJob {
   heat::Holding holding;
   double pitch = 2;       ///< of voxels, mm
   double ambient_c = 20;  ///< degrees Celsius
+  std::vector<MeasuredTemperature> measured;
   unsigned threads = kUsualThreads;
 };
 
@@ -53,7 +65,8 @@ struct UniformScaling {
   WallErrors left;
 };
 
-/// One film of the cooling, with the middles of force and share.
+/// One film of the cooling, with the middle of the heat: that of force and share, or of what measurements
+/// leave of their product.
 struct HeatCase {
   double film = 0;                ///< W/(m2 K)
   std::vector<double> errors_um;  ///< of each place of a wall
@@ -67,6 +80,8 @@ struct HeatCase {
   /// After the program, until half and until a tenth of its heat is left in the workpiece, s; none where that
   /// takes more than kLongestWait.
   std::optional<double> half_s, tenth_s;
+  /// The temperature of each measured place when it was measured, if all of the middle work were heat, K.
+  std::vector<double> rises_k;
 };
 inline constexpr double kLongestWait = 1e5;  // s
 
@@ -88,6 +103,10 @@ struct HeatFound {
   std::size_t uncut = 0;  ///< places of walls that the program does not cut
   /// For the least film, the middle one and the greatest; one where it is one.
   std::vector<HeatCase> cases;
+  /// The heat that goes into the workpiece, J, and the share, as measurements leave them. The heat is less in
+  /// doubt than either share or force: it is their product that warms.
+  heat::Interval heat_j, share;
+  std::vector<heat::Interval> supported_j;  ///< the heat that each of the measurements supports
   /// The least and the greatest heat of the workpiece, as parts of that of the cases.
   heat::Interval heat_parts{1, 1};
   WallErrors errors;  ///< at the middles
@@ -115,9 +134,10 @@ struct HeatFound {
 /// is known whenever the tool is beside a place of a wall. docs/design/heat-walls.md.
 ///
 /// Errors: bad_input for what heat_source() and heat::Grid::divide refuse, where no place of a wall is cut,
-/// and where the workpiece surely gets warmer than the material's figures hold; refuted where the equations
-/// are not solved. Phases: "following the program", "heating" and, with
-/// more than one film, "heating, least cooling" and so on. Cost: about 300 steps in time for each of
+/// where the workpiece surely gets warmer than the material's figures hold, and for measurements outside of
+/// the stock or of the program, in the air, where no heat has come, and which contradict what is stated or
+/// each other; refuted where the equations are not solved. Phases: "following the program", "heating" and,
+/// with more than one film, "heating, least cooling" and so on. Cost: about 300 steps in time for each of
 /// three films, and a displacement for each in which the tool is beside a wall.
 [[nodiscard]] Result<HeatFound> heat(const HeatJob& job, const PhaseListener& phases = {});
 

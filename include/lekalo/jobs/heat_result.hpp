@@ -28,8 +28,8 @@ struct HeatResult {
 };
 
 /// Computes heat() and puts its document before the checker. Errors, phases and cost are those of heat();
-/// besides, bad_input for a stock that is no block, refuted where the checker finds a figure that is not
-/// true, and the phase "following the program again".
+/// besides, refuted where the checker finds a figure that is not true, and the phase "following the program
+/// again".
 [[nodiscard]] Result<HeatResult> heat_result(const HeatResultJob& job, const PhaseListener& phases = {});
 
 /// The shortest and the longest wait of all cases, s; none where it takes more than kLongestWait.

@@ -8,6 +8,7 @@
 #include "lekalo/geom/region.hpp"
 #include "lekalo/heat/cutting.hpp"
 #include "lekalo/heat/stock.hpp"
+#include "lekalo/io/formats/outline_file.hpp"
 #include "lekalo/jobs/file.hpp"
 #include "lekalo/jobs/phases.hpp"
 #include "lekalo/jobs/simulate.hpp"
@@ -32,10 +33,10 @@ struct HeatSourceJob {
   StockGiven stock;
 };
 
-/// A stock with its upper face at some Z.
+/// A stock with its upper face at some Z; its sides are upright.
 struct HeatStock {
-  heat::StockBox box;                 ///< the block, or the box about the outline
-  std::vector<geom::Region> outline;  ///< empty for a block
+  heat::StockBox box;                   ///< the block, or the box about the outline
+  std::optional<io::ReadOutline> read;  ///< with regions; none for a block
 };
 
 /// The work of a program, and the way of its tool.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "heat_border.hpp"
+#include "heat_measured.hpp"
 #include "heat_walls.hpp"
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/stop.hpp"
@@ -31,6 +32,8 @@ constexpr double kSolid = 0.5;
 /// Heat looks for material this many half voxels out of the tool.
 constexpr int kLooksOut = 6;
 constexpr double kMicrometres = 1000;
+/// An outline's edge that lies on a side of its box is a side, and no wall that is cut, mm.
+constexpr double kOnBorder = 1e-6;
 /// Displacements are solved to this part of the load.
 constexpr double kSolved = 1e-4;
 
@@ -69,6 +72,7 @@ struct Run {
   double stress_seconds = 0;
   heat::HeatBook book;
   std::optional<double> half_s, tenth_s;
+  std::vector<double> rises_k;  ///< at measured places
   std::uint64_t work = 0;
 };
 
@@ -96,7 +100,7 @@ class Follower {
   Result<Run> run(double film, const ProgressListener& progress) const {
     heat::Body body(
         found_.grid, border_.is_block() ? std::function<double(Place)>{}
-                                        : [&](Place p) { return border_.inside(p.x, p.y); });
+                                        : [&](Place p) { return border_.inside(p.x, p.y) + kOnBorder; });
     heat::Conduction conduction(body, conductor_of(job_.material), films_of(film, job_.holding),
                                 job_.threads);
     heat::Expansion expansion(found_.grid, elastic_of(job_.material), job_.holding, job_.threads);
@@ -104,6 +108,7 @@ class Follower {
     run.errors_um.assign(found_.walls.size(), -std::numeric_limits<double>::infinity());
     run.decided.resize(found_.walls.size());
     run.stress_at = middle_of(0);
+    MeasuredRises rises(job_.measured);
     for (std::size_t n = 0; n < spans_.size(); ++n) {
       ask();
       if (progress) progress({n, static_cast<double>(n) / static_cast<double>(spans_.size())});
@@ -115,6 +120,7 @@ class Follower {
       if (!changed.empty()) conduction.follow(body, changed);
       const std::vector<double> temperatures = conduction.temperatures();
       run.warmest_k = std::max(run.warmest_k, *std::ranges::max_element(temperatures));
+      rises.take(body, temperatures, span.begin, span.end);
       if (span.walls.empty()) continue;
       expansion.follow(body);
       LEKALO_CHECK(expansion.solve(temperatures, kSolved));
@@ -132,6 +138,7 @@ class Follower {
         if (error > run.errors_um[i]) run.errors_um[i] = error, run.decided[i] = at;
       }
     }
+    run.rises_k = rises.found();
     run.book = conduction.book();
     if (film > 0) LEKALO_CHECK(cool_down(conduction, run));  // else it never does
     run.work = conduction.work() + expansion.work();
@@ -271,13 +278,13 @@ Interval hull(const Interval& a, double b) { return {std::min(a.least, b), std::
 constexpr Interval kNothing{std::numeric_limits<double>::infinity(),
                             -std::numeric_limits<double>::infinity()};
 
-/// Returns the least and the greatest product of share and force, as parts of that of the middles.
-Interval heat_parts_of(const Interval& work, const Interval& share) {
-  const double middle = share.middle() * work.middle();
+/// Returns the least and the greatest heat, as parts of that of the cases.
+Interval heat_parts_of(const Interval& heat, double middle) {
   if (!(middle > 0)) return {1, 1};
-  return {share.least * work.least / middle, share.greatest * work.greatest / middle};
+  return {heat.least / middle, heat.greatest / middle};
 }
 
+/// \param share  the part of the middle work that is the heat of the case
 HeatCase case_of(const Run& run, double film, double share, const std::vector<WallPoint>& walls) {
   HeatCase one;
   one.film = film;
@@ -290,6 +297,7 @@ HeatCase case_of(const Run& run, double film, double share, const std::vector<Wa
   one.book = run.book;
   for (double* j : {&one.book.in, &one.book.lost, &one.book.removed, &one.book.stored}) *j *= share;
   one.not_placed_j = share * run.not_placed_j;
+  one.rises_k = run.rises_k;
   return one;
 }
 
@@ -312,16 +320,18 @@ WallIntervals walls_over(const HeatFound& found, F of) {
           over(found, [&](const HeatCase& c, double part) { return of(c, part).largest(); })};
 }
 
-/// \param work, share  of which the middles are those of the cases
-HeatSensitivity sensitivity_of(const HeatFound& found, const Interval& work, const Interval& share) {
+HeatSensitivity sensitivity_of(const HeatFound& found) {
   const double largest = found.middle().errors.largest();
   const auto by = [&](const Interval& figure) {
     if (!(figure.middle() > 0)) return Interval{largest, largest};
-    return Interval{largest * figure.least / figure.middle(), largest * figure.greatest / figure.middle()};
+    // No figure takes the heat beyond what measurements leave of it.
+    const Interval parts{std::max(figure.least / figure.middle(), found.heat_parts.least),
+                         std::min(figure.greatest / figure.middle(), found.heat_parts.greatest)};
+    return Interval{largest * parts.least, largest * parts.greatest};
   };
   Interval film = kNothing;
   for (const HeatCase& one : found.cases) film = hull(film, one.errors.largest());
-  return {by(share), by(work), film};
+  return {by(found.share), by(found.source.work.work_j), film};
 }
 
 /// Takes the cases together. \param usual  the run of the middle one
@@ -368,17 +378,23 @@ Result<HeatFound> heat(const HeatJob& job, const PhaseListener& phases) {
     films = {{job.film.least, "heating, least cooling"},
              {job.film.middle(), "heating, mean cooling"},
              {job.film.greatest, "heating, greatest cooling"}};
+  LEKALO_CHECK(check_measured(job, found.source));
   const Follower follower(job, found, walls.visits);
-  found.heat_parts = heat_parts_of(found.source.work.work_j, share);
-  Run usual;
-  for (std::size_t i = 0; i < films.size(); ++i) {
-    LEKALO_TRY(Run run, follower.run(films[i].first, begin_phase(phases, films[i].second)));
-    found.cases.push_back(case_of(run, films[i].first, share.middle(), found.walls));
+  std::vector<Run> runs;
+  std::vector<std::vector<double>> rises;
+  for (const auto& [film, words] : films) {
+    LEKALO_TRY(Run run, follower.run(film, begin_phase(phases, words)));
     found.work += run.work;
-    if (i == films.size() / 2) usual = std::move(run);
+    rises.push_back(run.rises_k);
+    runs.push_back(std::move(run));
   }
-  take(usual, found);
-  found.sensitivity = sensitivity_of(found, found.source.work.work_j, share);
+  LEKALO_TRY(const MeasuredHeat heat, measured_heat(job, found.source.work, rises));
+  found.heat_j = heat.heat_j, found.share = heat.share, found.supported_j = heat.supported_j;
+  found.heat_parts = heat_parts_of(heat.heat_j, heat.middle_share * found.source.work.work_j.middle());
+  for (std::size_t i = 0; i < films.size(); ++i)
+    found.cases.push_back(case_of(runs[i], films[i].first, heat.middle_share, found.walls));
+  take(runs[films.size() / 2], found);
+  found.sensitivity = sensitivity_of(found);
   if (const double least = job.ambient_c + found.warmest_k.least; least > job.material.limit_c())
     return failure(ErrorCode::bad_input,
                    fmt::format("{}: the workpiece gets {:.0f} degrees C warm at least, and the figures of {} "

@@ -11,7 +11,7 @@ namespace lekalo::jobs {
 class StockBorder {
  public:
   explicit StockBorder(const HeatStock& stock) : box_(stock.box) {
-    if (!stock.outline.empty()) index_.emplace(stock.outline);
+    if (stock.read) index_.emplace(stock.read->outline.regions);
   }
 
   [[nodiscard]] bool is_block() const { return !index_; }

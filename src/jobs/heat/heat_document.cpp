@@ -6,6 +6,8 @@
 
 #include "jobs/document/report_document.hpp"
 #include "lekalo/base/version.hpp"
+#include "lekalo/io/locate/result_json.hpp"
+#include "lekalo/io/shape/region_json.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -49,6 +51,23 @@ void write_stated(io::JsonWriter& json, const char* key, const Interval& value) 
   json.key(key).list({value.least, value.greatest});
 }
 
+/// A block, or an outline as it was read and the box about it.
+void write_stock(io::JsonWriter& json, const HeatStock& stock) {
+  const heat::StockBox& box = stock.box;
+  json.key("stock").begin_object().key("low_mm").list({shown(box.low_x), shown(box.low_y)});
+  json.key("high_mm").list({shown(box.high_x), shown(box.high_y)}).field("thickness_mm", box.thickness);
+  json.key("outline");
+  if (!stock.read) {
+    json.value(nullptr).end();
+    return;
+  }
+  json.begin_object().key("regions").raw() += io::regions_json(stock.read->outline.regions);
+  json.field("tolerance_mm", stock.read->outline.tolerance);
+  io::write_record(json.key("drawing"), stock.read->drawing);
+  io::write_record(json.key("scan"), stock.read->scan);
+  json.end().end();
+}
+
 void write_words(io::JsonWriter& json, const HeatJob& job, const HeatFound& found) {
   write_machining(json, job.source.machining);
   json.fields({{"teeth", job.source.cutting.teeth}, {"spindle_rpm", job.source.cutting.spindle_rpm}});
@@ -70,9 +89,24 @@ void write_words(io::JsonWriter& json, const HeatJob& job, const HeatFound& foun
     json.value(nullptr);
   json.end();
   json.fields({{"ambient_c", job.ambient_c}, {"voxel_mm", job.pitch}});
-  const heat::StockBox& box = found.source.stock.box;
-  json.key("stock").begin_object().key("low_mm").list({shown(box.low_x), shown(box.low_y)});
-  json.key("high_mm").list({shown(box.high_x), shown(box.high_y)}).field("thickness_mm", box.thickness).end();
+  write_stock(json, found.source.stock);
+}
+
+void write_measured(io::JsonWriter& json, const HeatJob& job, const HeatFound& found) {
+  json.key("measured").begin_list();
+  for (std::size_t i = 0; i < job.measured.size(); ++i) {
+    const MeasuredTemperature& m = job.measured[i];
+    json.begin_object().field("temperature_c", m.celsius).key("at_mm").list({m.at.x, m.at.y, m.at.z});
+    json.fields({{"seconds", m.seconds}, {"uncertainty_k", m.uncertainty_k}}).key("rises_k").begin_list();
+    for (const HeatCase& one : found.cases) json.value(shown_finely(one.rises_k[i]));
+    json.end();
+    write_interval(json, "supported_j", found.supported_j[i]);
+    json.end();
+  }
+  json.end().key("calibrated").begin_object().key("share");
+  json.list({shown_finely(found.share.least), shown_finely(found.share.greatest)});
+  write_interval(json, "into_workpiece_j", found.heat_j);
+  json.end();
 }
 
 void write_booked(io::JsonWriter& json, const heat::CuttingWork& work) {
@@ -177,11 +211,13 @@ std::string heat_json(const HeatJob& job, const HeatFound& found, const std::vec
   json.fields({{"status", "computed"}, {"units", "mm"}}).key("inputs").begin_list();
   write_file(json, "program", job.source.program);
   write_file(json, "pocket", job.source.pocket);
+  if (job.source.stock.outline) write_file(json, "stock", *job.source.stock.outline);
   write_earlier(json, job.source.after);
   json.end().key("warnings").list(warnings);
   json.fields({{"seed", 0}, {"work", found.work}, {"version", kVersion}});
   write_words(json, job, found);
   write_booked(json, found.source.work);
+  write_measured(json, job, found);
   const HeatCase& middle = found.middle();
   write_errors(json, "wall_error_um", found.errors, found.errors_over);
   write_scaling(json, found.scaling);

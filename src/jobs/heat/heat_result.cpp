@@ -17,6 +17,8 @@ std::vector<std::string> warnings_of(const HeatJob& job, const HeatFound& found)
         fmt::format("the workpiece may get {:.0f} degrees C warm, and the figures of {} hold up "
                     "to {:.0f}",
                     greatest, job.material.name, job.material.limit_c()));
+  if (const auto& read = found.source.stock.read)
+    warnings.insert(warnings.end(), read->notices.begin(), read->notices.end());
   warnings.insert(warnings.end(), found.source.unsaid.begin(), found.source.unsaid.end());
   return warnings;
 }
@@ -25,6 +27,7 @@ std::vector<std::string> warnings_of(const HeatJob& job, const HeatFound& found)
 std::vector<verify::Document> files_of(const HeatSourceJob& source) {
   std::vector<verify::Document> files{{source.program.name, source.program.bytes},
                                       {source.pocket.name, source.pocket.bytes}};
+  if (source.stock.outline) files.push_back({source.stock.outline->name, source.stock.outline->bytes});
   for (const EarlierProgram& before : source.after)
     files.push_back({before.program.name, before.program.bytes});
   return files;
@@ -33,8 +36,6 @@ std::vector<verify::Document> files_of(const HeatSourceJob& source) {
 }  // namespace
 
 Result<HeatResult> heat_result(const HeatResultJob& job, const PhaseListener& phases) {
-  if (!job.heat.source.stock.block)
-    return failure(ErrorCode::bad_input, "the stock has to be a block, as in 120x100x20@-10,5");
   HeatResult made;
   LEKALO_TRY(made.found, heat(job.heat, phases));
   made.warnings = warnings_of(job.heat, made.found);

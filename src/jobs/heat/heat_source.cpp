@@ -44,9 +44,8 @@ Result<HeatStock> stock_of(const HeatSourceJob& job) {
     return failure(ErrorCode::bad_input,
                    fmt::format("{}: the stock is {:g} mm thick; state a thickness above 0",
                                job.stock.outline->name, job.stock.thickness));
-  LEKALO_TRY(io::ReadOutline read, io::read_outline(job.stock.outline->bytes, job.stock.outline->name, {}));
-  stock.outline = std::move(read.outline.regions);
-  const geom::Box box = geom::RegionIndex(stock.outline).bounds();
+  LEKALO_TRY(stock.read, io::read_outline(job.stock.outline->bytes, job.stock.outline->name, {}));
+  const geom::Box box = geom::RegionIndex(stock.read->outline.regions).bounds();
   stock.box = {box.low.x, box.low.y, box.high.x, box.high.y, job.stock.thickness};
   return stock;
 }
@@ -89,9 +88,11 @@ class Clip {
       return failure(
           ErrorCode::bad_input,
           fmt::format("{}: the program lies outside of the stock, which goes from X {:g} Y {:g} to "
-                      "X {:g} Y {:g}; say where its lower left corner is, as in 120x100x20@-10,5",
+                      "X {:g} Y {:g}; {}",
                       job_.program.name, stock_.box.low_x, stock_.box.low_y, stock_.box.high_x,
-                      stock_.box.high_y));
+                      stock_.box.high_y,
+                      border_.is_block() ? "say where its lower left corner is, as in 120x100x20@-10,5"
+                                         : "its outline has to be in the program's coordinates"));
     return {};
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "heat_fields.hpp"
@@ -10,8 +11,11 @@
 #include "machining_fields.hpp"
 #include "report_fields.hpp"
 #include "verify/heat/cut_work.hpp"
+#include "verify/heat/measured_places.hpp"
 #include "verify/heat/wall_places.hpp"
+#include "verify/origin/origin.hpp"
 #include "verify/read/known_fields.hpp"
+#include "verify/shape/shape_inside.hpp"
 
 namespace lekalo::verify {
 namespace {
@@ -37,10 +41,15 @@ class HeatReport {
       (void)fields_.get(known);
     if (fields_.text("status") != "computed") fields_.complain("field status is not \"computed\"");
     read_words();
-    read_followed(fields_, names_, files_, followed_);
+    read_followed(fields_, names_, files_, followed_, true);
+    LEKALO_CHECK(fine());
+    check_outline();
     LEKALO_CHECK(fine());
     LEKALO_TRY(const CutHistory history, follow());
+    read_measured();
+    LEKALO_CHECK(fine());
     check_booked(history);
+    check_measured_places(history);
     read_walls();
     read_cases();
     LEKALO_CHECK(fine());
@@ -95,8 +104,55 @@ class HeatReport {
     if (!complaint_.empty()) return;
     const auto low = stock.numbers<2>("low_mm"), high = stock.numbers<2>("high_mm");
     stock_ = {low[0], low[1], high[0], high[1], stock.number("thickness_mm")};
+    read_outline(stock);
     stock.refuse_others();
     require(low[0] < high[0] && low[1] < high[1] && stock_.thickness > 0, "field stock is no block");
+  }
+
+  /// The outline of a stock that is no block, as it is stated; check_outline() compares it with its file.
+  void read_outline(ReportFields& stock) {
+    const Json outline = stock.get("outline");
+    if (outline.is_null()) return;
+    ReportFields f(outline, "stock.outline", complaint_);
+    if (!complaint_.empty()) return;
+    const Json regions = f.get("regions");
+    outline_drawing_ = f.get("drawing"), outline_scan_ = f.get("scan");
+    outline_tolerance_ = f.number("tolerance_mm");
+    require(outline_tolerance_ >= 0, "field stock.outline.tolerance_mm is below 0");
+    for (const auto& [key, value] :
+         {std::pair{"regions", regions}, {"drawing", outline_drawing_}, {"scan", outline_scan_}}) {
+      if (value.text.empty()) f.complain(fmt::format("field stock.outline.{} is missing", key));
+      refuse_unknown_fields(value, key, complaint_);
+    }
+    f.refuse_others();
+    if (!complaint_.empty()) return;
+    if (Fields(regions, "stock.outline.regions", complaint_).text("units") != "mm")
+      f.complain("the units of stock.outline.regions are not mm");
+    stock_.outline = read_shape(regions, "stock.outline.regions", complaint_);
+  }
+
+  /// An outline is what its file means, and the box is about it.
+  void check_outline() {
+    require(stock_.outline.has_value() == followed_.stock.has_value(),
+            "field stock.outline and a file with the role \"stock\" go together");
+    if (!complaint_.empty() || !stock_.outline) return;
+    if (const auto fault = fault_of(*stock_.outline))
+      return find(fmt::format("stock.outline.regions are none: {}", *fault));
+    const Origin origin = check_origin(
+        {*followed_.stock, *stock_.outline, outline_tolerance_, outline_scan_, outline_drawing_});
+    if (origin.fault)
+      find(fmt::format("stock.outline is not what {} means: {}", followed_.stock->name, *origin.fault));
+    if (origin.open)
+      claims_.unchecked.push_back(fmt::format("stock.outline: that it is what {} means was not rechecked: {}",
+                                              followed_.stock->name, *origin.open));
+    if (outline_tolerance_ > 0)
+      claims_.notes.push_back(
+          fmt::format("stock.outline is within {} mm of what the file means", outline_tolerance_));
+    for (const auto& [key, written, found] : {std::tuple{"low_mm[0]", stock_.low_x, stock_.outline->low_x},
+                                              {"low_mm[1]", stock_.low_y, stock_.outline->low_y},
+                                              {"high_mm[0]", stock_.high_x, stock_.outline->high_x},
+                                              {"high_mm[1]", stock_.high_y, stock_.outline->high_y}})
+      hold(fmt::format("stock.{}", key), written, found, kWithin);
   }
 
   void read_material() {
@@ -159,10 +215,64 @@ class HeatReport {
         fmt::format("the work of the cuts was made anew from {}", followed_.program->name));
     const CheckedRange& work = found.work_j;
     work_ = work, seconds_ = found.seconds;
-    heat_ = work.middle() * cutting_.share.middle();
-    if (heat_ > 0)
-      parts_ = {work.least * cutting_.share.least / heat_, work.greatest * cutting_.share.greatest / heat_};
-    hold("heat_parts", range_of(fields_, "heat_parts"), parts_, kFine + kSummed * parts_.greatest);
+    const CheckedRange heat = calibrated(found.into_j);
+    heat_ = measured_.empty() ? work.middle() * cutting_.share.middle() : heat.middle();
+    if (heat_ > 0) parts_ = {heat.least / heat_, heat.greatest / heat_};
+    // Rises stand to 1e-12 K.
+    const double summed = measured_.empty() ? kSummed : 10 * kSummed;
+    hold("heat_parts", range_of(fields_, "heat_parts"), parts_, kFine + summed * parts_.greatest);
+  }
+
+  void read_measured() {
+    fields_.each("measured", [&](Json item, const std::string& path) {
+      ReportFields f(item, path, complaint_);
+      if (!complaint_.empty()) return;
+      CheckedMeasurement m{f.number("temperature_c"),
+                           f.number("uncertainty_k"),
+                           f.numbers<3>("at_mm"),
+                           f.number("seconds"),
+                           {}};
+      f.each("rises_k",
+             [&](Json number, const std::string& at) { m.rises.push_back(f.number_of(number, at)); });
+      supported_.push_back(range_of(f, "supported_j"));
+      f.refuse_others();
+      if (!(m.uncertainty > 0)) f.complain(fmt::format("field {} is not above 0", f.name("uncertainty_k")));
+      if (m.rises.size() != (film_.least < film_.greatest ? 3U : 1U) ||
+          !std::ranges::all_of(m.rises, [](double rise) { return rise > 0; }))
+        f.complain(fmt::format("field {} is not a rise above 0 for each case", f.name("rises_k")));
+      measured_.push_back(std::move(m));
+    });
+  }
+
+  void check_measured_places(const CutHistory& history) {
+    for (std::size_t i = 0; i < measured_.size(); ++i)
+      if (const std::string fault =
+              no_place_for(measured_[i], history, stock_, options_.tool_diameter, options_.top);
+          !fault.empty())
+        find(fmt::format("measured[{}] {}", i, fault));
+  }
+
+  /// Measurements leave a part of the heat that the stated shares make, and of the share.
+  CheckedRange calibrated(CheckedRange heat) {
+    ReportFields f(fields_.get("calibrated"), "calibrated", complaint_);
+    if (!complaint_.empty()) return heat;
+    for (std::size_t i = 0; i < measured_.size(); ++i) {
+      const CheckedRange found = supported_heat(measured_[i], ambient_, work_.middle());
+      hold(fmt::format("measured[{}].supported_j", i), supported_[i], found,
+           kShown + 10 * kSummed * std::abs(found.greatest));
+      heat = {std::max(heat.least, found.least), std::min(heat.greatest, found.greatest)};
+    }
+    if (!(heat.least <= heat.greatest)) find("measured: no heat supports all that was measured");
+    CheckedRange share = cutting_.share;
+    if (!measured_.empty())
+      share = {std::max(share.least, heat.least / work_.greatest),
+               std::min(share.greatest, heat.greatest / work_.least)};
+    hold("calibrated.share", range_of(f, "share"), share, kFine + 10 * kSummed * share.greatest);
+    hold("calibrated.into_workpiece_j", range_of(f, "into_workpiece_j"), heat,
+         kShown + 10 * kSummed * std::abs(heat.greatest));
+    f.refuse_others();
+    share_ = share;
+    return heat;
   }
 
   void read_walls() {
@@ -460,10 +570,13 @@ class HeatReport {
     ReportFields f(fields_.get("sensitivity_um"), "sensitivity_um", complaint_);
     if (!complaint_.empty()) return;
     const double largest = cases_[cases_.size() / 2].summary.largest();
-    for (const auto& [key, figure] : {std::pair{"share", &cutting_.share}, {"force", &work_}}) {
+    for (const auto& [key, figure] : {std::pair{"share", &share_}, {"force", &work_}}) {
       const double middle = figure->middle();
-      const CheckedRange parts =
-          middle > 0 ? CheckedRange{figure->least / middle, figure->greatest / middle} : CheckedRange{1, 1};
+      // No figure takes the heat beyond what is left of it.
+      const CheckedRange parts = middle > 0
+                                     ? CheckedRange{std::max(figure->least / middle, parts_.least),
+                                                    std::min(figure->greatest / middle, parts_.greatest)}
+                                     : CheckedRange{1, 1};
       hold(f.name(key), range_of(f, key), {parts.least * largest, parts.greatest * largest}, within);
     }
     CheckedRange film{HUGE_VAL, 0};
@@ -489,6 +602,10 @@ class HeatReport {
         "that it is the heat of the cuts is rechecked",
         "warmest_k, stress_mpa, cooling_down: they are computed in voxels and not proved",
         "material, film_w_m2k, holding, ambient_c: they are what was stated, and nobody measured them"};
+    if (!measured_.empty())
+      claims_.unchecked.push_back(
+          "measured: temperatures, places and times are what was stated; rises_k are computed in voxels and "
+          "not proved");
     LEKALO_TRY(const std::vector<std::string> unsaid,
                unsaid_modes(*followed_.program, options_, followed_.earlier));
     claims_.unchecked.insert(claims_.unchecked.end(), unsaid.begin(), unsaid.end());
@@ -503,8 +620,12 @@ class HeatReport {
   SimulateOptions options_;
   CheckedCutting cutting_;
   CheckedStock stock_;
+  Json outline_drawing_, outline_scan_;
+  double outline_tolerance_ = 0;
   CheckedRange film_, parts_{1, 1};
-  CheckedRange work_;
+  CheckedRange work_, share_;
+  std::vector<CheckedMeasurement> measured_;
+  std::vector<CheckedRange> supported_;  ///< as written
   double ambient_ = 0, spacing_ = 0, limit_ = 0, yield_ = 1, seconds_ = 0;
   double heat_ = 0;  ///< of the workpiece at the middles, J
   FollowedFiles followed_;

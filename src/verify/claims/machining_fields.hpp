@@ -26,13 +26,15 @@ inline void read_machining(ReportFields& fields, SimulateOptions& options) {
 
 /// The files of a report on a program that was followed.
 struct FollowedFiles {
-  std::optional<Document> program, pocket;
+  std::optional<Document> program, pocket, stock;
   std::vector<EarlierProgram> earlier;
 };
 
-/// Finds them by their roles. \pre as many files as names
+/// Finds them by their roles. \pre as many files as names. \param with_stock  there may be a file of the
+/// stock
 inline void read_followed(ReportFields& fields, const std::vector<NamedFile>& names,
-                          const std::vector<Document>& files, FollowedFiles& followed) {
+                          const std::vector<Document>& files, FollowedFiles& followed,
+                          bool with_stock = false) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string& role = names[i].role;
     if (role == "after")
@@ -41,6 +43,8 @@ inline void read_followed(ReportFields& fields, const std::vector<NamedFile>& na
       followed.program = files[i];
     else if (role == "pocket" && !followed.pocket)
       followed.pocket = files[i];
+    else if (with_stock && role == "stock" && !followed.stock)
+      followed.stock = files[i];
     else
       fields.complain(fmt::format(
           "the files that it names have the role \"{}\" twice, or no such report has it", excerpt(role)));

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "verify/shape/shape_inside.hpp"
+
 namespace lekalo::verify {
 namespace {
 
@@ -12,12 +14,6 @@ namespace {
 constexpr double kBeyond = 0.01;
 /// Steps along a contact's arc at which the border is looked at.
 constexpr int kArcSteps = 8;
-
-/// Distance of a place from the border of the block, positive inside.
-double within(const CheckedStock& s, double x, double y) {
-  const double across = std::min(x - s.low_x, s.high_x - x), along = std::min(y - s.low_y, s.high_y - y);
-  return across < 0 && along < 0 ? -std::sqrt(across * across + along * along) : std::min(across, along);
-}
 
 class Booking {
  public:
@@ -39,7 +35,7 @@ class Booking {
  private:
   void book(const CutPiece& piece) {
     const double x = (piece.from_x + piece.to_x) / 2, y = (piece.from_y + piece.to_y) / 2;
-    const double middle = within(stock_, x, y), teeth = c_.teeth * c_.spindle_rpm / 60 * piece.seconds;
+    const double middle = stock_.inside(x, y), teeth = c_.teeth * c_.spindle_rpm / 60 * piece.seconds;
     CheckedRange work;
     double volume = 0;
     const auto add = [&](double cut, double chip) {
@@ -71,7 +67,7 @@ class Booking {
     double least = HUGE_VAL, greatest = -HUGE_VAL;
     for (int k = 0; k <= kArcSteps; ++k) {
       const double angle = layer.begin + (layer.end - layer.begin) * k / kArcSteps;
-      const double inside = within(stock_, x + radius_ * std::cos(angle), y + radius_ * std::sin(angle));
+      const double inside = stock_.inside(x + radius_ * std::cos(angle), y + radius_ * std::sin(angle));
       least = std::min(least, inside), greatest = std::max(greatest, inside);
     }
     // The maker's rounding may stand on the other side of the limits.
@@ -89,6 +85,15 @@ class Booking {
 };
 
 }  // namespace
+
+double CheckedStock::inside(double x, double y) const {
+  if (outline) {
+    const Span distance = signed_distance({just(x), just(y)}, *outline);
+    return 0.5 * (distance.low + distance.high);
+  }
+  const double across = std::min(x - low_x, high_x - x), along = std::min(y - low_y, high_y - y);
+  return across < 0 && along < 0 ? -std::sqrt(across * across + along * along) : std::min(across, along);
+}
 
 BookedWork booked_work(const CutHistory& history, const CheckedStock& stock, const CheckedCutting& cutting,
                        double top) {

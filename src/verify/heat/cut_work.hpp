@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "lekalo/verify/cut_history.hpp"
+#include "verify/shape/shape.hpp"
 
 namespace lekalo::verify {
 
@@ -14,9 +16,14 @@ struct CheckedRange {
   [[nodiscard]] double middle() const noexcept { return (least + greatest) / 2; }
 };
 
-/// A block with its upper face at the top of the stock, mm.
+/// A stock with upright sides and its upper face at the top of the stock, mm: a block, or an outline and the
+/// box about it.
 struct CheckedStock {
   double low_x = 0, low_y = 0, high_x = 0, high_y = 0, thickness = 0;
+  std::optional<Shape> outline = std::nullopt;
+
+  /// Distance of a place from the border, positive inside.
+  [[nodiscard]] double inside(double x, double y) const;
 };
 
 struct CheckedCutting {
