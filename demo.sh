@@ -78,7 +78,8 @@ show "$lekalo" simulate demo-out/cover.ngc --pocket examples/pockets/cover.json 
 
 # By how much its walls are off because they were cut warm. What is computed and not proved, verify names (exit status 1).
 show "$lekalo" heat demo-out/cover.ngc --pocket examples/pockets/cover.json --stock 100x70x12 --tool 6 --teeth 3 --spindle 12000 \
-  --material 6061-T6 --share 0.05..0.2 --voxel 3 -o demo-out/heat.json --picture demo-out/heat.png
+  --material 6061-T6 --share 0.05..0.2 --voxel 3 -o demo-out/heat.json --picture demo-out/heat.png \
+  --maps demo-out/heat-maps.png --report demo-out/heat.pdf --animation demo-out/heat.html
 show "$lekalo" verify demo-out/heat.json || [ $? -eq 1 ]
 
 # A hub pressed on a shaft: what that does to their surfaces. What is computed and not proved, verify names (exit status 1).
@@ -104,7 +105,8 @@ say "                                     picture, report, a page that turns, re
 say "  shoes.json, shoes.svg, shoes.pdf   a pair of shoes on a hide with defects and zones: layout and picture"
 say "  shoes-nested.json, shoes-nested.svg  three pairs laid out by lekalo nest"
 say "  cover.ngc, cover.png, cover.html   a pocket with an island: the program that clears it, its path by engagement, played"
-say "  heat.json, heat.png                by how much the walls of that pocket are off because they were cut warm"
+say "  heat.json, heat.png, heat-maps.png, heat.pdf, heat.html  by how much the walls of that pocket are off because they"
+say "                                     were cut warm, with temperature, stress, displacement, a report, and played"
 say "  fit.json, fit.svg, fit.csv, fit.dxf, fit.ngc  a hub pressed on a shaft: pressures and growths along the axis, and what to turn"
 say "                                     so that its outside is a cylinder afterwards"
 say "  editor.png                         the same in the editor, a part in hand over another. To use it:"

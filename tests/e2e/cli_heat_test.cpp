@@ -62,6 +62,39 @@ TEST(CliHeat, OneFilmIsOneCaseAndNoFileIsAskedFor) {
   EXPECT_FALSE(std::filesystem::exists(folder / "h.svg"));
 }
 
+TEST(CliHeat, MapsReportAndPageShowWhatWasComputed) {
+  const TemporaryFolder folder;
+  write_files(folder);
+  const Words usual = with(kUsual, {"--share", "0.05..0.2", "-o", "h.json"});
+  const Ran made =
+      run(folder.path(), with(usual, {"--maps", "m.svg", "--report", "r.svg", "--animation", "a.html"}));
+  ASSERT_EQ(made.status, 0) << made.err;
+  const std::string maps = read_bytes(folder / "m.svg"), report = read_bytes(folder / "r.svg"),
+                    page = read_bytes(folder / "a.html"), result = read_bytes(folder / "h.json");
+  for (const char* shown : {"warmest at any time", "temperature at the end", "of the yield stress",
+                            "displacement at the end", "as the program is", "scaled by 1.000"}) {
+    EXPECT_NE(maps.find(shown), std::string::npos) << shown;
+    EXPECT_NE(report.find(shown), std::string::npos) << shown;
+  }
+  for (const char* shown : {"What to do", "leave it.", "What the largest error hangs on", "Input files",
+                            "k.json", "Not modelled", "computed and not proved"})
+    EXPECT_NE(report.find(shown), std::string::npos) << shown;
+  // One file without links, and of bounded size.
+  EXPECT_EQ(page.find("http"), page.find("http-equiv"));
+  EXPECT_EQ(page.find("src="), std::string::npos);
+  EXPECT_EQ(page.find("/* page.js */"), std::string::npos);
+  EXPECT_LT(page.size(), 1'000'000U);
+  // Pictures change nothing of the result, and are the same bytes again.
+  ASSERT_EQ(run(folder.path(), usual).status, 0);
+  EXPECT_EQ(read_bytes(folder / "h.json"), result);
+  ASSERT_EQ(run(folder.path(), with(usual, {"--maps", "m.png", "--report", "r.pdf", "--animation", "b.html"}))
+                .status,
+            0);
+  EXPECT_EQ(read_bytes(folder / "b.html"), page);
+  EXPECT_EQ(read_bytes(folder / "m.png").substr(1, 3), "PNG");
+  EXPECT_EQ(read_bytes(folder / "r.pdf").substr(0, 4), "%PDF");
+}
+
 TEST(CliHeat, AMeasuredTemperatureNarrowsTheShare) {
   const TemporaryFolder folder;
   write_files(folder);
@@ -91,11 +124,11 @@ TEST(CliHeat, TheStockMayBeAnOutline) {
   EXPECT_EQ(result["stock"]["low_mm"][0], -20);
   EXPECT_EQ(result["inputs"][2]["role"], "stock");
   EXPECT_EQ(run(folder.path(), {"verify", "h.json"}).status, 1);
-  write_bytes(folder / "blank.json", R"({"units": "mm", "outer": [{"arc": {"from": [22, 8], "to": [22, 8],
+  write_bytes(folder / "blank.json", R"({"units": "mm", "outer": [{"arc": {"from": [21, 8], "to": [21, 8],
     "centre": [10, 8], "ccw": true}}]})");
   const Ran beyond = run(folder.path(), words);
   EXPECT_EQ(beyond.status, 3);
-  EXPECT_NE(beyond.err.find("p.ngc:3: the tool cuts"), std::string::npos) << beyond.err;
+  EXPECT_NE(beyond.err.find("p.ngc:4: the tool cuts"), std::string::npos) << beyond.err;
 }
 
 TEST(CliHeat, WithoutHeatNothingIsOff) {
@@ -138,6 +171,11 @@ TEST(CliHeat, WhatIsWrongIsOneSentenceAndNothingIsWritten) {
         {{"--share", "0.1", "--measured", "30,10,8,-7,100"}, 3, "state the time from its start"},
         {{"--share", "0.1", "--height", "10"}, 2, "--height is that of an outline"},
         {{"--share", "0.1", "--picture", "h.txt"}, 2, ".svg or .png"},
+        {{"--share", "0.1", "--maps", "m.pdf"}, 2, "--maps m.pdf: the name has to end in .svg or .png"},
+        {{"--share", "0.1", "--report", "r.txt"},
+         2,
+         "--report r.txt: the name has to end in .svg, .pdf or .png"},
+        {{"--share", "0.1", "--animation", "a.svg"}, 2, "--animation a.svg: the name has to end in .html"},
         {{"--share", "0.9", "--melting", "61", "--ambient", "-80"}, 3, "degrees C warm at least"}})
     said(with(kUsual, w.words), w.status, w.says);
   const auto other = [](std::size_t at, const char* word) {

@@ -374,7 +374,7 @@ def of_heat():
     program = "G21 G90 G17 G94 G54\nG0 X5 Y5 Z5\nG1 Z-2 F200\nG1 X35 F600\nG1 Y19\nG1 X5\nG1 Y5\nG1 Y12\nG1 X35\nG0 Z5\nM2\n"
     yield Kind("result of heat", [],
                [["heat", "p.ngc", "--pocket", "pocket.json", "--stock", "60x44x8", "--tool", "10", "--teeth", "3", "--spindle", "6000",
-                 "--material", "C45", "--share", "0.05..0.2", "--voxel", "8", "--measured", "21,20,12,-6,8,5", "-o",
+                 "--material", "C45", "--share", "0.05..0.2", "--voxel", "8", "--measured", "23,20,12,-6,8,8", "-o",
                  "r.json"]], "r.json", ["verify", "r.json"],
                lambda context: lambda change: None, base=1, inputs=["p.ngc", "pocket.json"],
                written={"p.ngc": program, "pocket.json": json.dumps(POCKET)})

@@ -182,40 +182,69 @@ TEST(JobsHeat, WaitingPaysWithFloodAndAnIntervalOfFilmsHoldsTheErrorsOfItsEnds) 
 
 TEST(JobsHeat, ThreadsChangeNothing) {
   HeatJob job = job_of();
-  job.threads = 1;
+  job.threads = 1, job.record = true;
   const HeatFound one = run(job);
   const HeatFound& two = usual();
   for (std::size_t i = 0; i < one.walls.size(); ++i) EXPECT_EQ(one.walls[i].error_um, two.walls[i].error_um);
-  EXPECT_EQ(one.work, two.work);
+  EXPECT_EQ(one.work, two.work) << "nor does a record";
+  job.threads = 2;
+  const HeatFound recorded = run(job);
+  EXPECT_EQ(one.record->warmest_k, recorded.record->warmest_k);
+  EXPECT_EQ(one.record->stress_mpa, recorded.record->stress_mpa);
+  EXPECT_EQ(one.record->frames.back().from_above, recorded.record->frames.back().from_above);
 }
 
-/// A temperature of the model itself at this place and time, with the share and the film of job_of().
-MeasuredTemperature from_model(heat::Place at, double seconds, double uncertainty_k) {
-  HeatJob job = job_of();
+TEST(JobsHeat, ARecordHoldsTheExtremesOfTheResult) {
+  HeatJob job = job_of("G4 P20\n");
+  job.record = true;
+  const HeatFound found = run(job);
+  ASSERT_TRUE(found.record);
+  const HeatRecord& r = *found.record;
+  EXPECT_NEAR(*std::ranges::max_element(r.warmest_k), found.middle().warmest_k,
+              1e-6 * found.middle().warmest_k);
+  EXPECT_NEAR(*std::ranges::max_element(r.stress_mpa), found.middle().stress_mpa,
+              1e-6 * found.middle().stress_mpa);
+  EXPECT_LE(r.frames.size(), kMostHeatFrames + 1);
+  EXPECT_NEAR(r.frames.back().seconds, found.source.work.seconds, 1e-9);
+  // The last moment is the end, seen from above and from the front.
+  const float end = *std::ranges::max_element(r.at_end_k);
+  EXPECT_EQ(*std::ranges::max_element(r.frames.back().from_above), end);
+  EXPECT_EQ(*std::ranges::max_element(r.frames.back().from_front), end);
+  // What is cut away has no temperature, and the floor below is seen in its place.
+  const auto at = found.grid.voxel_of({10, 8, -1});
+  EXPECT_LT(r.at_end_k[found.grid.cell(at[0], at[1], at[2])], 0);
+  EXPECT_GE(r.frames.back().from_above[at[1] * r.count[0] + at[0]], 0);
+  // A free block that is warm has grown: its sides lie farther from each other.
+  EXPECT_GT(r.moved[found.grid.count[0]].x - r.moved[0].x, 0);
+  ASSERT_EQ(r.moved.size(), (found.grid.count[0] + 1) * (found.grid.count[1] + 1));
+}
+
+/// A temperature of the model itself at this place and time, of a job whose share is 0.1.
+MeasuredTemperature from_model(HeatJob job, heat::Place at, double seconds, double uncertainty_k) {
   job.measured = {{job.ambient_c, at, seconds, 1000}};
   const HeatFound found = run(job);
   return {job.ambient_c + 0.1 * found.cases[0].rises_k[0], at, seconds, uncertainty_k};
 }
 
 TEST(JobsHeat, AMeasuredTemperatureFindsTheShareThatMadeIt) {
-  const MeasuredTemperature m = from_model({10, 8, -6}, 20, 0.05);
-  ASSERT_GT(m.celsius, 20.3);
   HeatJob job = job_of();
   // The force is known, so that the share alone is in doubt.
   job.material.values[static_cast<std::size_t>(heat::Property::cutting_force)] = {400, 400};
   job.material.values[static_cast<std::size_t>(heat::Property::force_exponent)] = {0.25, 0.25};
-  const double sharp = run(job).cases[0].warmest_k / usual().cases[0].warmest_k;
+  const HeatFound truth = run(job);
+  const MeasuredTemperature m = from_model(job, {10, 8, -6}, 12, 0.05);
+  ASSERT_GT(m.celsius, 20.3);
   job.material.values[static_cast<std::size_t>(heat::Property::share)] = {0.01, 0.9};
   job.measured = {m};
   const HeatFound found = run(job);
-  const double part = 0.05 / (m.celsius - 20), share = 0.1 / sharp;
-  EXPECT_NEAR(found.share.least, (1 - part) * share, 1e-9);
-  EXPECT_NEAR(found.share.greatest, (1 + part) * share, 1e-9);
+  const double part = 0.05 / (m.celsius - 20);
+  EXPECT_NEAR(found.share.least, (1 - part) * 0.1, 1e-9);
+  EXPECT_NEAR(found.share.greatest, (1 + part) * 0.1, 1e-9);
   EXPECT_NEAR(found.heat_parts.least, 1 - part, 1e-9);
   EXPECT_NEAR(found.heat_parts.greatest, 1 + part, 1e-9);
   // The errors at the middles are those of the share that was true.
   for (std::size_t i = 0; i < found.walls.size(); ++i)
-    EXPECT_NEAR(found.walls[i].error_um, usual().walls[i].error_um, 1e-6);
+    EXPECT_NEAR(found.walls[i].error_um, truth.walls[i].error_um, 1e-6);
   EXPECT_NEAR(found.sensitivity.share.least, (1 - part) * found.errors.largest(), 1e-9);
 }
 
@@ -224,7 +253,7 @@ TEST(JobsHeat, AMeasuredTemperatureNarrowsTheHeatThoughTheForceIsInDoubt) {
   job.film = {5, 50};
   job.material = material(0.05, 0.2);
   const HeatFound wide = run(job);
-  job.measured = {from_model({10, 8, -6}, 20, 0.1), from_model({3, 20, -5}, 15, 0.1)};
+  job.measured = {from_model(job_of(), {10, 8, -6}, 12, 0.1), from_model(job_of(), {3, 20, -5}, 11, 0.1)};
   const HeatFound found = run(job);
   const double heat = 0.1 * found.source.work.work_j.middle();
   EXPECT_LE(found.heat_j.least, heat);
@@ -253,13 +282,13 @@ TEST(JobsHeat, MeasurementsThatCannotBeAreToldInOneSentence) {
   EXPECT_NE(said({{25, {10, 3.2, -2}, 10, 2.5}}).find("the place is in the air"), std::string::npos);
   EXPECT_NE(said({{25, {10, 8, -6}, 0, 2.5}}).find("no heat of the program has come there"),
             std::string::npos);
-  EXPECT_NE(said({{60, {10, 8, -6}, 20, 2.5}}).find("by what is stated"), std::string::npos);
-  const MeasuredTemperature a = from_model({10, 8, -6}, 20, 0.02);
+  EXPECT_NE(said({{60, {10, 8, -6}, 12, 2.5}}).find("by what is stated"), std::string::npos);
+  const MeasuredTemperature a = from_model(job_of(), {10, 8, -6}, 12, 0.02);
   MeasuredTemperature b = a;
   b.celsius += 0.1;
   EXPECT_NE(said({a, b}).find("leave out the one that is wrong"), std::string::npos) << said({a, b});
   // A place on the floor, on a wall and on the stock's side still stands.
-  EXPECT_EQ(said({{21, {10, 8, -4}, 20, 20}, {21, {10, 0, -2}, 20, 20}, {21, {30, 8, -2}, 20, 20}}), "");
+  EXPECT_EQ(said({{21, {10, 8, -4}, 12, 20}, {21, {10, 0, -2}, 12, 20}, {21, {30, 8, -2}, 12, 20}}), "");
 }
 
 TEST(JobsHeat, AnOutlineOfABlockIsTheBlock) {
@@ -273,7 +302,8 @@ TEST(JobsHeat, AnOutlineOfABlockIsTheBlock) {
   const HeatFound found = run(job);
   ASSERT_EQ(found.walls.size(), usual().walls.size());
   for (std::size_t i = 0; i < found.walls.size(); ++i)
-    EXPECT_NEAR(found.walls[i].error_um, usual().walls[i].error_um, 1e-4);
+    // Displacements are solved to a part of the load alone.
+    EXPECT_NEAR(found.walls[i].error_um, usual().walls[i].error_um, 5e-3 * found.errors.largest());
   EXPECT_NEAR(found.book.lost, usual().book.lost, 1e-4 * usual().book.lost);
 }
 

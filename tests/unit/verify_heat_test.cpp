@@ -66,7 +66,7 @@ std::vector<verify::Document> files_of(const jobs::HeatResultJob& job) {
 /// With a temperature of the model itself, which narrows the heat.
 jobs::HeatResultJob measured_job() {
   jobs::HeatResultJob job = job_of(0.05, 0.2);
-  job.heat.measured = {{20, {10, 8, -7}, 15, 1000}};
+  job.heat.measured = {{20, {10, 8, -7}, 12, 1000}};
   const auto rises = jobs::heat_result(job).value().found.middle().rises_k;
   job.heat.measured[0].celsius += 0.1 * rises[0];
   job.heat.measured[0].uncertainty_k = 0.02 * rises[0];

@@ -3,14 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
+#include <utility>
 
 #include "earlier_programs.hpp"
 #include "interrupt.hpp"
 #include "lekalo/disk/files.hpp"
 #include "lekalo/jobs/heat_result.hpp"
+#include "lekalo/jobs/heat_words.hpp"
 #include "outputs.hpp"
 #include "summary.hpp"
 
@@ -23,11 +23,17 @@ Result<void> check_paths(const HeatOptions& o) {
   std::vector<NamedPath> inputs{{"program", o.program}, {"--pocket", o.pocket}};
   if (!o.stock.empty()) inputs.push_back({"--stock", o.stock});
   for (const EarlierFile& file : o.after) inputs.push_back({"--after", file.path});
-  return check_outputs({{"-o", o.output}, {"--picture", o.picture}}, inputs);
+  return check_outputs({{"-o", o.output},
+                        {"--picture", o.picture},
+                        {"--maps", o.maps},
+                        {"--report", o.report},
+                        {"--animation", o.animation}},
+                       inputs);
 }
 
 Result<jobs::HeatResultJob> read_job(const HeatOptions& o) {
-  jobs::HeatResultJob job{o.job, jobs::picture_form(o.picture)};
+  jobs::HeatResultJob job{o.job, jobs::picture_form(o.picture), jobs::picture_form(o.maps),
+                          jobs::picture_form(o.report), !o.animation.empty()};
   LEKALO_TRY(job.heat.material, heat::material_of(o.material));
   LEKALO_TRY(job.heat.film, heat::film_of(o.cooling.empty() ? "dry" : o.cooling));
   jobs::HeatSourceJob& source = job.heat.source;
@@ -43,65 +49,17 @@ Result<jobs::HeatResultJob> read_job(const HeatOptions& o) {
   return job;
 }
 
-/// Two figures, or one where both are told by the same.
-std::string between(const char* form, const Interval& value) {
-  const std::string least = fmt::format(fmt::runtime(form), value.least),
-                    greatest = fmt::format(fmt::runtime(form), value.greatest);
-  return least == greatest ? least : least + " to " + greatest;
-}
-
 /// Rounds to hundredths, and to no -0.
 double hundredths(double um) { return std::round(100 * um) / 100 + 0.0; }
-
-/// Rounds away from 0, so that what is below it may be left alone.
-double up(double um) { return std::ceil(10 * um) / 10; }
-
-/// A scaling pays where it takes off a fifth at least of the largest error at the worst corner.
-std::string decision(const jobs::HeatFound& found) {
-  constexpr double kPays = 0.8;
-  const double before = found.largest_um.greatest, after = found.scaled_over.largest.greatest;
-  std::string text = fmt::format("Where walls may lie {:.1f} um off, leave it.\n", up(before));
-  if (!(before > 0)) return text;
-  const jobs::UniformScaling& s = found.scaling;
-  const std::string scaling = fmt::format(
-      "scaling the program by {:.6f} about X {:.3f} Y {:.3f} with a shift of X {:+.2f} Y {:+.2f} um",
-      s.factor, s.centre[0], s.centre[1], s.shift_um[0], s.shift_um[1]);
-  if (after <= kPays * before)
-    text += fmt::format("Else {} leaves {} um: that is plain growth, and a control can do it.\n", scaling,
-                        between("{:.1f}", found.scaled_over.largest));
-  else
-    text += fmt::format(
-        "Do not scale by this alone: {} may leave {:.1f} um; state the share, the force or the\n"
-        "cooling more closely, or cool more.\n",
-        scaling, up(after));
-  return text;
-}
 
 /// Says how much measured temperatures leave of the share.
 std::string calibrated(const jobs::HeatJob& job, const jobs::HeatFound& found) {
   if (job.measured.empty()) return {};
   const Interval stated = job.material[heat::Property::share];
   return fmt::format("  measured             leaves {} of the stated share of {}, and {} J of {} J\n",
-                     between("{:.3g}", found.share), between("{:.3g}", stated),
-                     between("{:.0f}", found.heat_j), between("{:.0f}", found.source.work.into_workpiece_j));
-}
-
-/// A wait pays where it is no longer than a minute or a quarter of the program.
-std::string waiting(const jobs::HeatFound& found) {
-  constexpr double kMinute = 60, kPart = 0.25;
-  const auto half = jobs::waits_over(found.cases, &jobs::HeatCase::half_s),
-             tenth = jobs::waits_over(found.cases, &jobs::HeatCase::tenth_s);
-  const auto told = [](const std::array<std::optional<double>, 2>& wait) {
-    if (!wait[0]) return std::string("more than a day");
-    if (!wait[1]) return fmt::format("{:.0f} s or more", *wait[0]);
-    return between("{:.0f}", {*wait[0], *wait[1]}) + " s";
-  };
-  const double worth = std::max(kMinute, kPart * found.source.work.seconds);
-  const char* const pays = tenth[1] && *tenth[1] <= worth   ? "that pays before a finishing pass"
-                           : tenth[0] && *tenth[0] <= worth ? "that may pay before a finishing pass"
-                                                            : "waiting does not pay";
-  return fmt::format("  cooling down         to half in {}, to a tenth in {}: {}\n", told(half), told(tenth),
-                     pays);
+                     jobs::between("{:.3g}", found.share), jobs::between("{:.3g}", stated),
+                     jobs::between("{:.0f}", found.heat_j),
+                     jobs::between("{:.0f}", found.source.work.into_workpiece_j));
 }
 
 std::string words_of(const jobs::HeatResultJob& job, const jobs::HeatResult& made) {
@@ -113,8 +71,8 @@ std::string words_of(const jobs::HeatResultJob& job, const jobs::HeatResult& mad
       "When the workpiece is cold, walls lie {:+.2f} to {:+.2f} um from their places, {:+.2f} in the mean\n"
       "(below 0: the pocket is too small); the largest error is {} um over share, force and cooling.\n",
       hundredths(found.errors.least), hundredths(found.errors.most), hundredths(found.errors.mean),
-      between("{:.2f}", found.largest_um));
-  text += decision(found);
+      jobs::between("{:.2f}", found.largest_um));
+  for (const std::string& sentence : jobs::heat_decision(found)) text += sentence + "\n";
   const double balance = found.book.in > 0 ? found.book.in : 1,
                of_yield = 100 / job.heat.material[heat::Property::yield].least;
   text += fmt::format(
@@ -126,17 +84,19 @@ std::string words_of(const jobs::HeatResultJob& job, const jobs::HeatResult& mad
       "  largest error by     share {}, force {}, film {} um, each by itself\n"
       "  stress               {} MPa by von Mises, {} % of the yield stress, at X {:.1f} Y {:.1f} Z {:.1f}\n"
       "  places of walls      {}, and {} that the program does not cut\n",
-      work.seconds, work.cutting_seconds, between("{:.0f}", work.work_j), work.volume_mm3,
-      between("{:.0f}", work.greatest_power_w), between("{:.0f}", found.heat_j),
+      work.seconds, work.cutting_seconds, jobs::between("{:.0f}", work.work_j), work.volume_mm3,
+      jobs::between("{:.0f}", work.greatest_power_w), jobs::between("{:.0f}", found.heat_j),
       100 * found.book.stored / balance, 100 * found.book.lost / balance, 100 * found.book.removed / balance,
-      between("{:.3g}", found.warmest_k), job.heat.material.name, job.heat.material.limit_c(),
-      between("{:.2f}", found.sensitivity.share), between("{:.2f}", found.sensitivity.force),
-      between("{:.2f}", found.sensitivity.film), between("{:.3g}", found.stress_mpa),
-      between("{:.0f}", {found.stress_mpa.least * of_yield, found.stress_mpa.greatest * of_yield}),
+      jobs::between("{:.3g}", found.warmest_k), job.heat.material.name, job.heat.material.limit_c(),
+      jobs::between("{:.2f}", found.sensitivity.share), jobs::between("{:.2f}", found.sensitivity.force),
+      jobs::between("{:.2f}", found.sensitivity.film), jobs::between("{:.3g}", found.stress_mpa),
+      jobs::between("{:.0f}", {found.stress_mpa.least * of_yield, found.stress_mpa.greatest * of_yield}),
       found.middle().stress_at.x, found.middle().stress_at.y, found.middle().stress_at.z, found.walls.size(),
       found.uncut);
   text += calibrated(job.heat, found);
-  return text + waiting(found) +
+  const jobs::HeatWait wait = jobs::heat_wait(found);
+  text += fmt::format("  cooling down         {}: {}\n", wait.lasts, wait.verdict);
+  return text +
          "All of this is computed and not proved. The machine's growth, residual stress and deflection by "
          "force\n"
          "are not modelled: docs/design/heat-walls.md\n";
@@ -150,7 +110,11 @@ Result<int> run_heat(const HeatOptions& o) {
   LEKALO_TRY(const jobs::HeatResult made, jobs::heat_result(job, progress_lines()));
   disk::AtomicFiles files;
   if (!o.output.empty()) LEKALO_CHECK(files.add(o.output, made.json));
-  if (!o.picture.empty()) LEKALO_CHECK(files.add(o.picture, made.picture));
+  for (const auto& [path, bytes] : {std::pair{&o.picture, &made.picture},
+                                    {&o.maps, &made.maps},
+                                    {&o.report, &made.report},
+                                    {&o.animation, &made.animation}})
+    if (!path->empty()) LEKALO_CHECK(files.add(*path, *bytes));
   LEKALO_CHECK(files.commit());
   if (o.json) LEKALO_CHECK(print(made.json));
   tell(words_of(job, made));

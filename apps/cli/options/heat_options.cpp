@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <utility>
 
 #include "after_words.hpp"
 #include "control_word.hpp"
 #include "lekalo/heat/material.hpp"
 #include "lekalo/heat/stock.hpp"
+#include "lekalo/jobs/picture_form.hpp"
 #include "option_forms.hpp"
 #include "option_words.hpp"
 
@@ -51,7 +53,7 @@ struct HeatWords {
   std::string material, wear, cooling, hold, datum, ambient, voxel;
   std::array<std::string, heat::kProperties> figures;
   std::vector<std::string> after, measured;
-  std::string output, picture;
+  std::string output, picture, maps, report, animation;
   bool json = false;
 };
 
@@ -160,8 +162,14 @@ Result<Command> to_heat(const HeatWords& w) {
   HeatOptions o;
   o.program = w.program, o.pocket = w.pocket, o.output = w.output, o.json = w.json, o.cooling = w.cooling;
   o.picture = w.picture.empty() ? picture_beside(w.output) : w.picture;
-  read.require(w.picture.empty() || w.picture.ends_with(".svg") || w.picture.ends_with(".png"),
-               "--picture " + w.picture + ": the name has to end in .svg or .png");
+  o.maps = w.maps, o.report = w.report, o.animation = w.animation;
+  for (const auto& [option, name] : {std::pair{"--picture ", &w.picture}, {"--maps ", &w.maps}})
+    read.require(name->empty() || name->ends_with(".svg") || name->ends_with(".png"),
+                 option + *name + ": the name has to end in .svg or .png");
+  read.require(w.report.empty() || jobs::picture_form(w.report).has_value(),
+               "--report " + w.report + ": the name has to end in .svg, .pdf or .png");
+  read.require(w.animation.empty() || w.animation.ends_with(".html"),
+               "--animation " + w.animation + ": the name has to end in .html");
   read_stock_words(read, w, o);
   read_measured(read, w.measured, o.job);
   verify::SimulateOptions& machining = o.job.source.machining;
@@ -229,6 +237,9 @@ Typed add_heat_form(Form& form) {
   add("--control", w.control, control_list(), "Whose words the program has [linuxcnc]");
   add("--picture", w.picture, "FILE",
       "Draw the errors of the walls (.svg or .png) [beside the result, .svg]");
+  add("--maps", w.maps, "FILE", "Draw temperature, stress and displacement (.svg or .png)");
+  add("--report", w.report, "FILE", "Write one page to decide by and to file (.svg, .pdf or .png)");
+  add("--animation", w.animation, "FILE", "Write a page that plays the temperatures (.html)");
   add("-o,--output", w.output, "FILE", "Write the result as JSON");
   add("--json", w.json, "Print the result as JSON on stdout");
   const OptionAdder figures(form, "Figures of the material: one, or two as in 1..2");

@@ -115,8 +115,8 @@ struct HeatOptions {
   std::string stock;  ///< the file of its outline; empty for a block
   std::vector<EarlierFile> after;
   heat::MaterialWords material;
-  std::string cooling;          ///< empty: dry
-  std::string output, picture;  ///< may be empty
+  std::string cooling;                                   ///< empty: dry
+  std::string output, picture, maps, report, animation;  ///< may be empty
   bool json = false;
 };
 

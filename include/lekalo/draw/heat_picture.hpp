@@ -19,8 +19,9 @@ struct HeatColumn {
 
 /// The walls of a pocket, and how far heat has them off.
 struct HeatPicture {
-  std::string name;  ///< UTF-8
-  geom::Box stock;
+  std::string name;                   ///< UTF-8
+  geom::Box stock;                    ///< the block, or the box about its outline
+  std::vector<geom::Region> outline;  ///< empty for a block
   std::vector<geom::Region> pockets;
   std::vector<HeatColumn> columns;   ///< along the walls, one contour after the other
   double spacing = 0, height = 0;    ///< of places along the wall, and up it, mm

@@ -12,6 +12,7 @@
 #include "lekalo/heat/conduction.hpp"
 #include "lekalo/heat/expansion.hpp"
 #include "lekalo/heat/material.hpp"
+#include "lekalo/jobs/heat_record.hpp"
 #include "lekalo/jobs/heat_source.hpp"
 #include "lekalo/jobs/phases.hpp"
 
@@ -37,6 +38,7 @@ struct HeatJob {
   double pitch = 2;       ///< of voxels, mm
   double ambient_c = 20;  ///< degrees Celsius
   std::vector<MeasuredTemperature> measured;
+  bool record = false;  ///< keeps what pictures show of all voxels: 12 bytes each, and the frames
   unsigned threads = kUsualThreads;
 };
 
@@ -122,8 +124,9 @@ struct HeatFound {
   heat::Interval warmest_k;
   /// Stress by von Mises, when the tool was beside walls.
   heat::Interval stress_mpa;
-  heat::HeatBook book;      ///< at the middles, at the end of the program
-  double not_placed_j = 0;  ///< heat of cuts about which no material is left, at the middles
+  heat::HeatBook book;               ///< at the middles, at the end of the program
+  double not_placed_j = 0;           ///< heat of cuts about which no material is left, at the middles
+  std::optional<HeatRecord> record;  ///< where it was asked for
   std::uint64_t work = 0;
 
   /// The case of the middle film.

@@ -15,7 +15,10 @@ namespace lekalo::jobs {
 /// A job whose result is written and drawn.
 struct HeatResultJob {
   HeatJob heat;
-  std::optional<PictureForm> picture;  ///< SVG or PNG
+  std::optional<PictureForm> picture;  ///< SVG or PNG, of the errors of walls
+  std::optional<PictureForm> maps;     ///< SVG or PNG, of temperature, stress and displacement
+  std::optional<PictureForm> report;
+  bool animation = false;
 };
 
 struct HeatResult {
@@ -23,8 +26,9 @@ struct HeatResult {
   /// Sentences about temperatures beyond the material's limit, and about what the programs leave to the
   /// control.
   std::vector<std::string> warnings;
-  std::string json;     ///< format lekalo-heat (docs/formats.md); the checker refutes nothing of it
-  std::string picture;  ///< SVG or PNG; empty where not asked for
+  std::string json;  ///< format lekalo-heat (docs/formats.md); the checker refutes nothing of it
+  /// SVG or PNG, a report in its form, a page of HTML; empty where not asked for.
+  std::string picture, maps, report, animation;
 };
 
 /// Computes heat() and puts its document before the checker. Errors, phases and cost are those of heat();

@@ -9,6 +9,7 @@
 #include "draw/paper/base64.hpp"
 #include "draw/paper/colour_scale.hpp"
 #include "draw/paper/printed_number.hpp"
+#include "draw/paper/script_text.hpp"
 #include "lekalo/draw/solid_picture.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "page_files.hpp"
@@ -20,15 +21,6 @@ namespace {
 using solid::Vector;
 
 constexpr double kSteps = 65'535;  ///< of the largest side of the box; for showing alone
-
-/// JSON that may stand in a script: no tag ends or begins in it, whatever the text says.
-std::string script_string(std::string_view text) {
-  std::string json;
-  for (const char c : io::json_string(text)) json += c == '<' ? std::string("\\u003c") : std::string(1, c);
-  return json;
-}
-
-std::string hex(Colour c) { return fmt::format("\"#{:02x}{:02x}{:02x}\"", c.red, c.green, c.blue); }
 
 std::string vector(Vector v) { return fmt::format("[{},{},{}]", v.x, v.y, v.z); }
 
@@ -65,18 +57,14 @@ class Page {
     const auto& files = solid_page_files();
     std::string page(files.at("page.html"));
     // From the last place to the first: a name that looks like one of the places is not taken for it.
-    put(page, "/* page.js */", files.at("page.js"));
-    put(page, "\"the scene\"", json());
-    put(page, "/* page.css */", files.at("page.css"));
-    put(page, "the title", io::xml_text(io::file_name(scene_.part_name)));
+    put_text(page, "/* page.js */", files.at("page.js"));
+    put_text(page, "\"the scene\"", json());
+    put_text(page, "/* page.css */", files.at("page.css"));
+    put_text(page, "the title", io::xml_text(io::file_name(scene_.part_name)));
     return page;
   }
 
  private:
-  static void put(std::string& page, std::string_view place, std::string_view text) {
-    page.replace(page.find(place), place.size(), text);
-  }
-
   void field(const char* name, const std::string& value) {
     text_ += fmt::format("{}\"{}\":{}", text_.empty() ? "{" : ",\n", name, value);
   }
@@ -92,7 +80,7 @@ class Page {
     field("part", script_string(io::file_name(scene_.part_name)));
     field("blank", script_string(io::file_name(scene_.blank_name)));
     field("status", script_string(scene_.status));
-    field("statusColour", hex(colour_of_status(scene_.status)));
+    field("statusColour", script_colour(colour_of_status(scene_.status)));
     field("method", script_string(scene_.method));
     field("clearance", script_string(clearance_text(scene_, look_)));
     field("sticksOut", scene_.placement.inside ? "false" : "true");
@@ -102,10 +90,10 @@ class Page {
     list("notes", scene_.notes, script_string);
     write_scale();
     list("key", key_of(scene_, look_), [](const SolidKey& key) {
-      return fmt::format("[{},{}]", hex(key.colour), script_string(key.words));
+      return fmt::format("[{},{}]", script_colour(key.colour), script_string(key.words));
     });
-    field("plainPart", hex(kPlainPart));
-    field("unknownColour", hex(kUnknownGlass));
+    field("plainPart", script_colour(kPlainPart));
+    field("unknownColour", script_colour(kUnknownGlass));
     field("extent", vector(box_.high - box_.low));
     field("step", fmt::format("{}", step_));
     field("towards", vector(towards));
@@ -117,7 +105,7 @@ class Page {
 
   void write_scale() {
     std::string palette;
-    for (int k = 0; k < kColourSteps; ++k) palette += (k == 0 ? "" : ",") + hex(scale_colour(k));
+    for (int k = 0; k < kColourSteps; ++k) palette += (k == 0 ? "" : ",") + script_colour(scale_colour(k));
     field("palette", "[" + palette + "]");
     ScaleTicks scale;
     if (!scene_.allowances.empty()) scale = scale_ticks(look_.range, 52, 2.7);

@@ -12,6 +12,7 @@
 
 #include "heat_border.hpp"
 #include "heat_measured.hpp"
+#include "heat_recorder.hpp"
 #include "heat_walls.hpp"
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/stop.hpp"
@@ -97,7 +98,10 @@ class Follower {
       for (const double at : visits[i]) span_of(at).walls.emplace_back(i, at);
   }
 
-  Result<Run> run(double film, const ProgressListener& progress) const {
+  [[nodiscard]] std::size_t steps() const { return spans_.size(); }
+
+  /// \param recorder  may be null
+  Result<Run> run(double film, const ProgressListener& progress, HeatRecorder* recorder) const {
     heat::Body body(
         found_.grid, border_.is_block() ? std::function<double(Place)>{}
                                         : [&](Place p) { return border_.inside(p.x, p.y) + kOnBorder; });
@@ -121,10 +125,12 @@ class Follower {
       const std::vector<double> temperatures = conduction.temperatures();
       run.warmest_k = std::max(run.warmest_k, *std::ranges::max_element(temperatures));
       rises.take(body, temperatures, span.begin, span.end);
+      if (recorder != nullptr) recorder->step(body, temperatures, span.end);
       if (span.walls.empty()) continue;
       expansion.follow(body);
       LEKALO_CHECK(expansion.solve(temperatures, kSolved));
       const std::vector<double> stress = expansion.mises();
+      if (recorder != nullptr) recorder->stress(stress);
       const auto most = std::ranges::max_element(stress);
       if (*most > run.stress_mpa)
         run.stress_mpa = *most, run.stress_seconds = span.end,
@@ -139,9 +145,17 @@ class Follower {
       }
     }
     run.rises_k = rises.found();
+    run.work = expansion.work();
+    // A picture's displacement is no part of the work of the result, which is the same without it.
+    if (recorder != nullptr) {
+      const std::vector<double> temperatures = conduction.temperatures();
+      expansion.follow(body);
+      LEKALO_CHECK(expansion.solve(temperatures, kSolved));
+      recorder->end(body, temperatures, expansion);
+    }
     run.book = conduction.book();
     if (film > 0) LEKALO_CHECK(cool_down(conduction, run));  // else it never does
-    run.work = conduction.work() + expansion.work();
+    run.work += conduction.work();
     return run;
   }
 
@@ -382,8 +396,11 @@ Result<HeatFound> heat(const HeatJob& job, const PhaseListener& phases) {
   const Follower follower(job, found, walls.visits);
   std::vector<Run> runs;
   std::vector<std::vector<double>> rises;
+  std::optional<HeatRecorder> recorder;
+  if (job.record) recorder.emplace(found.grid, follower.steps());
   for (const auto& [film, words] : films) {
-    LEKALO_TRY(Run run, follower.run(film, begin_phase(phases, words)));
+    const bool usual = runs.size() == films.size() / 2 && recorder;
+    LEKALO_TRY(Run run, follower.run(film, begin_phase(phases, words), usual ? &*recorder : nullptr));
     found.work += run.work;
     rises.push_back(run.rises_k);
     runs.push_back(std::move(run));
@@ -394,6 +411,10 @@ Result<HeatFound> heat(const HeatJob& job, const PhaseListener& phases) {
   for (std::size_t i = 0; i < films.size(); ++i)
     found.cases.push_back(case_of(runs[i], films[i].first, heat.middle_share, found.walls));
   take(runs[films.size() / 2], found);
+  if (recorder) {
+    found.record = std::move(*recorder).take();
+    found.record->scale(heat.middle_share);
+  }
   found.sensitivity = sensitivity_of(found);
   if (const double least = job.ambient_c + found.warmest_k.least; least > job.material.limit_c())
     return failure(ErrorCode::bad_input,

@@ -16,25 +16,25 @@ std::string range(const char* form, const heat::Interval& value) {
   return fmt::format(fmt::runtime(form), value.least, value.greatest);
 }
 
-/// Places of one station follow one another, from above downwards.
-std::vector<draw::HeatColumn> columns_of(const std::vector<WallPoint>& walls) {
+}  // namespace
+
+std::vector<draw::HeatColumn> heat_columns(const std::vector<WallPoint>& walls,
+                                           const std::vector<double>& errors_um) {
   std::vector<draw::HeatColumn> columns;
-  for (const WallPoint& w : walls) {
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const WallPoint& w = walls[i];
     const geom::Point at{w.x, w.y}, outward{w.outward[0], w.outward[1]};
     if (columns.empty() || columns.back().at != at) columns.push_back({at, outward, {}, {}});
-    columns.back().z.push_back(w.z), columns.back().errors_um.push_back(w.error_um);
+    columns.back().z.push_back(w.z), columns.back().errors_um.push_back(errors_um[i]);
   }
   return columns;
 }
 
-/// The distance between the heights of places, or a voxel's where there is one height alone.
 double height_of(const std::vector<draw::HeatColumn>& columns, double pitch) {
   for (const draw::HeatColumn& column : columns)
     if (column.z.size() > 1) return column.z[0] - column.z[1];
   return pitch;
 }
-
-}  // namespace
 
 Result<std::string> drawn_heat(const HeatResultJob& job, const HeatFound& found) {
   if (!job.picture) return std::string();
@@ -47,8 +47,9 @@ Result<std::string> drawn_heat(const HeatResultJob& job, const HeatFound& found)
   picture.name = io::as_utf8(source.program.name.substr(source.program.name.find_last_of('/') + 1));
   const heat::StockBox& box = found.source.stock.box;
   picture.stock = {{box.low_x, box.low_y}, {box.high_x, box.high_y}};
+  if (const auto& read = found.source.stock.read) picture.outline = read->outline.regions;
   picture.pockets = pocket.regions;
-  picture.columns = columns_of(found.walls);
+  picture.columns = heat_columns(found.walls, found.middle().errors_um);
   picture.spacing = job.heat.pitch, picture.height = height_of(picture.columns, job.heat.pitch);
   picture.tool_diameter = source.machining.tool_diameter;
   picture.largest_um = std::max(found.errors.largest(), 1e-3);

@@ -4,6 +4,7 @@
 
 #include "heat_document.hpp"
 #include "heat_picture.hpp"
+#include "heat_scene.hpp"
 #include "lekalo/verify/claims.hpp"
 
 namespace lekalo::jobs {
@@ -37,7 +38,9 @@ std::vector<verify::Document> files_of(const HeatSourceJob& source) {
 
 Result<HeatResult> heat_result(const HeatResultJob& job, const PhaseListener& phases) {
   HeatResult made;
-  LEKALO_TRY(made.found, heat(job.heat, phases));
+  HeatJob recorded = job.heat;
+  recorded.record = job.maps || job.report || job.animation;
+  LEKALO_TRY(made.found, heat(recorded, phases));
   made.warnings = warnings_of(job.heat, made.found);
   made.json = heat_json(job.heat, made.found, made.warnings);
   const ProgressListener listening = begin_phase(phases, "following the program again");
@@ -46,6 +49,7 @@ Result<HeatResult> heat_result(const HeatResultJob& job, const PhaseListener& ph
   if (!report.findings.empty())
     return failure(ErrorCode::refuted, "the checker refutes the result: " + report.findings.front());
   LEKALO_TRY(made.picture, drawn_heat(job, made.found));
+  LEKALO_CHECK(add_heat_scenes(job, made));
   return made;
 }
 
