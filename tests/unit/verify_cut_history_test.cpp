@@ -149,6 +149,20 @@ TEST(VerifyCutHistory, DwellsAreInTheUnitsOfTheControl) {
   EXPECT_NEAR(seconds("G4 P2000", Control::fanuc), 2, 1e-9);
   EXPECT_NEAR(seconds("G4 X2.", Control::fanuc), 2, 1e-9);
   EXPECT_NEAR(seconds("G4 U2.", Control::fanuc), 2, 1e-9);
+  EXPECT_NEAR(seconds("G4 X2000", Control::fanuc), 2, 1e-9);
+  EXPECT_NEAR(seconds("G4 P2000.", Control::fanuc), 2, 1e-9);
+}
+
+TEST(VerifyCutHistory, AMotionToWhereTheToolIsTakesNoTime) {
+  const std::string first = "G1 X50 F1500\nG4 P2\n", second = "G1 X20\nG4 P4\n";
+  const CutHistory plain = run(kBegin + first + second);
+  const CutHistory with_none = run(kBegin + first + "G1 X50\n" + second + "G1 X20\n");
+  EXPECT_NEAR(with_none.seconds, plain.seconds, 1e-9);
+  ASSERT_EQ(with_none.pieces.size(), plain.pieces.size());
+  for (std::size_t i = 0; i < plain.pieces.size(); ++i) {
+    EXPECT_NEAR(with_none.pieces[i].start, plain.pieces[i].start, 1e-9) << i;
+    EXPECT_NEAR(with_none.pieces[i].seconds, plain.pieces[i].seconds, 1e-9) << i;
+  }
 }
 
 TEST(VerifyCutHistory, ADeeperPassBesideASlotMeetsTwoLayers) {

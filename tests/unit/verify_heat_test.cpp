@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lekalo/jobs/heat_result.hpp"
@@ -13,6 +14,7 @@
 #include "support/json.hpp"
 #include "support/json_paths.hpp"
 #include "support/prepared.hpp"
+#include "verify/heat/cut_work.hpp"
 
 namespace lekalo::verify_heat_test {
 namespace {
@@ -31,6 +33,22 @@ const std::string kRing =
     R"({"units":"mm","outer":[{"arc":{"from":[15,0],"to":[15,0],"centre":[0,0],"ccw":false}}],)"
     R"("islands":[[{"arc":{"from":[7,0],"to":[-7,0],"centre":[0,0],"ccw":true}},)"
     R"({"arc":{"from":[-7,0],"to":[7,0],"centre":[0,0],"ccw":true}}]]})";
+
+/// Corners of the tool's radius, and the same the other way round.
+const std::string kRounded =
+    R"({"units":"mm","outer":[{"line":{"from":[3,0],"to":[17,0]}},)"
+    R"({"arc":{"from":[17,0],"to":[20,3],"centre":[17,3],"ccw":true}},{"line":{"from":[20,3],"to":[20,13]}},)"
+    R"({"arc":{"from":[20,13],"to":[17,16],"centre":[17,13],"ccw":true}},{"line":{"from":[17,16],"to":[3,16]}},)"
+    R"({"arc":{"from":[3,16],"to":[0,13],"centre":[3,13],"ccw":true}},{"line":{"from":[0,13],"to":[0,3]}},)"
+    R"({"arc":{"from":[0,3],"to":[3,0],"centre":[3,3],"ccw":true}}]})";
+const std::string kRoundedBack =
+    R"({"units":"mm","outer":[{"arc":{"from":[3,0],"to":[0,3],"centre":[3,3],"ccw":false}},)"
+    R"({"line":{"from":[0,3],"to":[0,13]}},{"arc":{"from":[0,13],"to":[3,16],"centre":[3,13],"ccw":false}},)"
+    R"({"line":{"from":[3,16],"to":[17,16]}},{"arc":{"from":[17,16],"to":[20,13],"centre":[17,13],"ccw":false}},)"
+    R"({"line":{"from":[20,13],"to":[20,3]}},{"arc":{"from":[20,3],"to":[17,0],"centre":[17,3],"ccw":false}},)"
+    R"({"line":{"from":[17,0],"to":[3,0]}}]})";
+const std::string kDisc =
+    R"({"units":"mm","outer":[{"arc":{"from":[15,0],"to":[15,0],"centre":[0,0],"ccw":true}}]})";
 
 const std::string kProgram =
     "G21 G90 G17\nG0 X3.2 Y3.2 Z5\nG1 Z-4 F200\nG1 X16.8 F600\nG1 Y12.8\nG1 X3.2\nG1 Y3.2\nG1 Y8\nG1 X16.8\n"
@@ -80,6 +98,12 @@ const cases::Prepared<Json> kHonest([] {
 
 Result<verify::ClaimReport> judged(const Json& document, const jobs::HeatResultJob& job) {
   return verify::verify_heat_report({"r.json", document.dump()}, files_of(job));
+}
+
+/// Both of the field and of the middle case's.
+void in_both(Json& document, const std::function<void(Json&)>& change) {
+  change(document);
+  change(document["cases"][1]);
 }
 
 bool refuted(const std::function<void(Json&)>& change) {
@@ -177,6 +201,20 @@ TEST(VerifyHeat, HonestResultsHoldAndWhatIsComputedIsNamed) {
       "I-10 J0\nG0 Z5\n";
   jobs.back().heat.holding.datum = heat::Place{0, 0, 0};
   jobs.push_back(job_of(0.1, 0.2));
+  for (const std::string& pocket : {kRounded, kRoundedBack}) {
+    jobs.push_back(job_of(0.1, 0.2));
+    jobs.back().heat.source.pocket = {"rounded.json", pocket};
+  }
+  jobs.push_back(jobs[4]);
+  jobs.back().heat.source.pocket = {"disc.json", kDisc};
+  // The first film carries nothing off, so that the workpiece does not always cool down; then none does.
+  jobs.push_back(job_of(0.1, 0.2));
+  jobs.back().heat.film = {0, 50};
+  jobs.push_back(job_of(0.1, 0.2));
+  jobs.back().heat.film = {0, 0};
+  // Less heat than a joule.
+  jobs.push_back(job_of(1e-4, 2e-4));
+  jobs.push_back(job_of(0.1, 0.2));
   jobs.back().heat.source.after = {{{"before.ngc", kProgram.substr(0, 70) + "\nG0 Z5\n"}, 5}};
   jobs.push_back(outline_job());
   jobs.push_back(outline_job());
@@ -220,6 +258,17 @@ TEST(VerifyHeat, VoxelsTooSmallForTheWallsAreRefusedAtOnce) {
   const std::string sentence = said([](Json& d) { d["voxel_mm"] = 0.05; });
   EXPECT_NE(sentence.find("walls has no place at"), std::string::npos) << sentence.substr(0, 200);
   EXPECT_LT(std::count(sentence.begin(), sentence.end(), ';'), 400);
+}
+
+TEST(VerifyHeat, AWallOfOnePlaceMoreThanTheLimitIsRefused) {
+  jobs::HeatResultJob job = job_of(0.05, 0.2);
+  job.heat.source.program.bytes = "G21 G90 G17\nG0 X3 Y3 Z5\nG1 Z-0.00001 F200\nG1 Y5 F600\nG0 Z5\n";
+  Json document = *kHonest;
+  // Four walls of 20 and 16 mm, on one height.
+  document["voxel_mm"] = 0.0000719;
+  const auto report = judged(document, job);
+  ASSERT_FALSE(report);
+  EXPECT_NE(report.error().message.find("more than 1000000 places"), std::string::npos);
 }
 
 TEST(VerifyHeat, NoFieldCanBeAbsentOrAnother) {
@@ -307,6 +356,226 @@ TEST(VerifyHeat, LiesThatGoTogetherWithMostOfTheRestAreFound) {
   EXPECT_NE(said([](Json& d) { d["material"]["share"][1] = 0.1; }).find("into_workpiece_j"),
             std::string::npos);
   EXPECT_NE(said([](Json& d) { d["status"] = "proved"; }).find("status"), std::string::npos);
+}
+
+bool says(const std::string& sentences, const std::string& words) {
+  return sentences.find(words) != sentences.npos;
+}
+
+TEST(VerifyHeat, IntervalsOfStatedFiguresAreHeldAtBothEnds) {
+  struct Bounds {
+    const char* path;
+    double least, greatest;
+  };
+  for (const auto& [path, least, greatest] :
+       {Bounds{"wear", 1, 5}, Bounds{"film_w_m2k", 0, 1e5}, Bounds{"material/cutting_force_n_mm2", 1, 1e4},
+        Bounds{"material/force_exponent", 0, 0.6}, Bounds{"material/share", 0, 1},
+        Bounds{"material/conductivity_w_mk", 1e-9, 1e6}, Bounds{"material/yield_mpa", 1, 5000},
+        Bounds{"material/poisson", 0, 0.49}, Bounds{"material/melting_c", 40, 4000}}) {
+    const auto answer = [&](double low, double high) {
+      return said([&](Json& d) { d.at(std::string("/") + path) = Json::array({low, high}); });
+    };
+    const std::string wrong = "is no interval";
+    for (const auto& [low, high] : {std::pair{least, greatest}, {least, least}, {greatest, greatest}})
+      EXPECT_FALSE(says(answer(low, high), wrong)) << path << ' ' << low << ' ' << high;
+    for (const auto& [low, high] : {std::pair{least - 1e-6 * least - 1e-10, greatest},
+                                    {least, greatest * (1 + 1e-9)},
+                                    {greatest, least}})
+      EXPECT_TRUE(says(answer(low, high), wrong)) << path << ' ' << low << ' ' << high;
+  }
+}
+
+TEST(VerifyHeat, WhatStandsForNoToolNoBlockAndNoMaterialIsSaid) {
+  for (const char* key : {"teeth", "spindle_rpm"})
+    EXPECT_TRUE(says(said([&](Json& d) { d[key] = 0; }), "teeth and spindle_rpm are not both above 0"));
+  EXPECT_FALSE(says(said([](Json& d) { d["teeth"] = 1; }), "above 0"));
+  EXPECT_TRUE(says(said([](Json& d) { d["voxel_mm"] = 0; }), "voxel_mm is not above 0"));
+  for (const char* axis : {"0", "1"})
+    EXPECT_TRUE(says(said([&](Json& d) {
+                       d.at(std::string("/stock/low_mm/") + axis) =
+                           double(d.at(std::string("/stock/high_mm/") + axis));
+                     }),
+                     "stock is no block"));
+  EXPECT_TRUE(says(said([](Json& d) { d["stock"]["thickness_mm"] = 0; }), "stock is no block"));
+  EXPECT_TRUE(
+      says(said([](Json& d) { d["material"]["melting_c"] = Json(); }), "neither melting_c nor glass_c"));
+  EXPECT_TRUE(says(said([](Json& d) {
+                     d["material"]["melting_c"] = Json();
+                     d["material"]["glass_c"] = Json::array({100, 120});
+                   }),
+                   "limit_c is 290.85 and is to be 100"));
+}
+
+// What a command line would be told as its own fault is that of the result; what is wrong with a file is said
+// of the file.
+TEST(VerifyHeat, WhatCannotBeFollowedIsSaidOfTheResultOrOfItsProgram) {
+  Json without_tool = *kHonest;
+  without_tool["tool_mm"] = 0;
+  const auto of_the_result = judged(without_tool, job_of(0.05, 0.2));
+  ASSERT_FALSE(of_the_result);
+  EXPECT_EQ(of_the_result.error().code, ErrorCode::bad_input);
+  EXPECT_TRUE(says(of_the_result.error().message, "r.json: a tool diameter of 0"))
+      << of_the_result.error().message;
+  jobs::HeatResultJob other = job_of(0.05, 0.2);
+  other.heat.source.program.bytes = "G21 G90 G17\nG0 Z5\n";
+  const auto of_the_program = judged(*kHonest, other);
+  ASSERT_FALSE(of_the_program);
+  EXPECT_EQ(of_the_program.error().message.rfind("part.ngc: ", 0), 0U) << of_the_program.error().message;
+}
+
+TEST(VerifyHeat, StressesAreInTheStockAndInTheProgram) {
+  EXPECT_TRUE(says(said([](Json& d) { d["cases"][0]["warmest_k"] = -1; }), "or a stress below 0"));
+  EXPECT_TRUE(says(said([](Json& d) { d["cases"][0]["stress_mpa"] = -1; }), "or a stress below 0"));
+  const auto& stock = (*kHonest)["stock"];
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = axis < 2 ? double(stock["low_mm"][axis]) : -double(stock["thickness_mm"]);
+    const double high = axis < 2 ? double(stock["high_mm"][axis]) : 0;
+    const auto outside = [&](double at) {
+      return says(said([&](Json& d) { d["cases"][0]["stress_at_mm"][axis] = at; }), "outside of the stock");
+    };
+    EXPECT_TRUE(outside(low - 0.001) && outside(high + 0.001)) << axis;
+    EXPECT_FALSE(outside(low) || outside(high)) << axis;
+  }
+  const auto late = [](double seconds) {
+    return says(said([&](Json& d) { d["cases"][0]["stress_seconds"] = seconds; }), "outside of the program");
+  };
+  const double end = (*kHonest)["booked"]["seconds"];
+  EXPECT_TRUE(late(-0.001) && late(end + 0.001));
+  EXPECT_FALSE(late(0) || late(end));
+}
+
+TEST(VerifyHeat, WhatCoolsDownComesToAHalfBeforeItComesToATenth) {
+  const auto wrong = [](std::size_t which, Json half, Json tenth) {
+    return says(said([&](Json& d) {
+                  Json& one = d["cases"][which];
+                  one["half_s"] = half, one["tenth_s"] = tenth;
+                  if (which == 0) one["film_w_m2k"] = 0;
+                }),
+                "do not go together");
+  };
+  const Json never;
+  EXPECT_TRUE(wrong(1, never, 5) && wrong(1, 5, 4) && wrong(1, 5, 5) && wrong(1, 0, never) && wrong(1, 0, 5));
+  EXPECT_FALSE(wrong(1, never, never) || wrong(1, 5, never) || wrong(1, 5, 6) || wrong(0, never, never));
+  EXPECT_TRUE(wrong(0, 5, 6));
+}
+
+TEST(VerifyHeat, EachFindingNamesWhatItIsOf) {
+  const auto shift = [](Json& at) { at["uniform_scaling"]["shift_um"][0] = 7; };
+  EXPECT_TRUE(says(said([&](Json& d) { in_both(d, shift); }), "shift_um does not leave the least squares"));
+  const auto factor = [](Json& at) { at["uniform_scaling"]["factor"] = 1.001; };
+  EXPECT_TRUE(says(said([&](Json& d) { in_both(d, factor); }), "factor does not leave the least squares"));
+  EXPECT_TRUE(says(said([](Json& d) { d["walls"][1] = d["walls"][0]; }), "is there twice"));
+  for (const int axis : {0, 1})
+    EXPECT_TRUE(says(said([&](Json& d) {
+                       Json& out = d["walls"][0]["outward"][axis];
+                       out = double(out) + 1.5e-9;
+                     }),
+                     "walls[0].outward is "))
+        << axis;
+}
+
+// The model may lose a thousandth of the heat, and says how much it did.
+TEST(VerifyHeat, AThousandthOfTheHeatMayBeMissingAndIsSaid) {
+  const auto with_missing = [](double part) {
+    return said([&](Json& d) {
+      in_both(d, [&](Json& at) {
+        Json& b = at["heat_balance"];
+        const double stored = double(b["stored_j"]) - part * double(b["in_j"]);
+        b["stored_j"] = stored;
+        b["unaccounted_part"] = part * double(b["in_j"]) / std::max(double(b["in_j"]), stored);
+      });
+    });
+  };
+  EXPECT_FALSE(says(with_missing(5e-4), "heat_balance")) << with_missing(5e-4);
+  EXPECT_TRUE(says(with_missing(2e-3), "is not what is stored, lost and removed"));
+}
+
+// A pass that comes as near to a wall as it has to, but for a tenth of a nanometre, may cut it or not.
+TEST(VerifyHeat, APlaceThatRoundingDecidesMayBeThereOrNot) {
+  jobs::HeatResultJob job = job_of(0.1, 0.1);
+  job.heat.film = {20, 20};
+  job.heat.source.program.bytes = "G21 G90 G17\nG0 X3.0999999999 Y5 Z5\nG1 Z-4 F200\nG1 Y11 F600\nG0 Z5\n";
+  Json document = Json::parse(jobs::heat_result(job).value().json);
+  ASSERT_FALSE(document["walls"].empty());
+  const auto answer = [&] {
+    const auto report = judged(document, job);
+    std::string all;
+    for (const std::string& finding : report.value().findings) all += finding + "; ";
+    return all;
+  };
+  EXPECT_EQ(answer(), "");
+  document["walls"].erase(0);
+  document["cases"][0]["errors_um"].erase(0);
+  EXPECT_FALSE(says(answer(), "which the program")) << answer();
+}
+
+verify::BookedWork booked(const verify::CutPiece& piece) {
+  const verify::CheckedCutting cutting{6, 3, 8000, {100, 100}, {0.1, 0.2}, {1, 1}, {1, 1}};
+  return verify::booked_work({{piece}, 1}, {0, 0, 40, 36, 10}, cutting, 0);
+}
+
+verify::CutPiece straight_down(double x, double y, double depth) {
+  verify::CutPiece down;
+  down.seconds = 1, down.from_x = down.to_x = x, down.from_y = down.to_y = y;
+  down.to_z = -depth, down.floor_area = 10;
+  return down;
+}
+
+// Straight down beside the block: the tool's disc meets it or not.
+TEST(VerifyHeat, AToolBesideTheBlockCutsNothingOfIt) {
+  const auto volume = [](double x, double y) { return booked(straight_down(x, y, 1)).volume_mm3; };
+  for (const auto& [x, y] : {std::pair{-2.0, -2.0}, {-2.5, 18.0}, {18.0, -2.5}, {42.5, 18.0}, {18.0, 38.5}})
+    EXPECT_EQ(volume(x, y), 10) << x << ' ' << y;
+  for (const auto& [x, y] : {std::pair{-2.5, -2.5},
+                             {42.5, 38.5},
+                             {-3.5, 18.0},
+                             {18.0, -3.5},
+                             {43.5, 18.0},
+                             {18.0, 39.5},
+                             {-3.0, 18.0}})
+    EXPECT_EQ(volume(x, y), 0) << x << ' ' << y;
+  // The middle of a ramp counts.
+  verify::CutPiece ramp = straight_down(18, 18, 1);
+  ramp.from_x = -6, ramp.to_x = -1;
+  EXPECT_EQ(booked(ramp).volume_mm3, 0);
+  ramp = straight_down(18, 18, 1);
+  ramp.from_y = -6, ramp.to_y = -1;
+  EXPECT_EQ(booked(ramp).volume_mm3, 0);
+}
+
+/// A millimetre deep along X, 2 mm of it; the engaged arc begins straight up from the middle, in Y.
+verify::CutPiece along(double y, double arc, double from = 1.5707963267948966) {
+  verify::CutPiece across;
+  across.seconds = 1, across.from_x = 10, across.to_x = 12, across.length = 2;
+  across.from_y = across.to_y = y, across.from_z = across.to_z = -1;
+  across.rim.push_back({-1, 0, from, from + arc, 0.5});
+  return across;
+}
+
+TEST(VerifyHeat, WhatIsBelowTheBlockOrTakesNoTimeIsNoCut) {
+  EXPECT_EQ(booked(straight_down(18, 18, 12)).volume_mm3, 100);
+  verify::CutPiece piece = along(18, 1);
+  EXPECT_EQ(booked(piece).volume_mm3, 1);
+  const double work = booked(piece).work_j.greatest;
+  EXPECT_GT(work, 0);
+  piece.rim.push_back({-12, -11, 1, 2, 0.5});
+  piece.rim.push_back({-1, 0, 1, 2, 0});
+  piece.rim.push_back({-1, 0, 1, 1, 0.5});
+  EXPECT_EQ(booked(piece).volume_mm3, 1);
+  EXPECT_EQ(booked(piece).work_j.greatest, work);
+  piece.seconds = 0;
+  EXPECT_EQ(booked(piece).volume_mm3, 0);
+}
+
+// Along the lower side of the block, outside of it: the rim's highest place is what meets it.
+TEST(VerifyHeat, AContactMayCrossTheBordersOfTheBlockByAHundredthOfAMillimetre) {
+  EXPECT_EQ(booked(along(-2.995, 0.001)).volume_mm3, 0);
+  EXPECT_EQ(booked(along(-2.985, 0.001)).volume_mm3, 1);
+  // The arc's end is 3 (1 - cos) lower.
+  EXPECT_EQ(booked(along(-2.985, 0.11)).fault, "");
+  EXPECT_TRUE(says(booked(along(-2.985, 0.14)).fault, "mm beyond the stock"));
+  // A tool that is within the block cuts what its rim meets, on the border too.
+  EXPECT_EQ(booked(along(3, 0.001, -1.5707963267948966)).volume_mm3, 1);
 }
 
 }  // namespace

@@ -112,42 +112,51 @@ TEST(VerifyRims, OfATriangleThatIsHalfInTheRimTheOtherHalfIsLeft) {
   }
 }
 
-// Points of the part are looked at one by one.
-TEST(VerifyRims, WhatIsBeyondIsKeptAndWhatIsInIsTakenOff) {
-  Random random(cases::seed(), 17);
-  for (std::size_t i = 0; i < cases::case_count(12); ++i) {
-    // Faces much smaller than the triangles about them, as large, and of several that meet.
-    const double size = i % 3 == 0 ? 20 : 3;
-    solid::Mesh mesh = i % 2 == 0 ? cases::ring(random, 8, 6, 3, 1) : block({-2, -2, -2}, {2, 2, 2});
-    for (solid::Vector& v : mesh.vertices) v.x = v.x * size / 3 + 50;
-    const SolidMesh part = checked(mesh);
-    std::vector<std::uint32_t> face, others;
-    const auto count = static_cast<std::uint32_t>(part.triangles.size());
-    const auto first = static_cast<std::uint32_t>(random.uniform(0, count - 3));
-    for (std::uint32_t t = 0; t < count; ++t)
-      (t >= first && t < first + 1 + i % 3 ? face : others).push_back(t);
-    const double width = random.uniform(0.05, 1.5);
-    Rims rims(part);
-    rims.add(face, width);
-    const SolidMesh left = rims.rest(others), of_face = part_of(part, face);
-    const PlacedSolid near_face(of_face);
-    EXPECT_LT(rims.off(), 1e-11);
+/// Looks at points of a part one by one.
+void hold_points(std::size_t i, Random& random) {
+  // Faces much smaller than the triangles about them, as large, and of several that meet.
+  const double size = i % 3 == 0 ? 20 : 3;
+  solid::Mesh mesh = i % 2 == 0 ? cases::ring(random, 8, 6, 3, 1) : block({-2, -2, -2}, {2, 2, 2});
+  for (solid::Vector& v : mesh.vertices) v.x = v.x * size / 3 + 50;
+  const SolidMesh part = checked(mesh);
+  std::vector<std::uint32_t> face, others;
+  const auto count = static_cast<std::uint32_t>(part.triangles.size());
+  const auto first = static_cast<std::uint32_t>(random.uniform(0, count - 3));
+  for (std::uint32_t t = 0; t < count; ++t)
+    (t >= first && t < first + 1 + i % 3 ? face : others).push_back(t);
+  const double width = random.uniform(0.05, 1.5);
+  Rims rims(part);
+  rims.add(face, width);
+  const SolidMesh left = rims.rest(others), of_face = part_of(part, face);
+  const PlacedSolid near_face(of_face);
+  EXPECT_LT(rims.off(), 1e-11);
+  for (std::uint32_t piece = 0; piece < left.triangles.size(); ++piece)
+    for (int k = 0; k < 2; ++k)
+      EXPECT_GE(distance_of(point_of(left, piece, random), near_face), kNearly * width - 1e-9) << i;
+  for (const std::uint32_t t : others) {
+    std::vector<std::uint32_t> pieces;
     for (std::uint32_t piece = 0; piece < left.triangles.size(); ++piece)
-      for (int k = 0; k < 2; ++k)
-        EXPECT_GE(distance_of(point_of(left, piece, random), near_face), kNearly * width - 1e-9) << i;
-    for (const std::uint32_t t : others) {
-      std::vector<std::uint32_t> pieces;
-      for (std::uint32_t piece = 0; piece < left.triangles.size(); ++piece)
-        if (left.numbers[piece] == part.numbers[t]) pieces.push_back(piece);
-      const SolidMesh of_triangle = part_of(pieces.empty() ? part : left, pieces.empty() ? face : pieces);
-      const PlacedSolid kept(of_triangle);  // of one of which nothing is left, the face
-      for (int k = 0; k < 8; ++k) {
-        const Near3 p = point_of(part, t, random);
-        if (distance_of(p, near_face) <= width * (1 + 1e-9)) continue;
-        EXPECT_LE(distance_of(p, kept), 1e-9) << i << " triangle " << t;
-      }
+      if (left.numbers[piece] == part.numbers[t]) pieces.push_back(piece);
+    const SolidMesh of_triangle = part_of(pieces.empty() ? part : left, pieces.empty() ? face : pieces);
+    const PlacedSolid kept(of_triangle);  // of one of which nothing is left, the face
+    for (int k = 0; k < 8; ++k) {
+      const Near3 p = point_of(part, t, random);
+      if (distance_of(p, near_face) <= width * (1 + 1e-9)) continue;
+      EXPECT_LE(distance_of(p, kept), 1e-9) << i << " triangle " << t;
     }
   }
+}
+
+TEST(VerifyRims, WhatIsBeyondIsKeptAndWhatIsInIsTakenOff) {
+  Random random(cases::seed(), 17);
+  for (std::size_t i = 0; i < cases::case_count(12); ++i) hold_points(i, random);
+}
+
+// Small enough to be asked for each mutant.
+TEST(VerifyRims, PiecesDeepInARimBetweenTwoTrianglesAreTakenOff) {
+  Random random(3, 17);
+  hold_points(1, random);
+  hold_points(5, random);
 }
 
 }  // namespace

@@ -63,6 +63,9 @@ TEST(SolidChoice, NoMoreIsGivenUpThanIsSaid) {
   EXPECT_EQ(more.told(), "unproved");
   more.give_up = -0.1;
   EXPECT_TRUE(says(more.told(), "bad input")) << more.told();
+  Chosen nothing;
+  nothing.give_up = 0, nothing.margin_found = 0.75;
+  EXPECT_EQ(nothing.told(), "unproved");
 }
 
 TEST(SolidChoice, TheMarginThatWasFoundLiesBetweenThatOfThePoseAndTheBound) {
@@ -213,6 +216,8 @@ TEST(SolidChoice, OthersAreRefused) {
       << other.told();
   Chosen half;
   half.largest = nullptr;
+  EXPECT_TRUE(says(half.told(), "choice needs margin_found and largest")) << half.told();
+  half.largest = 1.2525, half.margin_found = nullptr;
   EXPECT_TRUE(says(half.told(), "choice needs margin_found and largest")) << half.told();
   Chosen none;
   none.inside = false;

@@ -91,8 +91,7 @@ class HeatReport {
     cutting_.diameter = options_.tool_diameter;
     cutting_.teeth = static_cast<double>(fields_.index("teeth"));
     cutting_.spindle_rpm = fields_.number("spindle_rpm");
-    require(options_.tool_diameter > 0 && cutting_.teeth >= 1 && cutting_.spindle_rpm > 0,
-            "tool_mm, teeth and spindle_rpm are not all above 0");
+    require(cutting_.teeth >= 1 && cutting_.spindle_rpm > 0, "teeth and spindle_rpm are not both above 0");
     cutting_.wear = read_range(fields_, "wear", 1, 5);
     film_ = read_range(fields_, "film_w_m2k", 0, 1e5);
     ambient_ = fields_.number("ambient_c");
@@ -560,7 +559,7 @@ class HeatReport {
       const bool right = said.size() == 2 && said[0].has_value() == std::isfinite(least) &&
                          (!said[0] || *said[0] == least) && said[1].has_value() == always &&
                          (!said[1] || *said[1] == greatest);
-      if (complaint_.empty() && !right) find(f.name(key) + " is not that of the cases");
+      if (!right) find(f.name(key) + " is not that of the cases");
     }
     f.refuse_others();
   }

@@ -39,7 +39,7 @@ class Booking {
     CheckedRange work;
     double volume = 0;
     const auto add = [&](double cut, double chip) {
-      if (!(cut > 0 && chip > 0)) return;
+      if (!(cut > 0)) return;
       const double mild = std::pow(chip, -c_.exponent.least), steep = std::pow(chip, -c_.exponent.greatest);
       work.least += c_.force.least * std::min(mild, steep) * c_.wear.least * cut / 1000;
       work.greatest += c_.force.greatest * std::max(mild, steep) * c_.wear.greatest * cut / 1000;
@@ -52,8 +52,7 @@ class Booking {
         add(layer.width * high * piece.length, piece.length / teeth * layer.width / (radius_ * arc));
     }
     const double drop = piece.from_z - std::max(piece.to_z, bottom_);
-    if (piece.floor_area > 0 && drop > 0 && middle > -radius_)
-      add(piece.floor_area * drop, (piece.from_z - piece.to_z) / teeth);
+    if (middle > -radius_) add(piece.floor_area * drop, (piece.from_z - piece.to_z) / teeth);
     if (!(volume > 0)) return;
     booked_.cutting_seconds += piece.seconds, booked_.volume_mm3 += volume;
     booked_.work_j.least += work.least, booked_.work_j.greatest += work.greatest;
