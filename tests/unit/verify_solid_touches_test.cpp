@@ -175,7 +175,7 @@ TEST(SolidTouches, TermsAreOfTouchesAndBallsThatAreThere) {
   const auto term = [](const Json& one) {
     return told([&](Json& t) {
       cut_both(t);
-      t["cuts"][0]["terms"] = {one};
+      t["cuts"][0]["terms"] = Json::array({one});
     });
   };
   EXPECT_TRUE(says(term({2, 0, 1}), "cuts[0] has a term of touch 2 and ball 0, which are not there"));
@@ -220,7 +220,7 @@ TEST(SolidTouches, BallsHaveNoSurfaceInside) {
 std::string centre(double ball, double x, const Json& one, bool above, double at) {
   return told(
       [&](Json& t) {
-        t["ball"] = ball, t["x"] = {-1.5, 1.5}, t["balls"] = {one};
+        t["ball"] = ball, t["x"] = {-1.5, 1.5}, t["balls"] = Json::array({one});
         t["cuts"].push_back({{"axis", "x"}, {"above", above}, {"at", at}, {"terms", {{0, 0, 1}}}});
       },
       [&](SolidResultFiles& files) { files.points = std::to_string(x) + " 0 0\n-6 0 0\n"; });
