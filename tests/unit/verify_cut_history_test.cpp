@@ -149,7 +149,7 @@ TEST(VerifyCutHistory, DwellsAreInTheUnitsOfTheControl) {
   EXPECT_NEAR(seconds("G4 P2000", Control::fanuc), 2, 1e-9);
   EXPECT_NEAR(seconds("G4 X2.", Control::fanuc), 2, 1e-9);
   EXPECT_NEAR(seconds("G4 U2.", Control::fanuc), 2, 1e-9);
-  EXPECT_NEAR(seconds("G4 X2000", Control::fanuc), 2, 1e-9);
+  EXPECT_NEAR(seconds("G4 U2000", Control::fanuc), 2, 1e-9);
   EXPECT_NEAR(seconds("G4 P2000.", Control::fanuc), 2, 1e-9);
 }
 

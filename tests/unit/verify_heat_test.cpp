@@ -386,8 +386,9 @@ TEST(VerifyHeat, IntervalsOfStatedFiguresAreHeldAtBothEnds) {
 }
 
 TEST(VerifyHeat, WhatStandsForNoToolNoBlockAndNoMaterialIsSaid) {
-  for (const char* key : {"teeth", "spindle_rpm"})
-    EXPECT_TRUE(says(said([&](Json& d) { d[key] = 0; }), "teeth and spindle_rpm are not both above 0"));
+  for (const char* key : {"tool_mm", "teeth", "spindle_rpm"})
+    EXPECT_TRUE(
+        says(said([&](Json& d) { d[key] = 0; }), "tool_mm, teeth and spindle_rpm are not all above 0"));
   EXPECT_FALSE(says(said([](Json& d) { d["teeth"] = 1; }), "above 0"));
   EXPECT_TRUE(says(said([](Json& d) { d["voxel_mm"] = 0; }), "voxel_mm is not above 0"));
   for (const char* axis : {"0", "1"})
@@ -403,18 +404,18 @@ TEST(VerifyHeat, WhatStandsForNoToolNoBlockAndNoMaterialIsSaid) {
                      d["material"]["melting_c"] = Json();
                      d["material"]["glass_c"] = Json::array({100, 120});
                    }),
-                   "limit_c is 290.85 and is to be 100"));
+                   " and is to be 100;"));
 }
 
 // What a command line would be told as its own fault is that of the result; what is wrong with a file is said
 // of the file.
 TEST(VerifyHeat, WhatCannotBeFollowedIsSaidOfTheResultOrOfItsProgram) {
-  Json without_tool = *kHonest;
-  without_tool["tool_mm"] = 0;
-  const auto of_the_result = judged(without_tool, job_of(0.05, 0.2));
+  Json beyond = *kHonest;
+  beyond["step_over"] = 5;
+  const auto of_the_result = judged(beyond, job_of(0.05, 0.2));
   ASSERT_FALSE(of_the_result);
   EXPECT_EQ(of_the_result.error().code, ErrorCode::bad_input);
-  EXPECT_TRUE(says(of_the_result.error().message, "r.json: a tool diameter of 0"))
+  EXPECT_TRUE(says(of_the_result.error().message, "r.json: a step-over of 5"))
       << of_the_result.error().message;
   jobs::HeatResultJob other = job_of(0.05, 0.2);
   other.heat.source.program.bytes = "G21 G90 G17\nG0 Z5\n";
@@ -563,6 +564,8 @@ TEST(VerifyHeat, WhatIsBelowTheBlockOrTakesNoTimeIsNoCut) {
   piece.rim.push_back({-1, 0, 1, 1, 0.5});
   EXPECT_EQ(booked(piece).volume_mm3, 1);
   EXPECT_EQ(booked(piece).work_j.greatest, work);
+  piece.seconds = 0.5;
+  EXPECT_EQ(booked(piece).seconds, 0.5);
   piece.seconds = 0;
   EXPECT_EQ(booked(piece).volume_mm3, 0);
 }

@@ -91,7 +91,8 @@ class HeatReport {
     cutting_.diameter = options_.tool_diameter;
     cutting_.teeth = static_cast<double>(fields_.index("teeth"));
     cutting_.spindle_rpm = fields_.number("spindle_rpm");
-    require(cutting_.teeth >= 1 && cutting_.spindle_rpm > 0, "teeth and spindle_rpm are not both above 0");
+    require(options_.tool_diameter > 0 && cutting_.teeth >= 1 && cutting_.spindle_rpm > 0,
+            "tool_mm, teeth and spindle_rpm are not all above 0");
     cutting_.wear = read_range(fields_, "wear", 1, 5);
     film_ = read_range(fields_, "film_w_m2k", 0, 1e5);
     ambient_ = fields_.number("ambient_c");
