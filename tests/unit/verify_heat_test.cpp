@@ -372,8 +372,9 @@ TEST(VerifyHeat, IntervalsOfStatedFiguresAreHeldAtBothEnds) {
         Bounds{"material/force_exponent", 0, 0.6}, Bounds{"material/share", 0, 1},
         Bounds{"material/conductivity_w_mk", 1e-9, 1e6}, Bounds{"material/yield_mpa", 1, 5000},
         Bounds{"material/poisson", 0, 0.49}, Bounds{"material/melting_c", 40, 4000}}) {
-    const auto answer = [&](double low, double high) {
-      return said([&](Json& d) { d.at(std::string("/") + path) = Json::array({low, high}); });
+    const std::string field = std::string("/") + path;
+    const auto answer = [&field](double low, double high) {
+      return said([&](Json& d) { d.at(field) = Json::array({low, high}); });
     };
     const std::string wrong = "is no interval";
     for (const auto& [low, high] : {std::pair{least, greatest}, {least, least}, {greatest, greatest}})
