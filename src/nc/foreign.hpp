@@ -6,6 +6,9 @@
 
 namespace lekalo::nc {
 
+/// Editors put it before a text in UTF-8.
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 /// A program in the language of a control that is not read here, recognised by words that no other has.
 struct ForeignProgram {
   std::string control, word;

@@ -21,8 +21,6 @@ namespace lekalo::nc {
 namespace {
 
 constexpr double kLargestShift = 1e6;  // mm
-/// Editors put it before a text in UTF-8.
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 /// Computed numbers are written with twelve decimals; a hundred thousand steps add up to less.
 constexpr double kComputed = 1e-5;  // mm
 

@@ -287,7 +287,7 @@ TEST(VerifyHeat, NoFieldCanBeAbsentOrAnother) {
       EXPECT_TRUE(refuted([&](Json& d) { parent(d).erase(key); })) << "without " << path;
       EXPECT_TRUE(refuted([&](Json& d) { parent(d)[key + "_"] = 0; })) << "more beside " << path;
     }
-    const bool may_be_null = one_of(path, {"glass_c", "datum_mm", "outline"});
+    const bool may_be_null = one_of(path, {"glass_c", "datum_mm", "outline", "correction"});
     if (!may_be_null) {
       EXPECT_TRUE(refuted([&](Json& d) { d.at(path) = Json(); })) << path << " null";
     }

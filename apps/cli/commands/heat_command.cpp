@@ -27,13 +27,20 @@ Result<void> check_paths(const HeatOptions& o) {
                         {"--picture", o.picture},
                         {"--maps", o.maps},
                         {"--report", o.report},
-                        {"--animation", o.animation}},
+                        {"--animation", o.animation},
+                        {"--corrected", o.corrected}},
                        inputs);
 }
 
 Result<jobs::HeatResultJob> read_job(const HeatOptions& o) {
-  jobs::HeatResultJob job{o.job, jobs::picture_form(o.picture), jobs::picture_form(o.maps),
-                          jobs::picture_form(o.report), !o.animation.empty()};
+  jobs::HeatResultJob job{o.job,
+                          jobs::picture_form(o.picture),
+                          jobs::picture_form(o.maps),
+                          jobs::picture_form(o.report),
+                          !o.animation.empty(),
+                          {},
+                          o.corrected};
+  if (!o.corrected.empty()) job.correction = jobs::CorrectionWish{o.finish};
   LEKALO_TRY(job.heat.material, heat::material_of(o.material));
   LEKALO_TRY(job.heat.film, heat::film_of(o.cooling.empty() ? "dry" : o.cooling));
   jobs::HeatSourceJob& source = job.heat.source;
@@ -62,6 +69,19 @@ std::string calibrated(const jobs::HeatJob& job, const jobs::HeatFound& found) {
                      jobs::between("{:.0f}", found.source.work.into_workpiece_j));
 }
 
+/// The corrected program, where there is one.
+std::string correction(const jobs::HeatResultJob& job, const jobs::HeatResult& made) {
+  if (!made.correction || made.correction->program.empty()) return {};
+  const jobs::HeatCorrection& c = *made.correction;
+  if (c.rounds == 0)
+    return fmt::format("{} is the program itself: without heat nothing is moved.\n", job.corrected_as);
+  return fmt::format(
+      "{}: with its finishing passes moved, walls lie {:+.2f} to {:+.2f} um from their places; the largest\n"
+      "error is {} um over the intervals, and no wall lies more than {:.2f} um inside the cold workpiece.\n",
+      job.corrected_as, hundredths(c.after.least), hundredths(c.after.most),
+      jobs::between("{:.2f}", c.after_over.largest), std::max(0.0, c.after_over.most.greatest));
+}
+
 std::string words_of(const jobs::HeatResultJob& job, const jobs::HeatResult& made) {
   const jobs::HeatFound& found = made.found;
   const heat::CuttingWork& work = found.source.work;
@@ -73,6 +93,7 @@ std::string words_of(const jobs::HeatResultJob& job, const jobs::HeatResult& mad
       hundredths(found.errors.least), hundredths(found.errors.most), hundredths(found.errors.mean),
       jobs::between("{:.2f}", found.largest_um));
   for (const std::string& sentence : jobs::heat_decision(found)) text += sentence + "\n";
+  text += correction(job, made);
   const double balance = found.book.in > 0 ? found.book.in : 1,
                of_yield = 100 / job.heat.material[heat::Property::yield].least;
   text += fmt::format(
@@ -115,10 +136,12 @@ Result<int> run_heat(const HeatOptions& o) {
                                     {&o.report, &made.report},
                                     {&o.animation, &made.animation}})
     if (!path->empty()) LEKALO_CHECK(files.add(*path, *bytes));
+  const bool corrects = made.correction && !made.correction->program.empty();
+  if (corrects) LEKALO_CHECK(files.add(o.corrected, made.correction->program));
   LEKALO_CHECK(files.commit());
   if (o.json) LEKALO_CHECK(print(made.json));
   tell(words_of(job, made));
-  return 0;
+  return made.correction && !corrects ? 1 : 0;
 }
 
 }  // namespace lekalo::cli

@@ -53,7 +53,7 @@ struct HeatWords {
   std::string material, wear, cooling, hold, datum, ambient, voxel;
   std::array<std::string, heat::kProperties> figures;
   std::vector<std::string> after, measured;
-  std::string output, picture, maps, report, animation;
+  std::string output, picture, maps, report, animation, corrected, finish;
   bool json = false;
 };
 
@@ -190,6 +190,11 @@ Result<Command> to_heat(const HeatWords& w) {
   read.number("--ambient", w.ambient, -100.0, 1000.0, "a temperature from -100 to 1000 degrees C",
               o.job.ambient_c);
   read.number("--voxel", w.voxel, 0.05, 100.0, "a length from 0.05 to 100 mm", o.job.pitch);
+  o.corrected = w.corrected;
+  double finish = 0;
+  read.number("--finish", w.finish, 1e-3, 1e4, "a length from 0.001 to 10000 mm", finish);
+  if (!w.finish.empty()) o.finish = finish;
+  read.require(w.finish.empty() || !w.corrected.empty(), "--finish is for --corrected FILE");
   o.material.name = w.material;
   read_figures(read, w, o);
   read_holding(read, w, o.job.holding);
@@ -240,6 +245,9 @@ Typed add_heat_form(Form& form) {
   add("--maps", w.maps, "FILE", "Draw temperature, stress and displacement (.svg or .png)");
   add("--report", w.report, "FILE", "Write one page to decide by and to file (.svg, .pdf or .png)");
   add("--animation", w.animation, "FILE", "Write a page that plays the temperatures (.html)");
+  add("--corrected", w.corrected, "FILE",
+      "Write the program with its finishing passes moved, where that is better than a scaling");
+  add("--finish", w.finish, "MM", "The most that a finishing pass takes off a wall [half the tool's radius]");
   add("-o,--output", w.output, "FILE", "Write the result as JSON");
   add("--json", w.json, "Print the result as JSON on stdout");
   const OptionAdder figures(form, "Figures of the material: one, or two as in 1..2");
@@ -247,9 +255,10 @@ Typed add_heat_form(Form& form) {
     figures(option_of(kFigures[i]).c_str(), w.figures[i], kFigures[i].unit, kFigures[i].help);
   figures("--wear", w.wear, "TIMES", "A worn edge needs so many times the force [1]");
   form.footer =
-      "Exit codes: 0 a result, 2 wrong command line, 3 a file or a figure that cannot be judged, 4 the "
-      "result\n"
-      "failed its check, 5 disk or memory. What is modelled: docs/design/heat-walls.md";
+      "Exit codes: 0 a result, 1 a result but no corrected program, 2 wrong command line, 3 a file or a "
+      "figure\n"
+      "that cannot be judged, 4 the result failed its check, 5 disk or memory. What is modelled:\n"
+      "docs/design/heat-walls.md";
   return [words] { return to_heat(*words); };
 }
 

@@ -115,8 +115,9 @@ struct HeatOptions {
   std::string stock;  ///< the file of its outline; empty for a block
   std::vector<EarlierFile> after;
   heat::MaterialWords material;
-  std::string cooling;                                   ///< empty: dry
-  std::string output, picture, maps, report, animation;  ///< may be empty
+  std::string cooling;                                              ///< empty: dry
+  std::string output, picture, maps, report, animation, corrected;  ///< may be empty
+  std::optional<double> finish;                                     ///< mm
   bool json = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "lekalo/base/error.hpp"
@@ -28,6 +29,8 @@ struct ToolPiece {
   double length = 0;                   ///< mm across
   std::size_t line = 0;                ///< of the program, from 1; 0 for a dwell
   bool rapid = false;
+  /// The centre of the arc whose chord the piece is, mm; none for a line.
+  std::optional<std::array<double, 2>> centre;
   std::vector<RimContact> rim;
   double floor_area = 0;  ///< mm2 of material under the tip, where the piece goes down
 };

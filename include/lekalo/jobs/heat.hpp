@@ -53,6 +53,12 @@ struct WallPoint {
   heat::Interval errors_um;
 };
 
+/// The tool beside a place of a wall: one visit.
+struct WallVisit {
+  double at = 0;                    ///< when it is nearest, s
+  std::size_t first = 0, last = 0;  ///< in HeatSource::pieces, while it is there, both ends among them
+};
+
 struct WallErrors {
   double least = 0, most = 0, mean = 0;  ///< um
 
@@ -72,6 +78,8 @@ struct UniformScaling {
 struct HeatCase {
   double film = 0;                ///< W/(m2 K)
   std::vector<double> errors_um;  ///< of each place of a wall
+  /// How far each place is displaced along X and Y at each of its visits, um.
+  std::vector<std::vector<std::array<double, 2>>> moved_um;
   WallErrors errors;
   UniformScaling scaling;
   double warmest_k = 0, stress_mpa = 0;
@@ -102,6 +110,7 @@ struct HeatFound {
   HeatSource source;
   heat::Grid grid;
   std::vector<WallPoint> walls;
+  std::vector<std::vector<WallVisit>> visits;  ///< of each of them, in their order
   std::size_t uncut = 0;  ///< places of walls that the program does not cut
   /// For the least film, the middle one and the greatest; one where it is one.
   std::vector<HeatCase> cases;

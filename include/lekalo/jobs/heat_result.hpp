@@ -7,6 +7,7 @@
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/jobs/heat.hpp"
+#include "lekalo/jobs/heat_correction.hpp"
 #include "lekalo/jobs/phases.hpp"
 #include "lekalo/jobs/picture_form.hpp"
 
@@ -19,6 +20,8 @@ struct HeatResultJob {
   std::optional<PictureForm> maps;     ///< SVG or PNG, of temperature, stress and displacement
   std::optional<PictureForm> report;
   bool animation = false;
+  std::optional<CorrectionWish> correction;
+  std::string corrected_as;  ///< the name of the corrected program, as the result says it
 };
 
 struct HeatResult {
@@ -29,11 +32,13 @@ struct HeatResult {
   std::string json;  ///< format lekalo-heat (docs/formats.md); the checker refutes nothing of it
   /// SVG or PNG, a report in its form, a page of HTML; empty where not asked for.
   std::string picture, maps, report, animation;
+  /// A correction, if one is asked for. If it has no program the warnings say why, and the result has none.
+  std::optional<HeatCorrection> correction;
 };
 
-/// Computes heat() and puts its document before the checker. Errors, phases and cost are those of heat();
-/// besides, refuted where the checker finds a figure that is not true, and the phase "following the program
-/// again".
+/// Computes heat() and heat_correction(), and puts the document before the checker. Errors, phases and cost
+/// are theirs; besides, refuted where the checker finds a figure that is not true, and the phase "following
+/// the program again".
 [[nodiscard]] Result<HeatResult> heat_result(const HeatResultJob& job, const PhaseListener& phases = {});
 
 /// The shortest and the longest wait of all cases, s; none where it takes more than kLongestWait.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "lekalo/base/error.hpp"
@@ -30,6 +32,8 @@ struct CutPiece {
   double feed = 0;       ///< mm/min as programmed; 0 for a rapid and a dwell
   std::size_t line = 0;  ///< of the program, from 1; 0 for a dwell
   bool rapid = false;
+  /// The centre of the arc whose chord a piece below the stock's upper face is, mm; none for a line.
+  std::optional<std::array<double, 2>> centre;
   /// In the middle of the piece, the lowest first. Empty where the rim meets nothing.
   std::vector<EngagedLayer> rim;
   /// The area below the tip that is material, mm2; a piece that goes down takes it off. Else 0.

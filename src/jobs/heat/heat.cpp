@@ -62,12 +62,17 @@ struct Span {
   double begin = 0, end = 0;  ///< s
   std::vector<const heat::CutStep*> steps;
   std::vector<const heat::ToolPiece*> strokes;
-  std::vector<std::pair<std::size_t, double>> walls;  ///< the number of a place, and when
+  struct Beside {
+    std::size_t place = 0, visit = 0;
+    double at = 0;  ///< s
+  };
+  std::vector<Beside> walls;
 };
 
 /// One run with all of the work as heat: everything is in proportion to the share.
 struct Run {
   std::vector<double> errors_um, decided;  ///< of each place, and the time of the visit that decided, s
+  std::vector<std::vector<std::array<double, 2>>> moved_um;  ///< of each place at each of its visits
   double warmest_k = 0, stress_mpa = 0, not_placed_j = 0;
   Place stress_at;
   double stress_seconds = 0;
@@ -79,7 +84,7 @@ struct Run {
 
 class Follower {
  public:
-  Follower(const HeatJob& job, const HeatFound& found, const std::vector<std::vector<double>>& visits)
+  Follower(const HeatJob& job, const HeatFound& found)
       : job_(job),
         found_(found),
         radius_(job.source.machining.tool_diameter / 2),
@@ -94,8 +99,9 @@ class Follower {
     for (const heat::ToolPiece& p : found.source.pieces)
       if (std::min(p.from[2], p.to[2]) < job.source.machining.top)
         span_of(p.start + p.seconds / 2).strokes.push_back(&p);
-    for (std::size_t i = 0; i < visits.size(); ++i)
-      for (const double at : visits[i]) span_of(at).walls.emplace_back(i, at);
+    for (std::size_t i = 0; i < found.visits.size(); ++i)
+      for (std::size_t k = 0; k < found.visits[i].size(); ++k)
+        span_of(found.visits[i][k].at).walls.push_back({i, k, found.visits[i][k].at});
   }
 
   [[nodiscard]] std::size_t steps() const { return spans_.size(); }
@@ -111,6 +117,7 @@ class Follower {
     Run run;
     run.errors_um.assign(found_.walls.size(), -std::numeric_limits<double>::infinity());
     run.decided.resize(found_.walls.size());
+    for (const auto& visits : found_.visits) run.moved_um.emplace_back(visits.size());
     run.stress_at = middle_of(0);
     MeasuredRises rises(job_.measured);
     for (std::size_t n = 0; n < spans_.size(); ++n) {
@@ -135,9 +142,10 @@ class Follower {
       if (*most > run.stress_mpa)
         run.stress_mpa = *most, run.stress_seconds = span.end,
         run.stress_at = middle_of(static_cast<std::size_t>(most - stress.begin()));
-      for (const auto& [i, at] : span.walls) {
+      for (const auto& [i, visit, at] : span.walls) {
         const WallPoint& w = found_.walls[i];
         const Place moved = expansion.moved({w.x, w.y, w.z});
+        run.moved_um[i][visit] = {kMicrometres * moved.x, kMicrometres * moved.y};
         // The tool cuts at its place whatever is there, and what it cuts comes from that place less the
         // displacement. The visit counts that goes deepest into the cold workpiece.
         const double error = -kMicrometres * (moved.x * w.outward[0] + moved.y * w.outward[1]);
@@ -299,10 +307,13 @@ Interval heat_parts_of(const Interval& heat, double middle) {
 }
 
 /// \param share  the part of the middle work that is the heat of the case
-HeatCase case_of(const Run& run, double film, double share, const std::vector<WallPoint>& walls) {
+HeatCase case_of(Run& run, double film, double share, const std::vector<WallPoint>& walls) {
   HeatCase one;
   one.film = film;
   for (const double e : run.errors_um) one.errors_um.push_back(share * e);
+  one.moved_um = std::move(run.moved_um);
+  for (auto& visits : one.moved_um)
+    for (auto& moved : visits) moved = {share * moved[0], share * moved[1]};
   one.errors = summary_of(one.errors_um);
   one.scaling = best_scaling(walls, one.errors_um);
   one.warmest_k = share * run.warmest_k, one.stress_mpa = share * run.stress_mpa;
@@ -386,14 +397,14 @@ Result<HeatFound> heat(const HeatJob& job, const PhaseListener& phases) {
   LEKALO_TRY(found.grid, heat::Grid::divide({box.low_x, box.low_y, top - box.thickness},
                                             {box.high_x, box.high_y, top}, job.pitch));
   LEKALO_TRY(CutWalls walls, cut_walls(source, found.source, job.pitch));
-  found.walls = std::move(walls.points), found.uncut = walls.uncut;
+  found.walls = std::move(walls.points), found.visits = std::move(walls.visits), found.uncut = walls.uncut;
   std::vector<std::pair<double, const char*>> films{{job.film.middle(), "heating"}};
   if (job.film.least < job.film.greatest)
     films = {{job.film.least, "heating, least cooling"},
              {job.film.middle(), "heating, mean cooling"},
              {job.film.greatest, "heating, greatest cooling"}};
   LEKALO_CHECK(check_measured(job, found.source));
-  const Follower follower(job, found, walls.visits);
+  const Follower follower(job, found);
   std::vector<Run> runs;
   std::vector<std::vector<double>> rises;
   std::optional<HeatRecorder> recorder;

@@ -184,6 +184,30 @@ void write_range(io::JsonWriter& json, const char* key, double middle, const Int
       {{"middle", shown(middle)}, {"least", shown(over.least)}, {"greatest", shown(over.greatest)}});
 }
 
+void write_correction(io::JsonWriter& json, const HeatCorrection* made) {
+  if (made == nullptr) {
+    json.fields({{"after_correction_um", nullptr}, {"correction", nullptr}});
+    return;
+  }
+  write_errors(json, "after_correction_um", made->after, made->after_over);
+  const HeatFound& found = made->found;
+  json.key("correction").begin_object().fields({{"finish_mm", made->finish}, {"rounds", made->rounds}});
+  write_booked(json, found.source.work);
+  json.key("walls").begin_list();
+  for (std::size_t i = 0; i < found.walls.size(); ++i) {
+    const WallPoint& w = found.walls[i];
+    json.begin_object().key("at_mm").list({shown(w.x), shown(w.y), shown(w.z)}).key("visits").begin_list();
+    for (std::size_t v = 0; v < found.visits[i].size(); ++v) {
+      json.begin_object().field("seconds", shown(found.visits[i][v].at)).key("moved_um").begin_list();
+      for (const HeatCase& one : found.cases)
+        for (const double along : one.moved_um[i][v]) json.value(shown(along));
+      json.end().end();
+    }
+    json.end().end();
+  }
+  json.end().end();
+}
+
 }  // namespace
 
 std::array<std::optional<double>, 2> waits_over(const std::vector<HeatCase>& cases,
@@ -206,14 +230,21 @@ const char* name_of(const heat::Holding& holding) noexcept {
   return "held";
 }
 
-std::string heat_json(const HeatJob& job, const HeatFound& found, const std::vector<std::string>& warnings) {
+std::string heat_json(const HeatJob& job, const HeatFound& found, const std::vector<std::string>& warnings,
+                      const CorrectedFile& corrected) {
   io::JsonWriter json = begin_document("lekalo-heat");
   json.fields({{"status", "computed"}, {"units", "mm"}}).key("inputs").begin_list();
   write_file(json, "program", job.source.program);
   write_file(json, "pocket", job.source.pocket);
   if (job.source.stock.outline) write_file(json, "stock", *job.source.stock.outline);
   write_earlier(json, job.source.after);
-  json.end().key("warnings").list(warnings);
+  json.end();
+  if (corrected.correction != nullptr) {
+    json.key("outputs").begin_list();
+    write_file(json, "corrected", {corrected.name, corrected.correction->program});
+    json.end();
+  }
+  json.key("warnings").list(warnings);
   json.fields({{"seed", 0}, {"work", found.work}, {"version", kVersion}});
   write_words(json, job, found);
   write_booked(json, found.source.work);
@@ -248,6 +279,7 @@ std::string heat_json(const HeatJob& job, const HeatFound& found, const std::vec
     write_interval(json, "errors_um", w.errors_um);
     json.end();
   });
+  write_correction(json, corrected.correction);
   json.key("run").object({});
   return end_document(json);
 }

@@ -42,10 +42,20 @@ Result<HeatResult> heat_result(const HeatResultJob& job, const PhaseListener& ph
   recorded.record = job.maps || job.report || job.animation;
   LEKALO_TRY(made.found, heat(recorded, phases));
   made.warnings = warnings_of(job.heat, made.found);
-  made.json = heat_json(job.heat, made.found, made.warnings);
+  CorrectedFile corrected{job.corrected_as, nullptr};
+  std::vector<verify::Document> files = files_of(job.heat.source);
+  if (job.correction) {
+    LEKALO_TRY(made.correction, heat_correction(job.heat, made.found, *job.correction, phases));
+    if (made.correction->program.empty()) {
+      made.warnings.push_back(made.correction->why_not);
+    } else {
+      corrected.correction = &*made.correction;
+      files.push_back({job.corrected_as, made.correction->program});
+    }
+  }
+  made.json = heat_json(job.heat, made.found, made.warnings, corrected);
   const ProgressListener listening = begin_phase(phases, "following the program again");
-  LEKALO_TRY(const verify::ClaimReport report,
-             verify::verify_heat_report({"the result", made.json}, files_of(job.heat.source)));
+  LEKALO_TRY(const verify::ClaimReport report, verify::verify_heat_report({"the result", made.json}, files));
   if (!report.findings.empty())
     return failure(ErrorCode::refuted, "the checker refutes the result: " + report.findings.front());
   LEKALO_TRY(made.picture, drawn_heat(job, made.found));

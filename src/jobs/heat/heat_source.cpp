@@ -122,6 +122,7 @@ std::vector<heat::ToolPiece> pieces_of(const verify::CutHistory& history) {
     piece.start = cut.start, piece.seconds = cut.seconds;
     piece.from = {cut.from_x, cut.from_y, cut.from_z}, piece.to = {cut.to_x, cut.to_y, cut.to_z};
     piece.length = cut.length, piece.line = cut.line, piece.rapid = cut.rapid;
+    piece.centre = cut.centre;
     for (const verify::EngagedLayer& layer : cut.rim)
       piece.rim.push_back({layer.low_z, layer.high_z, layer.begin, layer.end, layer.width});
     piece.floor_area = cut.floor_area;

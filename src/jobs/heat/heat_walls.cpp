@@ -146,16 +146,18 @@ Result<CutWalls> cut_walls(const HeatSourceJob& job, const HeatSource& source, d
       WallPoint point;
       point.x = station.at.x, point.y = station.at.y, point.z = z, point.outward = station.outward;
       // Pieces that follow one another are one visit, at its nearest.
-      std::vector<double> visits;
+      std::vector<WallVisit> visits;
       double best = 0, ended = -std::numeric_limits<double>::infinity();
       for (std::size_t i = 0; i < down.size(); ++i) {
         if (!is_deep(i) || !(distances[i] <= nearest + kAsNear)) continue;
         const double at = down[i]->start + down[i]->seconds / 2;
+        const auto piece = static_cast<std::size_t>(down[i] - source.pieces.data());
         if (down[i]->start > ended + kOneVisit) {
-          visits.push_back(at), best = distances[i];
+          visits.push_back({at, piece, piece}), best = distances[i];
         } else if (distances[i] < best) {
-          visits.back() = at, best = distances[i];
+          visits.back().at = at, best = distances[i];
         }
+        visits.back().last = piece;
         ended = down[i]->start + down[i]->seconds;
       }
       walls.visits.push_back(std::move(visits));

@@ -10,8 +10,7 @@ namespace lekalo::jobs {
 /// The places of a pocket's walls that a program cuts.
 struct CutWalls {
   std::vector<WallPoint> points;  ///< with place and direction; ordered by the outline, then by height
-  /// The times at which the tool is beside each place, s, ascending.
-  std::vector<std::vector<double>> visits;
+  std::vector<std::vector<WallVisit>> visits;  ///< of each of them, in the order of time
   std::size_t uncut = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "heat_correction_check.hpp"
 #include "heat_fields.hpp"
 #include "lekalo/base/limits.hpp"
 #include "machining_fields.hpp"
@@ -22,14 +23,12 @@ namespace {
 
 /// Pieces of the path are this part of the tool's diameter.
 constexpr double kPiece = 0.125;
-/// Sums over many pieces are told apart to this part.
-constexpr double kSummed = 1e-9;
 /// So many faults of places are told.
 constexpr std::size_t kMostFaults = 100;
 /// The heat may miss its balance by this part (docs/design/heat-walls.md).
 constexpr double kBalanced = 1e-3;
 
-class HeatReport {
+class HeatReport : private HeldFigures {
  public:
   HeatReport(const Document& report, Json root, const std::vector<NamedFile>& names,
              const std::vector<Document>& files)
@@ -41,7 +40,7 @@ class HeatReport {
       (void)fields_.get(known);
     if (fields_.text("status") != "computed") fields_.complain("field status is not \"computed\"");
     read_words();
-    read_followed(fields_, names_, files_, followed_, true);
+    read_files();
     LEKALO_CHECK(fine());
     check_outline();
     LEKALO_CHECK(fine());
@@ -55,6 +54,7 @@ class HeatReport {
     LEKALO_CHECK(fine());
     LEKALO_CHECK(check_places(history));
     check_together();
+    LEKALO_CHECK(check_correction(history));
     fields_.refuse_others();
     LEKALO_CHECK(fine());
     LEKALO_CHECK(name_unchecked());
@@ -65,15 +65,6 @@ class HeatReport {
   [[nodiscard]] Result<void> fine() const {
     if (complaint_.empty()) return {};
     return failure(ErrorCode::bad_input, fmt::format("{}: {}", report_.name, complaint_));
-  }
-  void find(const std::string& sentence) { claims_.findings.push_back(sentence); }
-  void hold(const std::string& what, double written, double found, double within) {
-    if (!(std::abs(written - found) <= within))
-      find(fmt::format("{} is {} and is to be {:.9g}", what, written, found));
-  }
-  void hold(const std::string& what, const CheckedRange& written, const CheckedRange& found, double within) {
-    hold(what + "[0]", written.least, found.least, within);
-    hold(what + "[1]", written.greatest, found.greatest, within);
   }
   void require(bool condition, const std::string& sentence) {
     if (!condition) fields_.complain(sentence);
@@ -186,6 +177,20 @@ class HeatReport {
     holding.refuse_others();
   }
 
+  /// A corrected program stands beside the one that was followed.
+  void read_files() {
+    (void)fields_.has("outputs");
+    std::vector<NamedFile> names;
+    std::vector<Document> files;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (names_[i].role == "corrected" && !corrected_)
+        corrected_ = files_[i];
+      else
+        names.push_back(names_[i]), files.push_back(files_[i]);
+    }
+    read_followed(fields_, names, files, followed_, true);
+  }
+
   Result<CutHistory> follow() {
     Result<CutHistory> history = cut_history(*followed_.program, *followed_.pocket, options_,
                                              followed_.earlier, kPiece * options_.tool_diameter);
@@ -199,17 +204,7 @@ class HeatReport {
     const BookedWork found = booked_work(history, stock_, cutting_, options_.top);
     ReportFields b(fields_.get("booked"), "booked", complaint_);
     if (!complaint_.empty()) return;
-    if (!found.fault.empty()) find(found.fault);
-    const auto within = [](double value) { return kShown + kSummed * std::abs(value); };
-    for (const auto& [key, value] : {std::pair{"seconds", found.seconds},
-                                     {"cutting_seconds", found.cutting_seconds},
-                                     {"volume_mm3", found.volume_mm3}})
-      hold(b.name(key), b.number(key), value, within(value));
-    for (const auto& [key, range] : {std::pair{"work_j", found.work_j},
-                                     {"into_workpiece_j", found.into_j},
-                                     {"carried_off_j", found.carried_off_j},
-                                     {"greatest_power_w", found.power_w}})
-      hold(b.name(key), range_of(b, key), range, within(range.greatest));
+    hold_booked(b, found);
     b.refuse_others();
     claims_.notes.push_back(
         fmt::format("the work of the cuts was made anew from {}", followed_.program->name));
@@ -340,28 +335,6 @@ class HeatReport {
         (!one.half && !one.tenth) || (one.half && *one.half > 0 && (!one.tenth || *one.tenth > *one.half));
     if (!falls || (one.half && one.film == 0))
       find(f.name("half_s") + " and tenth_s do not go together, or with the film");
-  }
-
-  /// Least, most, mean and, where it is said, the largest distance.
-  void hold_summary(ReportFields& parent, std::string_view key, const ErrorSummary& found, double within,
-                    bool with_intervals = false, const IntervalSummary& over = {}) {
-    ReportFields f(parent.get(key), parent.name(key), complaint_);
-    if (!complaint_.empty()) return;
-    for (const auto& [name, value] :
-         {std::pair{"least", found.least}, {"most", found.most}, {"mean", found.mean}})
-      hold(f.name(name), f.number(name), value, within);
-    if (with_intervals) {
-      hold(f.name("largest"), f.number("largest"), found.largest(), within);
-      ReportFields i(f.get("intervals"), f.name("intervals"), complaint_);
-      if (!complaint_.empty()) return;
-      for (const auto& [name, range] : {std::pair{"least", &over.least},
-                                        {"most", &over.most},
-                                        {"mean", &over.mean},
-                                        {"largest", &over.largest}})
-        hold(i.name(name), range_of(i, name), *range, within);
-      i.refuse_others();
-    }
-    f.refuse_others();
   }
 
   /// The scaling leaves the least squares: no change of it makes their sum smaller.
@@ -537,6 +510,28 @@ class HeatReport {
       find("warmest_k is beyond limit_c throughout, where the figures of the material do not hold");
   }
 
+  /// The checker rebuilds from its bytes what a corrected program leaves.
+  Result<void> check_correction(const CutHistory& history) {
+    const bool said = !fields_.get("correction").is_null(),
+               summed = !fields_.get("after_correction_um").is_null();
+    require(said == corrected_.has_value() && summed == said,
+            "field correction, field after_correction_um and the file with the role \"corrected\" are not "
+            "all there or all absent");
+    LEKALO_CHECK(fine());
+    if (!said) return {};
+    const HeatCaseRead& middle = cases_[cases_.size() / 2];
+    HeatCorrectionJob job{report_, followed_, *corrected_, options_, cutting_, stock_};
+    job.spacing = spacing_, job.parts = parts_;
+    job.before = middle.summary.largest();
+    job.greatest_before =
+        over([](const HeatCaseRead& c, double part) { return part * c.summary.largest(); }).greatest;
+    job.scaled = summary_of(left_by(middle, 1, middle)).largest();
+    job.cases = cases_.size();
+    LEKALO_TRY(const std::vector<std::string> findings, correction_faults(job, history, fields_, complaint_));
+    claims_.findings.insert(claims_.findings.end(), findings.begin(), findings.end());
+    return {};
+  }
+
   void check_of_yield(double within) {
     const CheckedRange stress = over([](const HeatCaseRead& c, double part) { return part * c.stress; });
     hold("stress_of_yield", range_of(fields_, "stress_of_yield"),
@@ -606,6 +601,11 @@ class HeatReport {
       claims_.unchecked.push_back(
           "measured: temperatures, places and times are what was stated; rises_k are computed in voxels and "
           "not proved");
+    if (corrected_)
+      claims_.unchecked.emplace_back(
+          "correction: by how much the workpiece is displaced when the corrected program cuts is computed in "
+          "voxels and not proved; what that program cuts, and leaves by these figures, is rebuilt from its "
+          "bytes");
     LEKALO_TRY(const std::vector<std::string> unsaid,
                unsaid_modes(*followed_.program, options_, followed_.earlier));
     claims_.unchecked.insert(claims_.unchecked.end(), unsaid.begin(), unsaid.end());
@@ -615,7 +615,6 @@ class HeatReport {
   const Document& report_;
   const std::vector<NamedFile>& names_;
   const std::vector<Document>& files_;
-  std::string complaint_;
   ReportFields fields_;
   SimulateOptions options_;
   CheckedCutting cutting_;
@@ -633,7 +632,7 @@ class HeatReport {
   std::size_t uncut_ = 0;
   std::array<double, 2> centre_{};
   std::vector<HeatCaseRead> cases_;
-  ClaimReport claims_;
+  std::optional<Document> corrected_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/limits.hpp"
@@ -16,6 +17,8 @@ constexpr double kRounded = 2e-6;
 constexpr double kReached = 0.1, kAsNear = 0.03;
 /// A tip is as deep as a place within this, mm.
 constexpr double kAsDeep = 1e-6;
+/// The tool has not left a place in this time, s.
+constexpr double kOneVisit = 0.2;
 /// Distances may round to the other side of a limit, mm.
 constexpr double kDistanceRounding = 1e-9;
 
@@ -69,6 +72,16 @@ void add_stations(const WallEdge& e, double side, double spacing, std::vector<Wa
   }
 }
 
+/// A piece is at most a quarter turn.
+Stroke way_of(const CutPiece& piece) {
+  Stroke way{false, true, {piece.from_x, piece.from_y}, {piece.to_x, piece.to_y}, {}, 0};
+  if (!piece.centre) return way;
+  way.arc = true, way.centre = {(*piece.centre)[0], (*piece.centre)[1]};
+  const Place from = way.from - way.centre, to = way.to - way.centre;
+  way.ccw = cross(from, to) > 0, way.radius = (length(from) + length(to)) / 2;
+  return way;
+}
+
 double tip_of(const CutPiece& piece) { return std::max(piece.from_z, piece.to_z); }
 
 }  // namespace
@@ -104,6 +117,7 @@ WallPlaces::WallPlaces(std::vector<WallStation> stations, const CutHistory& hist
   for (const CutPiece* piece : down_) {
     const Place from{piece->from_x, piece->from_y}, to{piece->to_x, piece->to_y};
     strokes_.push_back({false, true, from, to, {}, 0});
+    ways_.push_back(way_of(*piece));
     low = {std::min({low.x, from.x, to.x}), std::min({low.y, from.y, to.y})};
     high = {std::max({high.x, from.x, to.x}), std::max({high.y, from.y, to.y})};
   }
@@ -128,7 +142,7 @@ std::optional<WallPlaces::Which> WallPlaces::find(double x, double y, double z) 
 
 void WallPlaces::go_to(std::size_t station) {
   const Place at{stations_[station].x, stations_[station].y};
-  near_.clear(), distances_.clear();
+  near_.clear(), distances_.clear(), at_ = station;
   if (!down_.empty()) index_.near(at, reach_ + kReached + kAsNear + 2 * kDistanceRounding, near_);
   for (const std::uint32_t i : near_) distances_.push_back(distance(at, strokes_[i]));
   ask(1 + near_.size());
@@ -144,6 +158,35 @@ double WallPlaces::nearest(std::size_t height) const {
 WallPlaces::Cut WallPlaces::cut(std::size_t height) const {
   const double over = nearest(height) - reach_ - kReached;
   return {over <= 0, std::abs(over) <= kDistanceRounding};
+}
+
+std::vector<WallPlaces::Visit> WallPlaces::visits(std::size_t height, double slack) const {
+  const double within = nearest(height) + kAsNear + slack;
+  const auto is_deep = [&](std::size_t k) { return tip_of(*down_[near_[k]]) <= heights_[height] + kAsDeep; };
+  std::vector<std::pair<std::size_t, std::size_t>> runs;  // of near_, both ends among them
+  double ended = -HUGE_VAL;
+  for (std::size_t k = 0; k < near_.size(); ++k) {
+    if (!is_deep(k) || !(distances_[k] <= within)) continue;
+    const CutPiece& piece = *down_[near_[k]];
+    if (piece.start > ended + kOneVisit) runs.emplace_back(k, k);
+    runs.back().second = k, ended = piece.start + piece.seconds;
+  }
+  const Place at{stations_[at_].x, stations_[at_].y};
+  std::vector<Visit> found;
+  for (const auto& [first, last] : runs) {
+    Visit visit;
+    visit.start = down_[near_[first]]->start,
+    visit.end = down_[near_[last]]->start + down_[near_[last]]->seconds;
+    visit.distance = HUGE_VAL;
+    for (std::size_t k = first; k <= last; ++k) {
+      if (!is_deep(k)) continue;
+      const Place off = at - nearest_on(ways_[near_[k]], at);
+      if (const double distance = length(off); distance < visit.distance)
+        visit.distance = distance, visit.towards = {off.x / distance, off.y / distance};
+    }
+    found.push_back(visit);
+  }
+  return found;
 }
 
 bool WallPlaces::visited(std::size_t height, double seconds) const {

@@ -49,6 +49,14 @@ class WallPlaces {
     bool is_cut = false, near_limit = false;
   };
   [[nodiscard]] Cut cut(std::size_t height) const;
+  /// The tool beside the station once, as deep as a height, by its lines and arcs and not by their chords.
+  struct Visit {
+    double start = 0, end = 0;        ///< s
+    double distance = 0;              ///< mm
+    std::array<double, 2> towards{};  ///< from its way to the station, of length 1
+  };
+  /// Returns the visits, in the order of time. \param slack  of the limit to which it is a visit, mm
+  [[nodiscard]] std::vector<Visit> visits(std::size_t height, double slack) const;
   /// Says whether the tool is at its nearest to the place at this time, s.
   [[nodiscard]] bool visited(std::size_t height, double seconds) const;
 
@@ -58,7 +66,9 @@ class WallPlaces {
   std::vector<WallStation> stations_;  ///< by x
   std::vector<double> heights_;        ///< from above
   std::vector<const CutPiece*> down_;
-  std::vector<Stroke> strokes_;  ///< of each of them
+  std::vector<Stroke> strokes_;  ///< of each of them, the chord
+  std::vector<Stroke> ways_;     ///< and the arc
+  std::size_t at_ = 0;           ///< the station that is looked at
   StrokeIndex index_;
   std::vector<std::uint32_t> near_;  ///< which of them are near the station at hand
   std::vector<double> distances_;    ///< of these

@@ -266,6 +266,7 @@ class HistoryMaker {
       const auto z = [&](double way) { return cut.from_z + way / whole * drop; };
       CutPiece piece = piece_of(begin, end, from, to, z(done), z(upto));
       piece.length = upto - done;
+      if (cut.stroke.arc) piece.centre = {cut.stroke.centre.x, cut.stroke.centre.y};
       const Place at = at_share(cut.stroke, middle);
       piece.rim = around_.rim_at(0.5 * (piece.from_z + piece.to_z), until(cut.stroke, at));
       if (drop < 0) piece.floor_area = around_.floor_at(0.5 * (piece.from_z + piece.to_z), at);
