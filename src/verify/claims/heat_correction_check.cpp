@@ -143,7 +143,7 @@ class CorrectionCheck : private HeldFigures {
       return;
     }
     const auto holds = [](const WallPlaces::Visit& visit, const CorrectedVisit& said) {
-      return visit.start - kShown <= said.seconds && said.seconds <= visit.end + kShown;
+      return visit.start - verify::kShown <= said.seconds && said.seconds <= visit.end + verify::kShown;
     };
     const std::vector<WallPlaces::Visit> wide = after.visits(height, kRoundedDistance);
     for (std::size_t k = 0; k < walls_[i].visits.size(); ++k) {

@@ -107,7 +107,7 @@ class HeldFigures {
   /// The work of a program's cuts.
   void hold_booked(ReportFields& parent, const BookedWork& found) {
     if (!found.fault.empty()) find(found.fault);
-    const auto within = [](double value) { return kShown + kSummed * std::abs(value); };
+    const auto within = [](double value) { return verify::kShown + kSummed * std::abs(value); };
     for (const auto& [key, value] : {std::pair{"seconds", found.seconds},
                                      {"cutting_seconds", found.cutting_seconds},
                                      {"volume_mm3", found.volume_mm3}})
