@@ -14,8 +14,9 @@ namespace lekalo::step {
 /// A face of the file, and how far its triangles are from it at most.
 struct FaceRecord {
   std::string name, kind;
-  double deviation = 0;  ///< mm; infinite where nothing is proved
-  std::string fault;     ///< why nothing can be proved, however fine the triangles are; or nothing
+  std::uint32_t colour = 0;  ///< 65536 red + 256 green + blue, or io::SolidFile::kNoColour
+  double deviation = 0;      ///< mm; infinite where nothing is proved
+  std::string fault;         ///< why nothing can be proved, however fine the triangles are; or nothing
 };
 
 /// Joins the triangulations of faces to one mesh. Places along an edge are those that the first of its faces

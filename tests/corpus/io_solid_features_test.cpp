@@ -24,7 +24,7 @@ TEST(SolidFeaturesSchema, AcceptsTheExamples) {
       "{}", R"({"as_cast": true, "features": [{"name": "a", "faces": [0, 3]}]})",
       R"({"features": [{"name": "a", "triangles": [0], "as_cast": false, "minimum": null, "scale": 2},
                        {"name": "b", "box": [[0, 0, 0], [1, 1, 1]], "as_cast": true},
-                       {"name": "c", "label": "d"}, {"name": "e", "patch": [0, 0, 0]}],
+                       {"name": "c", "label": "d"}, {"name": "f", "colour": "#FF80a0"}, {"name": "e", "patch": [0, 0, 0]}],
           "datums": [{"name": "a", "feature": "a", "point": [0, 0, 0], "within": 0.1},
                      {"name": "b", "points": [[0, 0, 0]], "axis": {"along": [0, 0, 1], "through": [0, 0, 0]},
                       "within": 0.1}]})"};
@@ -45,8 +45,9 @@ TEST(SolidFeaturesSchema, RefusesWhatTheReaderRefuses) {
        {R"("minimum": 1)", R"("triangles": [0], "label": "x")", R"("triangles": [-1])",
         R"("box": [[0, 0, 0]])", R"("plane": {"normal": [0, 0, 1], "at": 0})",
         R"("triangles": [0], "scale": 0)", R"("triangles": [0], "as_cast": true, "scale": 1)",
-        R"("triangles": [0], "as_cast": 1)", R"("triangles": [0], "target": -1)",
-        R"("triangles": [0], "finished": 1, "target": 1)", R"("triangles": [0], "as_cast": true, "target": 1)"})
+        R"("triangles": [0], "as_cast": 1)", R"("triangles": [0], "target": -1)", R"("colour": "red")",
+        R"("colour": "#ff80a")", R"("triangles": [0], "finished": 1, "target": 1)",
+        R"("triangles": [0], "as_cast": true, "target": 1)"})
     texts.push_back(std::string(R"({"features": [{"name": "a", )") + feature + "}]}");
   for (
       const char* datum :

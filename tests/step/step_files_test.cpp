@@ -22,10 +22,12 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "convert.hpp"
@@ -212,6 +214,67 @@ std::pair<int, std::string> run_program(const TemporaryFolder& folder, const std
       "cd '" + folder.path().string() + "' && '" + program.string() + "' " + words + " 2>says";
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, test::read_bytes(folder / "says")};
+}
+
+/// The places behind the numbers of a word's entities, as "#12".
+std::vector<std::string> entities_of(const std::string& step, const std::string& word) {
+  std::vector<std::string> numbers;
+  const std::regex one("(#[0-9]+) *= *" + word + " *\\(");
+  for (std::sregex_iterator at(step.begin(), step.end(), one), end; at != end; ++at)
+    numbers.push_back((*at)[1]);
+  return numbers;
+}
+
+/// Gives an entity of a STEP file a colour, by entities from a number on.
+std::string styled(int number, const std::string& colour, const std::string& item) {
+  return fmt::format(
+      "#{0}={1};\n#{2}=FILL_AREA_STYLE_COLOUR('',#{0});\n#{3}=FILL_AREA_STYLE('',(#{2}));\n"
+      "#{4}=SURFACE_STYLE_FILL_AREA(#{3});\n#{5}=SURFACE_SIDE_STYLE('',(#{4}));\n"
+      "#{6}=SURFACE_STYLE_USAGE(.BOTH.,#{5});\n#{7}=PRESENTATION_STYLE_ASSIGNMENT((#{6}));\n"
+      "#{8}=STYLED_ITEM('color',(#{7}),{9});\n",
+      number, colour, number + 1, number + 2, number + 3, number + 4, number + 5, number + 6, number + 7,
+      item);
+}
+
+TEST(StepProgram, FacesHaveTheColoursOfTheFile) {
+  const TemporaryFolder folder;
+  write_step(BRepPrimAPI_MakeBox(30, 20, 10).Shape(), folder / "plain.step");
+  const std::string plain = test::read_bytes(folder / "plain.step");
+  const std::vector<std::string> faces = entities_of(plain, "ADVANCED_FACE"),
+                                 bodies = entities_of(plain, "MANIFOLD_SOLID_BREP");
+  ASSERT_EQ(faces.size(), 6U);
+  ASSERT_EQ(bodies.size(), 1U);
+  // The context of a representation of shapes is its last word.
+  std::smatch context;
+  ASSERT_TRUE(std::regex_search(plain, context,
+                                std::regex("ADVANCED_BREP_SHAPE_REPRESENTATION *\\([^;]*(#[0-9]+) *\\) *;")));
+  const auto with = [&](const std::string& styles, const std::string& items) {
+    std::string step = plain;
+    step.insert(step.rfind("ENDSEC;"),
+                styles + "#9900=MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(" + items + ")," +
+                    context[1].str() + ");\n");
+    return step;
+  };
+  test::write_bytes(folder / "faces.step",
+                    with(styled(9000, "COLOUR_RGB('',1.,0.501960784,0.)", faces[1]) +
+                             styled(9100, "DRAUGHTING_PRE_DEFINED_COLOUR('cyan')", faces[4]),
+                         "#9007,#9107"));
+  test::write_bytes(folder / "body.step", with(styled(9000, "COLOUR_RGB('',0.2,0.2,0.2)", bodies[0]) +
+                                                   styled(9100, "COLOUR_RGB('',0.,0.,1.)", faces[0]),
+                                               "#9007,#9107"));
+  const auto colours = [&](const char* name) {
+    EXPECT_EQ(run_program(folder, std::string(name) + ".step -o " + name + ".ply").first, 0);
+    auto file = io::parse_solid(test::read_bytes(folder / (std::string(name) + ".ply")), "mesh.ply");
+    EXPECT_TRUE(file.has_value()) << file.error().message;
+    std::vector<std::uint32_t> found = file->colour_of_face;
+    std::sort(found.begin(), found.end());
+    return found;
+  };
+  constexpr std::uint32_t kNone = io::SolidFile::kNoColour;
+  using Colours = std::vector<std::uint32_t>;
+  EXPECT_EQ(colours("plain"), Colours(6, kNone));
+  EXPECT_EQ(colours("faces"), (Colours{0x00ffff, 0xff8000, kNone, kNone, kNone, kNone}));
+  EXPECT_EQ(colours("body"), (Colours{0x0000ff, 0x333333, 0x333333, 0x333333, 0x333333, 0x333333}));
 }
 
 TEST(StepProgram, WritesAMeshThatIsReadWithItsDeviation) {

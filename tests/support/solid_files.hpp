@@ -135,23 +135,29 @@ inline std::string points(const std::vector<solid::Vector>& all, char separator 
   return out;
 }
 
-/// A text PLY as lekalo-step writes it: each triangle has the number of its face, and each face a name.
+/// A text PLY as lekalo-step writes it: each triangle has the number of its face, and each face a name; and a
+/// colour, where there are colours.
 inline std::string step_mesh(const solid::Mesh& mesh, const std::string& deviation,
-                             const std::vector<std::uint32_t>& face_of,
-                             const std::vector<std::string>& names) {
+                             const std::vector<std::uint32_t>& face_of, const std::vector<std::string>& names,
+                             const std::vector<std::uint32_t>& colours = {}) {
   std::string out = fmt::format(
       "ply\nformat ascii 1.0\ncomment lekalo-step 1\ncomment deviation {}\nelement vertex {}\nproperty "
       "double x\n"
       "property double y\nproperty double z\nelement face {}\nproperty list uchar uint vertex_indices\n"
-      "property uint face\nelement body_face {}\nproperty double deviation\nproperty list uchar uchar kind\n"
+      "property uint face\nelement body_face {}\nproperty double deviation\n{}property list uchar uchar "
+      "kind\n"
       "property list uchar uchar name\nend_header\n",
-      deviation, mesh.vertices.size(), mesh.triangles.size(), names.size());
+      deviation, mesh.vertices.size(), mesh.triangles.size(), names.size(),
+      colours.empty() ? "" : "property uint colour\n");
   for (const solid::Vector p : mesh.vertices) out += fmt::format("{} {} {}\n", p.x, p.y, p.z);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     out += fmt::format("3 {} {} {} {}\n", mesh.triangles[t][0], mesh.triangles[t][1], mesh.triangles[t][2],
                        face_of[t]);
-  for (const std::string& name : names) {
-    out += fmt::format("{} 1 112 {}", deviation, name.size());
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const std::string& name = names[k];
+    out += deviation;
+    if (!colours.empty()) out += fmt::format(" {}", colours[k]);
+    out += fmt::format(" 1 112 {}", name.size());
     for (const char c : name) out += fmt::format(" {}", static_cast<unsigned>(static_cast<unsigned char>(c)));
     out += "\n";
   }

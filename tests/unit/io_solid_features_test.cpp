@@ -100,11 +100,15 @@ TEST(SolidFeatures, WhatCannotBeUnderstoodIsRefused) {
   EXPECT_EQ(refusal(R"({"features": [{"triangles": [0]}]})"), R"(f.json, feature 0: "name" must be a text)");
   EXPECT_EQ(
       refusal_of(R"("minimum": 1)"),
-      R"(f.json, feature "a": one of "triangles", "label", "faces", "patch", "box" and "plane" must say )"
-      "which triangles it has");
+      R"(f.json, feature "a": one of "triangles", "label", "faces", "colour", "patch", "box" and "plane" must )"
+      "say which triangles it has");
   EXPECT_EQ(refusal_of(R"("triangles": [0], "label": "x")"), refusal_of(R"("minimum": 1)"));
   EXPECT_EQ(refusal_of(R"("triangles": [12])"),
             R"(f.json, feature "a": triangle 12 is not one of the part's 12)");
+  for (const char* colour : {"red", "#ff800", "#ff80001", "#ff80g0", ""})
+    EXPECT_EQ(
+        refusal_of(std::string(R"("colour": ")") + colour + '"'),
+        R"(f.json, feature "a": "colour" must be a text like "#ff8000": red, green and blue, two digits each)");
   EXPECT_EQ(refusal_of(R"("label": "top")"),
             R"(f.json, feature "a": no triangle of the part has the label "top"; there is: part)");
   EXPECT_EQ(refusal_of(R"("box": [[0, 0, 1], [1, 1, 0]])"),

@@ -648,6 +648,33 @@ TEST(JobsLocateSolid, FacesOfAStepFileHaveDemands) {
   EXPECT_NEAR(*off.document.clearance, *plain.document.clearance - 0.125, 1e-9);
   EXPECT_EQ(verdict(job, plain), verify::Verdict::refuted);
   EXPECT_EQ(verdict(job, off), verify::Verdict::confirmed);
+  // The same by the colours that these faces have.
+  constexpr std::uint32_t kNone = io::SolidFile::kNoColour;
+  job.part = {"part.ply", solid_files::step_mesh(block, "0.125", face_of, names,
+                                                 {kNone, 0xff8000, 0, kNone, 0x00ff0a, 0})};
+  job.features = features(R"("colour": "#00FF0A")", R"("colour": "#ff8000")");
+  const LocatedSolid coloured = made(job);
+  EXPECT_EQ(coloured.document.demands->margin, off.document.demands->margin);
+  EXPECT_EQ(coloured.document.demands->features[0].triangles, (std::vector<std::uint32_t>{8, 9}));
+  EXPECT_EQ(coloured.document.demands->features[1].triangles, (std::vector<std::uint32_t>{2, 3}));
+  EXPECT_EQ(verdict(job, coloured), verify::Verdict::confirmed);
+  job.features = features(R"("colour": "#00ff0b")", R"("label": "roof")");
+  EXPECT_EQ(
+      refusal(job).message,
+      "features.json, feature \"end\": no face of the part has the colour \"#00ff0b\"; there is: #000000, "
+      "#00ff0a, #ff8000");
+  job.part.bytes =
+      solid_files::step_mesh(block, "0.125", face_of, names, std::vector<std::uint32_t>(6, kNone));
+  EXPECT_EQ(
+      refusal(job).message,
+      "features.json, feature \"end\": the part has no colours, which meshes by lekalo-step have where the "
+      "faces of the STEP file do; make the mesh again, or name the triangles by \"faces\" or \"patch\"");
+  job.part.bytes =
+      solid_files::step_mesh(block, "0.125", face_of, names, {0, 0, 0, 0, 0, io::SolidFile::kNoColour + 1});
+  EXPECT_EQ(refusal(job).message.find("part.ply: line "), 0U) << refusal(job).message;
+  EXPECT_TRUE(says(refusal(job).message, "its colour is not a whole number from 0 to 16777216"))
+      << refusal(job).message;
+  job.part.bytes = solid_files::step_mesh(block, "0.125", face_of, names);
   job.features = features(R"("faces": [6])", R"("label": "roof")");
   EXPECT_EQ(refusal(job).message, "features.json, feature \"end\": face 6 is none of the part's 6");
   job.part = {"part.stl", solid_files::stl_text(block)};

@@ -370,6 +370,24 @@ TEST(SolidFeatures, FacesAreThoseOfAStepFile) {
                   solid_files::step_mesh(cases::block({-5, -5, -5}, {5, 5, 5}), "0.5",
                                          {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 6, 5}, {"", "", "", "", "", "c"}))[0],
             (Numbers{11}));
+  const std::string coloured =
+      solid_files::step_mesh(cases::block({-5, -5, -5}, {5, 5, 5}), "0.5", face_of,
+                             {"", "roof", "roof", "", "", "c"}, {255, 0xff8000, 0x1000000, 255, 7, 0xff8000});
+  const auto by_colour = [&](const char* colour) {
+    return found(Json::array({Json{{"name", "a"}, {"colour", colour}}}), coloured)[0];
+  };
+  EXPECT_EQ(by_colour("#0000ff"), (Numbers{0, 1, 6, 7}));
+  EXPECT_EQ(by_colour("#FF8000"), (Numbers{2, 3, 8, 9, 10, 11}));
+  const auto in_colour = [](const char* colour) {
+    return std::string(R"({"features": [{"name": "a", "colour": ")") + colour + "\"}]}";
+  };
+  EXPECT_TRUE(says(refused(in_colour("#000007"), coloured), "features[0] has no triangle of the part"));
+  EXPECT_TRUE(says(refused(in_colour("#0000ff"), part), "features[0] has no triangle of the part"));
+  EXPECT_TRUE(
+      says(refused(in_colour("#ff80"), coloured), "field features[0].colour is no colour like #ff8000"));
+  std::string beyond = coloured;
+  beyond.replace(beyond.find("16777216"), 8, "16777217");
+  EXPECT_TRUE(says(read_solid({"part", beyond}).error().message, "its colour is not one"));
   std::string wrong = part;
   wrong.replace(wrong.rfind(" 5\n"), 3, " x\n");
   const auto reading = read_solid({"part", wrong});

@@ -34,7 +34,7 @@ constexpr double kHiddenTurn = 0x1p-36;
 /// An edge of a closed surface has two triangles as a rule. Where so many meet nothing is a patch.
 constexpr std::size_t kMostAtEdge = 64;
 
-constexpr const char* kWhich[]{"triangles", "label", "faces", "patch", "box", "plane"};
+constexpr const char* kWhich[]{"triangles", "label", "faces", "colour", "patch", "box", "plane"};
 
 std::optional<Vector> three_numbers(JsonValue json) {
   if (json.kind() != JsonKind::list || json.size() != 3) return std::nullopt;
@@ -64,8 +64,8 @@ class SpecReader {
     where_ = fmt::format("{}, feature {}", name_, index);
     LEKALO_CHECK(
         detail::expect_object(json, where_,
-                              {"name", "triangles", "label", "faces", "patch", "box", "plane", "minimum",
-                               "target", "maximum", "scale", "as_cast", "finished", "rim"}));
+                              {"name", "triangles", "label", "faces", "colour", "patch", "box", "plane",
+                               "minimum", "target", "maximum", "scale", "as_cast", "finished", "rim"}));
     SolidFeatureSpec spec;
     const auto name = json.find("name");
     if (!name || !is_word(*name)) return refuse(where_, "\"name\" must be a text");
@@ -106,11 +106,13 @@ class SpecReader {
     for (const char* word : kWhich)
       if (const auto found = json.find(word)) said = found, ++count;
     if (count != 1)
-      return refuse(where_,
-                    "one of \"triangles\", \"label\", \"faces\", \"patch\", \"box\" and \"plane\" must say "
-                    "which triangles it has");
+      return refuse(
+          where_,
+          "one of \"triangles\", \"label\", \"faces\", \"colour\", \"patch\", \"box\" and \"plane\" "
+          "must say which triangles it has");
     const std::string_view key = said->key();
     if (key == "triangles" || key == "faces") return numbers(*said, spec);
+    if (key == "colour") return colour(*said, spec);
     if (key == "patch") return patch(*said, spec);
     if (key == "box") return box(*said, spec);
     if (key == "plane") return plane(*said, spec);
@@ -135,6 +137,24 @@ class SpecReader {
       spec.which = SolidFeatureSpec::Numbers{std::move(made)};
     else
       spec.which = SolidFeatureSpec::Faces{std::move(made)};
+    return {};
+  }
+
+  Result<void> colour(JsonValue said, SolidFeatureSpec& spec) const {
+    const std::string text = is_word(said) ? std::string(said.text()) : std::string();
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    std::uint32_t number = 0;
+    bool is_one = text.size() == 7 && text.front() == '#';
+    for (std::size_t k = 1; k < text.size() && is_one; ++k) {
+      const char c = text[k] >= 'A' && text[k] <= 'F' ? static_cast<char>(text[k] - 'A' + 'a') : text[k];
+      const std::size_t digit = kDigits.find(c);
+      is_one = digit != std::string_view::npos;
+      number = 16 * number + static_cast<std::uint32_t>(digit & 15);
+    }
+    if (!is_one)
+      return refuse(where_,
+                    "\"colour\" must be a text like \"#ff8000\": red, green and blue, two digits each");
+    spec.which = SolidFeatureSpec::Colour{number};
     return {};
   }
 
@@ -343,6 +363,26 @@ class TriangleFinder {
                                           1 + *std::max_element(face_of.begin(), face_of.end())));
     }
     return made;
+  }
+
+  Found found(const SolidFeatureSpec::Colour& which) {
+    const std::vector<std::uint32_t>& colours = part_.colour_of_face;
+    std::vector<std::uint32_t> made;
+    for (std::uint32_t t = 0; t < count() && !colours.empty(); ++t)
+      if (const std::uint32_t face = part_.face_of_triangle[t];
+          face < colours.size() && colours[face] == which.number)
+        made.push_back(t);
+    if (!made.empty()) return made;
+    std::set<std::string> known;
+    for (const std::uint32_t colour : colours)
+      if (colour != SolidFile::kNoColour) known.insert(fmt::format("#{:06x}", colour));
+    if (known.empty())
+      return refuse(where_,
+                    "the part has no colours, which meshes by lekalo-step have where the faces of the STEP "
+                    "file do; make the mesh again, or name the triangles by \"faces\" or \"patch\"");
+    return refuse(where_,
+                  fmt::format("no face of the part has the colour \"#{:06x}\"; there is: {}", which.number,
+                              joined_text(std::vector<std::string>(known.begin(), known.end()), ", ")));
   }
 
   Found found(const SolidFeatureSpec::Box& which) {

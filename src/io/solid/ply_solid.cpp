@@ -134,16 +134,24 @@ class PlySolid {
     return at;
   }
 
-  /// Reads the names of the faces of the STEP file.
+  /// Reads the names of the faces of the STEP file, and their colours.
   Result<void> read_names(const PlyElement& element) {
     const std::size_t list = place_of(element, "name", true);
     if (list == element.properties.size()) return ply_.skip(element);
-    return ply_.read_lists(element, list,
-                           [&](const std::vector<std::int64_t>& items, std::size_t) -> Result<void> {
-                             std::string& name = names_.emplace_back();
-                             for (const std::int64_t byte : items) name += static_cast<char>(byte);
-                             return {};
-                           });
+    const std::size_t colour = place_of(element, "colour", false);
+    return ply_.read_lists(
+        element, list, [&](const std::vector<std::int64_t>& items, std::size_t row) -> Result<void> {
+          std::string& name = names_.emplace_back();
+          for (const std::int64_t byte : items) name += static_cast<char>(byte);
+          if (colour == element.properties.size()) return {};
+          const auto number = ply_.index_in_row(element, colour);
+          if (!number || *number > SolidFile::kNoColour)
+            return ply_.refuse_row(
+                element, row,
+                fmt::format("its colour is not a whole number from 0 to {}", SolidFile::kNoColour));
+          colours_.push_back(*number);
+          return {};
+        });
   }
 
   Result<void> cut_faces() {
@@ -157,6 +165,7 @@ class PlySolid {
       if (!body_faces_.empty()) made_.set_face(first, body_faces_[face]);
       if (!wrong.empty()) return refuse(made_.name(), fmt::format("face {}: {}", face, wrong));
     }
+    made_.set_colours(std::move(colours_));
     return {};
   }
 
@@ -164,9 +173,9 @@ class PlySolid {
   SolidBuilder& made_;
   PlyFile::Axes axes_;
   std::vector<std::uint32_t> corners_, ends_;
-  /// The words of lekalo-step: the face of each, and the names of those faces.
+  /// The words of lekalo-step: the face of each, and the names and colours of those faces.
   bool by_lekalo_step_ = false;
-  std::vector<std::uint32_t> body_faces_;
+  std::vector<std::uint32_t> body_faces_, colours_;
   std::vector<std::string> names_;
 };
 

@@ -37,6 +37,7 @@ class SolidBuilder {
   /// The name of the triangles that follow.
   void begin_group(std::string_view name);
   /// The triangles from `first` on are of a face of a STEP file.
+  void set_colours(std::vector<std::uint32_t> of_faces) { file_.colour_of_face = std::move(of_faces); }
   void set_face(std::size_t first, std::uint32_t face) {
     file_.face_of_triangle.resize(first);
     file_.face_of_triangle.resize(triangles(), face);

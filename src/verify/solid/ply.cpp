@@ -186,7 +186,8 @@ class PlyReader {
     const std::size_t none = element.properties.size();
     const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
     const std::size_t of_body = is_face && by_lekalo_step_ ? element.find("face") : none,
-                      name = element.name == "body_face" ? element.find("name") : none;
+                      name = element.name == "body_face" ? element.find("name") : none,
+                      colour = element.name == "body_face" && by_lekalo_step_ ? element.find("colour") : none;
     const std::array<std::size_t, 3> xyz{element.find("x"), element.find("y"), element.find("z")};
     std::size_t corners = element.find("vertex_indices");
     if (corners == none) corners = element.find("vertex_index");
@@ -237,6 +238,11 @@ class PlyReader {
         const auto number = whole(values_[of_body]);
         if (!number) return bad_row(element, row, "its face is not a number from 0");
         body_faces_.push_back(*number);
+      }
+      if (colour < none && !element.properties[colour].count) {
+        const auto number = whole(values_[colour]);
+        if (!number || *number > 0x1000000) return bad_row(element, row, "its colour is not one");
+        made_.add_colour(*number);
       }
       if (is_vertex) LEKALO_CHECK(add_vertex(element, row, xyz));
       if (made_.is_open()) return {};

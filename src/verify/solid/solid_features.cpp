@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <numeric>
@@ -20,7 +21,8 @@
 namespace lekalo::verify {
 namespace {
 
-constexpr std::array<std::string_view, 6> kWays{"triangles", "label", "faces", "patch", "box", "plane"};
+constexpr std::array<std::string_view, 7> kWays{"triangles", "label", "faces", "colour",
+                                                "patch",     "box",   "plane"};
 
 /// Returns the sign of a number: an enclosure tells it nearly always.
 template <class Exact>
@@ -54,6 +56,13 @@ class TriangleFinder {
 
   [[nodiscard]] std::vector<std::uint32_t> of_face(std::size_t face) const {
     return all([&](std::uint32_t t) { return !part_.face_of.empty() && part_.face_of[t] == face; });
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> coloured(std::uint32_t colour) const {
+    return all([&](std::uint32_t t) {
+      return !part_.face_of.empty() && part_.face_of[t] < part_.colours.size() &&
+             part_.colours[part_.face_of[t]] == colour;
+    });
   }
 
   [[nodiscard]] std::vector<std::uint32_t> in_box(const Both3& low, const Both3& high) const {
@@ -242,8 +251,8 @@ class FeatureReader {
 
   void add(Json item, const std::string& path, SolidDemands& demands) {
     Fields fields(item, path, complaint_);
-    refuse_other_words(fields, {"name", "triangles", "label", "faces", "patch", "box", "plane", "minimum",
-                                "target", "maximum", "scale", "as_cast", "finished", "rim"});
+    refuse_other_words(fields, {"name", "triangles", "label", "faces", "colour", "patch", "box", "plane",
+                                "minimum", "target", "maximum", "scale", "as_cast", "finished", "rim"});
     SolidFeature feature{fields.text("name"), demand(fields), 0};
     if (is_said(fields, "finished")) {
       feature.finished = true;
@@ -366,6 +375,7 @@ class FeatureReader {
     if (way == "triangles") return numbered(fields);
     if (way == "faces") return of_faces(fields);
     if (way == "label") return finder_.labelled(fields.text("label"));
+    if (way == "colour") return of_colour(fields);
     if (way == "patch") {
       const Both3 place = point(fields.get("patch"), fields.name("patch"));
       return complaint_.empty() ? finder_.patch_at(place) : std::vector<std::uint32_t>{};
@@ -393,6 +403,19 @@ class FeatureReader {
       found.insert(found.end(), of_one.begin(), of_one.end());
     });
     return found;
+  }
+
+  std::vector<std::uint32_t> of_colour(Fields& fields) {
+    const std::string text = fields.text("colour");
+    const bool is_hexadecimal =
+        text.size() == 7 && text[0] == '#' && std::all_of(text.begin() + 1, text.end(), [](char c) {
+          return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
+        });
+    std::uint32_t number = 0;
+    if (is_hexadecimal) std::from_chars(text.data() + 1, text.data() + 7, number, 16);
+    if (!is_hexadecimal)
+      fields.complain(fmt::format("field {} is no colour like #ff8000", fields.name("colour")));
+    return is_hexadecimal ? finder_.coloured(number) : std::vector<std::uint32_t>{};
   }
 
   std::vector<std::uint32_t> boxed(Fields& fields) {

@@ -62,6 +62,9 @@ struct SolidReading {
   std::optional<Decimal> deviation;
   /// The faces of its STEP file, of each triangle; else empty.
   std::vector<std::uint32_t> face_of;
+  /// The colours that these have there, by their numbers, 65536 red + 256 green + blue; more where there is
+  /// none. Empty where the file has no colours.
+  std::vector<std::uint32_t> colours;
   /// Says what is not read here, and so not rechecked; the mesh is of no use then.
   std::optional<std::string> open;
 };

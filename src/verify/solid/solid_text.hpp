@@ -30,6 +30,7 @@ class SolidMaker {
   void begin_group(std::string_view name);
   /// The last triangle is of a face of a STEP file.
   void set_face(std::uint32_t face) { reading_.face_of.push_back(face); }
+  void add_colour(std::uint32_t colour) { reading_.colours.push_back(colour); }
   void set_deviation(Decimal millimetres) { reading_.deviation = std::move(millimetres); }
   [[nodiscard]] SolidUnit unit() const { return reading_.unit; }
   /// The file says it.

@@ -28,6 +28,10 @@ struct SolidFeatureSpec {
   struct Faces {
     std::vector<std::uint32_t> faces;
   };
+  /// Those of faces that have a colour there, 65536 red + 256 green + blue.
+  struct Colour {
+    std::uint32_t number = 0;
+  };
   /// Those about the triangle that is nearest to a point, up to edges where the surface bends.
   struct Patch {
     solid::Vector point;
@@ -41,7 +45,7 @@ struct SolidFeatureSpec {
     double at = 0, within = 0;
   };
   std::string name;
-  std::variant<Numbers, Label, Faces, Patch, Box, Plane> which;
+  std::variant<Numbers, Label, Faces, Colour, Patch, Box, Plane> which;
   std::optional<locate::SolidDemand> demand;  ///< none: as cast, or finished
   /// No point of it has more allowance, mm; above the minimum.
   std::optional<double> maximum = std::nullopt;
@@ -73,13 +77,13 @@ struct SolidFeatureFile {
   std::vector<SolidDatumSpec> datums;
 };
 
-/// `{"units", "minimum", "as_cast", "features": [{"name", "triangles" | "label" | "faces" | "patch" | "box" |
-/// "plane", "minimum", "target", "maximum", "scale", "as_cast", "finished", "rim"}, ...], "datums": [{"name",
-/// "feature" | "points", "plane" | "axis" | "point", "within"}, ...]}`. `unit` applies where the file does
-/// not say.
+/// `{"units", "minimum", "as_cast", "features": [{"name", "triangles" | "label" | "faces" | "colour" |
+/// "patch" | "box" | "plane", "minimum", "target", "maximum", "scale", "as_cast", "finished", "rim"}, ...],
+/// "datums": [{"name", "feature" | "points", "plane" | "axis" | "point", "within"}, ...]}`. `unit` applies
+/// where the file does not say.
 ///
 /// Fails with ErrorCode::bad_input, naming file and feature or datum: words it does not know, numbers out of
-/// range, a feature without exactly one of the six, a demand on what is as cast or finished.
+/// range, a feature without exactly one of the seven, a demand on what is as cast or finished.
 [[nodiscard]] Result<SolidFeatureFile> parse_solid_features(std::string_view bytes, const std::string& name,
                                                             std::optional<SolidUnit> unit);
 

@@ -50,6 +50,10 @@ struct SolidFile {
   std::optional<double> deviation;
   /// The number of each triangle's face in the STEP file, of a mesh by lekalo-step; else empty.
   std::vector<std::uint32_t> face_of_triangle;
+  /// The colour of each face there, by its number: 65536 red + 256 green + blue, each from 0 to 255;
+  /// kNoColour of one without. Empty of other meshes, and where an older lekalo-step made it.
+  static constexpr std::uint32_t kNoColour = 0x1000000;
+  std::vector<std::uint32_t> colour_of_face;
   std::vector<std::string> notices;
 };
 
