@@ -24,6 +24,9 @@ inline constexpr double kWithin = 1e-5;
 /// Sums over many pieces are told apart to this part.
 inline constexpr double kSummed = 1e-9;
 
+/// So many faults of places are told.
+inline constexpr std::size_t kMostFaults = 100;
+
 struct HeatWall {
   std::array<double, 3> at{};
   std::array<double, 2> outward{};

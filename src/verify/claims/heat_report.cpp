@@ -23,8 +23,6 @@ namespace {
 
 /// Pieces of the path are this part of the tool's diameter.
 constexpr double kPiece = 0.125;
-/// So many faults of places are told.
-constexpr std::size_t kMostFaults = 100;
 /// The heat may miss its balance by this part (docs/design/heat-walls.md).
 constexpr double kBalanced = 1e-3;
 
