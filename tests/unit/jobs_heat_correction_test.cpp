@@ -185,8 +185,8 @@ TEST(JobsHeatCorrection, ThreadsChangeNoByte) {
 }
 
 TEST(JobsHeatCorrection, TheCheckerRebuildsWhatTheWrittenProgramLeavesAndFindsLies) {
-  HeatResultJob job{
-      job_of(rectangle_program(0.3, "24"), kPocket, 0.3), {}, CorrectionWish{}, "corrected.ngc"};
+  HeatResultJob job{job_of(rectangle_program(0.3, "24"), kPocket, 0.3)};
+  job.correction = CorrectionWish{}, job.corrected_as = "corrected.ngc";
   const auto made = heat_result(job);
   ASSERT_TRUE(made) << made.error().message;
   ASSERT_TRUE(made->correction.has_value());
