@@ -131,6 +131,37 @@ TEST(CliHeat, TheStockMayBeAnOutline) {
   EXPECT_NE(beyond.err.find("p.ngc:4: the tool cuts"), std::string::npos) << beyond.err;
 }
 
+TEST(CliHeat, ACorrectedProgramIsWrittenWhereTheIntervalsSupportIt) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "k.json", R"({"units": "mm", "outer": [{"line": {"from": [0, 0], "to": [40, 0]}},
+    {"line": {"from": [40, 0], "to": [40, 30]}}, {"line": {"from": [40, 30], "to": [0, 30]}},
+    {"line": {"from": [0, 30], "to": [0, 0]}}]})");
+  ASSERT_EQ(run(folder.path(),
+                {"pocket", "k.json", "--tool", "6", "--depth", "4", "--stepdown", "2", "-o", "p.ngc"})
+                .status,
+            0);
+  Words words = with(kUsual, {"--cutting-force", "700", "--force-exponent", "0.25", "--cooling", "20",
+                              "--corrected", "c.ngc", "-o", "h.json"});
+  words[5] = "60x50x12";
+  const Ran wide = run(folder.path(), with(words, {"--share", "0.1..0.5"}));
+  EXPECT_EQ(wide.status, 1);
+  EXPECT_NE(wide.err.find("no corrected program is written"), std::string::npos) << wide.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "c.ngc"));
+  EXPECT_TRUE(Json::parse(read_bytes(folder / "h.json"))["after_correction_um"].is_null());
+
+  const Ran made = run(folder.path(), with(words, {"--share", "0.3"}));
+  ASSERT_EQ(made.status, 0) << made.err;
+  const Json result = Json::parse(read_bytes(folder / "h.json"));
+  EXPECT_LT(result["after_correction_um"]["largest"].get<double>(),
+            0.2 * result["wall_error_um"]["largest"].get<double>());
+  EXPECT_EQ(run(folder.path(), {"verify", "h.json"}).status, 1);
+  write_bytes(folder / "c.ngc", read_bytes(folder / "p.ngc"));
+  EXPECT_EQ(run(folder.path(), {"verify", "h.json"}).status, 4) << "another program";
+  const Ran none = run(folder.path(), with(words, {"--share", "0.3", "--finish", "0.01"}));
+  EXPECT_EQ(none.status, 3);
+  EXPECT_NE(none.err.find("no finishing pass to move"), std::string::npos) << none.err;
+}
+
 TEST(CliHeat, WithoutHeatNothingIsOff) {
   const TemporaryFolder folder;
   write_files(folder);

@@ -145,6 +145,18 @@ TEST(JobsHeatCorrection, ThePassesOfAPocketOfOursAreMoved) {
   expect_better(made_of(job_of(made->program, kRing, 0.3)));
 }
 
+// Its way along the walls ends where it began, and takes next to nothing there.
+TEST(JobsHeatCorrection, WhereAPassEndsItMayBeMovedByMoreThanItTakes) {
+  PocketJob pocketing;
+  pocketing.pocket = {"pocket.json", kPocket};
+  pocketing.options.path.tool_diameter = 6;
+  pocketing.options.path.depth = 4, pocketing.options.path.step_down = 2;
+  const Result<Pocketed> made = pocket(pocketing);
+  ASSERT_TRUE(made) << made.error().message;
+  const HeatJob job = job_of(made->program, kPocket, 0.3);
+  EXPECT_EQ(complaint_of(job), "");
+}
+
 TEST(JobsHeatCorrection, WithoutHeatTheProgramIsItsOwn) {
   const HeatJob job = job_of(rectangle_program(0.3, "4"), kPocket, 0);
   const Made made = made_of(job);
@@ -185,7 +197,8 @@ TEST(JobsHeatCorrection, ThreadsChangeNoByte) {
 }
 
 TEST(JobsHeatCorrection, TheCheckerRebuildsWhatTheWrittenProgramLeavesAndFindsLies) {
-  HeatResultJob job{job_of(rectangle_program(0.3, "24"), kPocket, 0.3)};
+  HeatResultJob job;
+  job.heat = job_of(rectangle_program(0.3, "24"), kPocket, 0.3);
   job.correction = CorrectionWish{}, job.corrected_as = "corrected.ngc";
   const auto made = heat_result(job);
   ASSERT_TRUE(made) << made.error().message;

@@ -102,24 +102,45 @@ Result<void> check_finishing(const HeatJob& job, const std::vector<WallPasses>& 
                              job.source.program.name, taken, finish));
 }
 
+/// Returns what finishing passes take of a height within a tool's radius of a station, mm. Where a pass
+/// begins and ends it takes less than on the way, or nothing.
+double stock_about(const HeatFound& found, const std::vector<WallPasses>& stations, std::size_t station,
+                   double z, double radius) {
+  const auto place_of = [&](std::size_t s) -> const WallPoint& {
+    return found.walls[stations[s].front().heights.back().place];
+  };
+  const WallPoint& here = place_of(station);
+  double stock = 0;
+  const auto look = [&](std::size_t s) {
+    if (stations[s].empty()) return true;
+    if (std::hypot(place_of(s).x - here.x, place_of(s).y - here.y) > radius) return false;
+    for (const WallPass& pass : stations[s])
+      if (pass.finishing && std::ranges::any_of(pass.heights, [&](const WallPass::Height& height) {
+            return found.walls[height.place].z == z;
+          }))
+        stock = std::max(stock, pass.stock);
+    return true;
+  };
+  for (std::size_t s = station + 1; s-- > 0;)
+    if (!look(s)) break;
+  for (std::size_t s = station + 1; s < stations.size(); ++s)
+    if (!look(s)) break;
+  return stock;
+}
+
 /// No pass goes further than what stands there for the passes of its height to take.
 Result<void> check_stock(const HeatJob& job, const HeatFound& found,
                          const std::vector<WallPasses>& stations) {
-  for (const WallPasses& passes : stations)
-    for (const WallPass& pass : passes) {
-      if (!pass.across || !pass.finishing) continue;
-      double stock = pass.stock;
-      for (const WallPass& other : passes)
-        if (other.finishing && std::ranges::any_of(other.heights, [&](const WallPass::Height& height) {
-              return height.place == pass.heights.back().place;
-            }))
-          stock = std::max(stock, other.stock);
-      if (std::abs(pass.moved) <= 1000 * stock) continue;
+  for (std::size_t s = 0; s < stations.size(); ++s)
+    for (const WallPass& pass : stations[s]) {
+      if (!pass.across || !pass.finishing || std::abs(pass.moved) <= 1000 * pass.stock) continue;
       const WallPoint& wall = found.walls[pass.heights.back().place];
+      const double stock = stock_about(found, stations, s, wall.z, job.source.machining.tool_diameter / 2);
+      if (std::abs(pass.moved) <= 1000 * stock) continue;
       return failure(
           ErrorCode::bad_input,
-          fmt::format("{}:{}: the finishing pass takes {:.4f} mm at X {:.3f} Y {:.3f}, and would be moved by "
-                      "{:.4f} mm; leave more stock for it",
+          fmt::format("{}:{}: the finishing pass takes {:.4f} mm about X {:.3f} Y {:.3f}, and would be moved "
+                      "by {:.4f} mm; leave more stock for it",
                       job.source.program.name, found.source.pieces[pass.at.piece].line, stock, wall.x, wall.y,
                       std::abs(pass.moved) / 1000));
     }
