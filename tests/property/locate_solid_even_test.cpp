@@ -170,7 +170,8 @@ TEST(SolidEven, SixHundredPointsTellWhatManyDo) {
     const SolidPose pose = evened(problem, random.uniform(0, 0.5 * best.margin)).made.pose;
     const double told = allowance_deviation(problem, pose),
                  there = sampled_deviation(problem, motion_of(pose));
-    EXPECT_NEAR(told, there, 0.15 * there);
+    // Of bodies that are as far from each other everywhere only the rounding is left.
+    EXPECT_NEAR(told, there, 0.15 * there + 1e-9);
   }
 }
 

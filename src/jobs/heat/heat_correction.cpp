@@ -87,25 +87,29 @@ class WallsAfter {
   std::vector<std::vector<Reached>> reached_;
 };
 
+/// Where a pass begins, ends or turns it takes less than on its way, so half of the places decide.
 Result<void> check_finishing(const HeatJob& job, const std::vector<WallPasses>& stations, double finish) {
-  double least = std::numeric_limits<double>::infinity();
+  std::vector<double> stocks;
   for (const WallPasses& passes : stations)
     for (const WallPass& pass : passes)
-      if (pass.on_wall && pass.across && pass.stock > kTakes) least = std::min(least, pass.stock);
-  if (least <= finish) return {};
-  const std::string taken = std::isfinite(least)
-                                ? fmt::format("its passes along the walls take {:.3g} mm or more", least)
-                                : std::string("none of its passes along the walls takes anything");
+      if (pass.on_wall && pass.across && pass.stock > kTakes) stocks.push_back(pass.stock);
+  std::string taken = "none of its passes along the walls takes anything";
+  if (!stocks.empty()) {
+    std::ranges::sort(stocks);
+    const double usual = stocks[stocks.size() / 2];
+    if (usual <= finish) return {};
+    taken = fmt::format("its passes along the walls take {:.3g} mm", usual);
+  }
   return failure(ErrorCode::bad_input,
                  fmt::format("{}: no finishing pass to move: {}, and a finishing pass takes {:g} mm at most "
                              "(--finish); cut the walls in a pass of their own",
                              job.source.program.name, taken, finish));
 }
 
-/// Returns what finishing passes take of a height within a tool's radius of a station, mm. Where a pass
+/// Returns what finishing passes take of a height within a tool's diameter of a station, mm. Where a pass
 /// begins and ends it takes less than on the way, or nothing.
 double stock_about(const HeatFound& found, const std::vector<WallPasses>& stations, std::size_t station,
-                   double z, double radius) {
+                   double z, double diameter) {
   const auto place_of = [&](std::size_t s) -> const WallPoint& {
     return found.walls[stations[s].front().heights.back().place];
   };
@@ -113,7 +117,7 @@ double stock_about(const HeatFound& found, const std::vector<WallPasses>& statio
   double stock = 0;
   const auto look = [&](std::size_t s) {
     if (stations[s].empty()) return true;
-    if (std::hypot(place_of(s).x - here.x, place_of(s).y - here.y) > radius) return false;
+    if (std::hypot(place_of(s).x - here.x, place_of(s).y - here.y) > diameter) return false;
     for (const WallPass& pass : stations[s])
       if (pass.finishing && std::ranges::any_of(pass.heights, [&](const WallPass::Height& height) {
             return found.walls[height.place].z == z;
@@ -135,7 +139,7 @@ Result<void> check_stock(const HeatJob& job, const HeatFound& found,
     for (const WallPass& pass : stations[s]) {
       if (!pass.across || !pass.finishing || std::abs(pass.moved) <= 1000 * pass.stock) continue;
       const WallPoint& wall = found.walls[pass.heights.back().place];
-      const double stock = stock_about(found, stations, s, wall.z, job.source.machining.tool_diameter / 2);
+      const double stock = stock_about(found, stations, s, wall.z, job.source.machining.tool_diameter);
       if (std::abs(pass.moved) <= 1000 * stock) continue;
       return failure(
           ErrorCode::bad_input,
