@@ -378,3 +378,12 @@ def of_heat():
                  "r.json"]], "r.json", ["verify", "r.json"],
                lambda context: lambda change: None, base=1, inputs=["p.ngc", "pocket.json"],
                written={"p.ngc": program, "pocket.json": json.dumps(POCKET)})
+    sides = ((0, 0), (40, 0), (40, 30), (0, 30), (0, 0))
+    pocket = {"units": "mm", "outer": [{"line": {"from": a, "to": b}} for a, b in zip(sides, sides[1:])]}
+    yield Kind("result of heat, corrected", [],
+               [["pocket", "pocket.json", "--tool", "6", "--depth", "4", "--stepdown", "2", "-o", "p.ngc"],
+                ["heat", "p.ngc", "--pocket", "pocket.json", "--stock", "60x50x12", "--tool", "6", "--teeth", "3", "--spindle", "8000",
+                 "--material", "6061-T6", "--share", "0.3", "--cutting-force", "700", "--force-exponent", "0.25", "--cooling", "20",
+                 "--voxel", "4", "--corrected", "c.ngc", "-o", "r.json"]], "r.json", ["verify", "r.json"],
+               lambda context: lambda change: None, base=1, inputs=["p.ngc", "pocket.json", "c.ngc"],
+               written={"pocket.json": json.dumps(pocket)})

@@ -87,7 +87,7 @@ class WallsAfter {
   std::vector<std::vector<Reached>> reached_;
 };
 
-/// Where a pass begins, ends or turns it takes less than on its way, so half of the places decide.
+/// Half of the places decide, since a pass takes less where it begins, ends or turns than on its way.
 Result<void> check_finishing(const HeatJob& job, const std::vector<WallPasses>& stations, double finish) {
   std::vector<double> stocks;
   for (const WallPasses& passes : stations)
