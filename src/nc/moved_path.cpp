@@ -14,6 +14,7 @@
 #include "interpreter.hpp"
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/stop.hpp"
+#include "lekalo/geom/point.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/nc/dialect.hpp"
 #include "modes.hpp"
@@ -23,21 +24,14 @@
 namespace lekalo::nc {
 namespace {
 
+using geom::norm, geom::Point;
+
 /// A node is left out where the way without it stays as near as this, mm.
 constexpr double kOnMovedWay = 1e-4;
 /// A written arc turns by no more than this, with some rounding.
 constexpr double kMostOfATurn = kTurn / 4 + 1e-9;
 
-struct FlatPlace {
-  double x = 0, y = 0;  // mm
-};
-FlatPlace operator+(FlatPlace a, FlatPlace b) { return {a.x + b.x, a.y + b.y}; }
-FlatPlace operator-(FlatPlace a, FlatPlace b) { return {a.x - b.x, a.y - b.y}; }
-FlatPlace operator*(double k, FlatPlace a) { return {k * a.x, k * a.y}; }
-double across(FlatPlace a, FlatPlace b) { return a.x * b.y - a.y * b.x; }
-double size_of(FlatPlace a) { return std::hypot(a.x, a.y); }
-
-FlatPlace flat(GridPoint p) {
+Point flat(GridPoint p) {
   return {static_cast<double>(p.x) / kGrainsPerMillimetre, static_cast<double>(p.y) / kGrainsPerMillimetre};
 }
 
@@ -53,25 +47,25 @@ class WayOfMotion {
     const Arc arc = motion_arc(motion);
     is_arc_ = true;
     centre_ = {arc.centre.x.hi / kGrainsPerMillimetre, arc.centre.y.hi / kGrainsPerMillimetre};
-    const FlatPlace out = start_ - centre_;
+    const Point out = start_ - centre_;
     begin_ = geom::direction_angle(out.x, out.y);
     sweep_ = motion.clockwise ? -arc.sweep : arc.sweep;
-    first_radius_ = size_of(out), last_radius_ = size_of(end_ - centre_);
+    first_radius_ = norm(out), last_radius_ = norm(end_ - centre_);
   }
 
   [[nodiscard]] bool is_arc() const { return is_arc_; }
   [[nodiscard]] double sweep() const { return std::abs(sweep_); }
   [[nodiscard]] double radius() const { return (first_radius_ + last_radius_) / 2; }
-  [[nodiscard]] FlatPlace at(double share) const {
+  [[nodiscard]] Point at(double share) const {
     if (share >= 1) return end_;
     if (!is_arc_) return start_ + share * (end_ - start_);
     const double radius = first_radius_ + share * (last_radius_ - first_radius_);
     const auto direction = geom::sincos(begin_ + share * sweep_);
-    return centre_ + radius * FlatPlace{direction.cosine, direction.sine};
+    return centre_ + radius * Point{direction.cosine, direction.sine};
   }
 
  private:
-  FlatPlace start_, end_, centre_;
+  Point start_, end_, centre_;
   bool is_arc_ = false;
   double begin_ = 0, sweep_ = 0, first_radius_ = 0, last_radius_ = 0;
 };
@@ -79,10 +73,10 @@ class WayOfMotion {
 /// A place on a motion's way with where it goes.
 struct Knot {
   double share = 0, z = 0;
-  FlatPlace by;
+  Point by;
 };
 
-FlatPlace between(const Knot& a, const Knot& b, double share) {
+Point between(const Knot& a, const Knot& b, double share) {
   const double t = b.share > a.share ? (share - a.share) / (b.share - a.share) : 0;
   return a.by + t * (b.by - a.by);
 }
@@ -186,7 +180,7 @@ class PathMover {
   }
 
   /// Says where a share of the way goes. \pre it is between these two knots
-  static FlatPlace moved(const WayOfMotion& way, const std::vector<Knot>& knots, double share) {
+  static Point moved(const WayOfMotion& way, const std::vector<Knot>& knots, double share) {
     auto after = std::ranges::lower_bound(knots, share, {}, &Knot::share);
     if (after == knots.begin()) ++after;
     if (after == knots.end()) --after;
@@ -196,22 +190,22 @@ class PathMover {
   /// Says whether one line serves for all from one knot to another.
   static bool line_fits(const std::vector<Knot>& knots, std::size_t a, std::size_t b) {
     for (std::size_t k = a + 1; k < b; ++k)
-      if (size_of(knots[k].by - between(knots[a], knots[b], knots[k].share)) > kOnMovedWay) return false;
+      if (norm(knots[k].by - between(knots[a], knots[b], knots[k].share)) > kOnMovedWay) return false;
     return true;
   }
 
   /// The circle through three places of the moved way that are at most a quarter turn apart.
   struct MovedCircle {
     double radius = 0;
-    FlatPlace centre;
+    Point centre;
   };
-  static MovedCircle circle_of(const Motion& motion, const WayOfMotion& way, FlatPlace from, FlatPlace middle,
-                               FlatPlace to) {
-    const FlatPlace chord = to - from;
-    const double length = size_of(chord);
-    const FlatPlace half = from + 0.5 * chord, left = (1 / length) * FlatPlace{-chord.y, chord.x};
+  static MovedCircle circle_of(const Motion& motion, const WayOfMotion& way, Point from, Point middle,
+                               Point to) {
+    const Point chord = to - from;
+    const double length = norm(chord);
+    const Point half = from + 0.5 * chord, left = (1 / length) * Point{-chord.y, chord.x};
     // Above 0 where the way bulges as its turning has it.
-    const double bulge = across(chord, from - middle) / length * (motion.clockwise ? -1 : 1);
+    const double bulge = geom::cross(chord, from - middle) / length * (motion.clockwise ? -1 : 1);
     double radius = way.radius();
     if (bulge > kOnMovedWay) radius = (length * length / 4 + bulge * bulge) / (2 * bulge);
     radius = std::max(radius, length / 2);
@@ -222,12 +216,12 @@ class PathMover {
   static bool arc_fits(const Motion& motion, const WayOfMotion& way, const std::vector<Knot>& knots,
                        std::size_t a, std::size_t b) {
     if (way.sweep() * (knots[b].share - knots[a].share) > kMostOfATurn) return false;
-    const FlatPlace from = moved(way, knots, knots[a].share), to = moved(way, knots, knots[b].share);
+    const Point from = moved(way, knots, knots[a].share), to = moved(way, knots, knots[b].share);
     if (from.x == to.x && from.y == to.y) return false;
     const MovedCircle circle =
         circle_of(motion, way, from, moved(way, knots, (knots[a].share + knots[b].share) / 2), to);
     for (std::size_t k = a + 1; k < b; ++k)
-      if (std::abs(size_of(moved(way, knots, knots[k].share) - circle.centre) - circle.radius) > kOnMovedWay)
+      if (std::abs(norm(moved(way, knots, knots[k].share) - circle.centre) - circle.radius) > kOnMovedWay)
         return false;
     return true;
   }
@@ -244,19 +238,19 @@ class PathMover {
       };
       while (b + 1 < knots.size() && motion.start_known && fits(b + 1)) ++b;
       if (!motion.start_known) b = knots.size() - 1;
-      const FlatPlace to = moved(way, knots, knots[b].share);
+      const Point to = moved(way, knots, knots[b].share);
       WrittenEnd end{{to_step(to.x, step), to_step(to.y, step)}, knots[b].z, {}};
-      if (knots[b].share >= 1 && size_of(knots[b].by) == 0) end.at = motion.end;
+      if (knots[b].share >= 1 && norm(knots[b].by) == 0) end.at = motion.end;
       if (way.is_arc()) {
         if (end.at == here) continue;
-        const FlatPlace middle = moved(way, knots, (knots[a].share + knots[b].share) / 2);
+        const Point middle = moved(way, knots, (knots[a].share + knots[b].share) / 2);
         // The radius is that of the exact places; the centre lies between those that are written.
         const double radius = circle_of(motion, way, moved(way, knots, knots[a].share), middle, to).radius;
-        const FlatPlace chord = flat(end.at) - flat(here);
-        const double length = size_of(chord),
+        const Point chord = flat(end.at) - flat(here);
+        const double length = norm(chord),
                      off = std::sqrt(std::max(0.0, radius * radius - length * length / 4));
-        const FlatPlace left = (1 / length) * FlatPlace{-chord.y, chord.x};
-        const FlatPlace centre = flat(here) + 0.5 * chord + (motion.clockwise ? -off : off) * left;
+        const Point left = (1 / length) * Point{-chord.y, chord.x};
+        const Point centre = flat(here) + 0.5 * chord + (motion.clockwise ? -off : off) * left;
         end.centre = GridPoint{to_step(centre.x, step), to_step(centre.y, step)};
       }
       ends.push_back(end);

@@ -43,9 +43,9 @@ inline constexpr double kMostLeft = 0.2;
 /// scaling leaves, is nowhere in the intervals larger than the largest was, and no wall lies more than
 /// kMostOvercut inside the cold workpiece at any corner of them. Without heat it is the program's own bytes.
 ///
-/// Errors: bad_input where no pass along a wall takes as little as `finish`, and where a pass would be moved
-/// by more than it takes; those of heat() and nc::move_path(). Cost: heat() for each round. \param found
-/// heat(job)
+/// Errors: bad_input where passes at half of the places of walls take more than `finish`, and where one would
+/// be moved by more than finishing passes within a tool's diameter take; those of heat() and nc::move_path().
+/// Cost: heat() for each round. \param found heat(job)
 [[nodiscard]] Result<HeatCorrection> heat_correction(const HeatJob& job, const HeatFound& found,
                                                      const CorrectionWish& wish,
                                                      const PhaseListener& phases = {});

@@ -1,10 +1,11 @@
 #include "heat_beside.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <tuple>
+
+#include "lekalo/geom/edge_distance.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -12,27 +13,16 @@ namespace {
 /// A tip is as deep as a place within this, mm.
 constexpr double kTipAsDeep = 1e-6;
 
-/// The place on a piece that is nearest to a point, seen from above.
-std::array<double, 2> foot_on(const heat::ToolPiece& piece, double x, double y) {
-  const double dx = piece.to[0] - piece.from[0], dy = piece.to[1] - piece.from[1];
-  if (!piece.centre) {
-    const double square = dx * dx + dy * dy;
-    const double t =
-        square > 0 ? std::clamp(((x - piece.from[0]) * dx + (y - piece.from[1]) * dy) / square, 0.0, 1.0) : 0;
-    return {piece.from[0] + t * dx, piece.from[1] + t * dy};
+/// The way of a piece, seen from above. It turns by less than half a turn.
+geom::Curve way_of(const heat::ToolPiece& piece) {
+  geom::Edge edge{geom::EdgeKind::line, {piece.from[0], piece.from[1]}, {piece.to[0], piece.to[1]}, {}};
+  // The curve of an arc without length would be a full circle.
+  if (piece.centre && edge.from != edge.to) {
+    edge.centre = {(*piece.centre)[0], (*piece.centre)[1]};
+    const bool left = geom::cross(edge.from - edge.centre, edge.to - edge.centre) > 0;
+    edge.kind = left ? geom::EdgeKind::arc_ccw : geom::EdgeKind::arc_cw;
   }
-  const auto& c = *piece.centre;
-  const double ax = piece.from[0] - c[0], ay = piece.from[1] - c[1], bx = piece.to[0] - c[0],
-               by = piece.to[1] - c[1], px = x - c[0], py = y - c[1];
-  const double turn = ax * by - ay * bx, away = std::hypot(px, py);
-  // A piece turns by less than half a turn.
-  if (away > 0 && turn * (ax * py - ay * px) >= 0 && turn * (px * by - py * bx) >= 0 &&
-      px * (ax + bx) + py * (ay + by) > 0) {
-    const double radius = (std::hypot(ax, ay) + std::hypot(bx, by)) / 2;
-    return {c[0] + radius * px / away, c[1] + radius * py / away};
-  }
-  const bool first = std::hypot(px - ax, py - ay) < std::hypot(px - bx, py - by);
-  return first ? std::array{piece.from[0], piece.from[1]} : std::array{piece.to[0], piece.to[1]};
+  return geom::make_curve(edge);
 }
 
 bool is_as_deep(const heat::ToolPiece& piece, double z) {
@@ -49,15 +39,13 @@ BesideWall beside(const HeatSource& source, const WallPoint& wall, const WallVis
   for (std::size_t i = visit.first; i <= visit.last; ++i) {
     const heat::ToolPiece& piece = source.pieces[i];
     if (!is_as_deep(piece, wall.z)) continue;
-    const auto foot = foot_on(piece, wall.x, wall.y);
-    const double distance = std::hypot(wall.x - foot[0], wall.y - foot[1]);
+    const geom::Curve way = way_of(piece);
+    const geom::Point foot = geom::nearest_on(way, {wall.x, wall.y}),
+                      off = geom::Point{wall.x, wall.y} - foot, chord = way.edge.to - way.edge.from;
+    const double distance = geom::norm(off), square = geom::dot(chord, chord);
     if (!(distance < found.distance)) continue;
-    const double dx = piece.to[0] - piece.from[0], dy = piece.to[1] - piece.from[1],
-                 square = dx * dx + dy * dy;
-    found = {distance, {(wall.x - foot[0]) / distance, (wall.y - foot[1]) / distance}, i, 0};
-    if (square > 0)
-      found.share =
-          std::clamp(((foot[0] - piece.from[0]) * dx + (foot[1] - piece.from[1]) * dy) / square, 0.0, 1.0);
+    found = {distance, {off.x / distance, off.y / distance}, i, 0};
+    if (square > 0) found.share = std::clamp(geom::dot(foot - way.edge.from, chord) / square, 0.0, 1.0);
   }
   return found;
 }
@@ -66,8 +54,8 @@ double nearest_of_all(const HeatSource& source, const WallPoint& wall) {
   double least = std::numeric_limits<double>::infinity();
   for (const heat::ToolPiece& piece : source.pieces) {
     if (!is_as_deep(piece, wall.z)) continue;
-    const auto foot = foot_on(piece, wall.x, wall.y);
-    least = std::min(least, std::hypot(wall.x - foot[0], wall.y - foot[1]));
+    const geom::Point at{wall.x, wall.y};
+    least = std::min(least, geom::norm(at - geom::nearest_on(way_of(piece), at)));
   }
   return least;
 }
