@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <new>
+#include <utility>
 
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/stop.hpp"
@@ -116,21 +117,34 @@ Surface surface_of(const Pixels& pixels) {
 }
 
 std::string pixels_png(const Pixels& pixels) {
-  std::string bytes;
+  CairoBytes bytes;
   const Surface surface = surface_of(pixels);
+  const cairo_status_t status = cairo_surface_write_to_png_stream(surface.get(), CairoBytes::take, &bytes);
+  std::string all = std::move(bytes).all();
   // The bytes go to memory, so nothing but memory can be missing.
-  if (cairo_surface_write_to_png_stream(surface.get(), append_bytes, &bytes) != CAIRO_STATUS_SUCCESS)
-    throw std::bad_alloc();
-  return bytes;
+  if (status != CAIRO_STATUS_SUCCESS) throw std::bad_alloc();
+  return all;
 }
 
-cairo_status_t append_bytes(void* text, const unsigned char* bytes, unsigned int count) {
+cairo_status_t CairoBytes::take(void* self, const unsigned char* bytes, unsigned int count) noexcept {
+  auto& to = *static_cast<CairoBytes*>(self);
+  if (to.stopped_) return CAIRO_STATUS_WRITE_ERROR;
   try {
-    static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
+    // Cairo works a microsecond or so for a byte of compressed text.
+    ask(count);
+    to.bytes_.append(reinterpret_cast<const char*>(bytes), count);
+  } catch (const Stopped& stopped) {
+    to.stopped_ = stopped;
+    return CAIRO_STATUS_WRITE_ERROR;
   } catch (const std::bad_alloc&) {
     return CAIRO_STATUS_NO_MEMORY;
   }
   return CAIRO_STATUS_SUCCESS;
+}
+
+std::string CairoBytes::all() && {
+  if (stopped_) throw Stopped(*stopped_);
+  return std::move(bytes_);
 }
 
 }  // namespace lekalo::draw

@@ -3,8 +3,10 @@
 #include <cairo.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "lekalo/base/stop.hpp"
 #include "scene.hpp"
 
 namespace lekalo::draw {
@@ -22,7 +24,20 @@ void paint_scene(const Scene& scene, cairo_t* canvas);
 /// The pixels as a picture that can be painted; it holds a copy of them.
 [[nodiscard]] Surface surface_of(const Pixels& pixels);
 
-/// Appends bytes to `text`, which is a std::string.
-cairo_status_t append_bytes(void* text, const unsigned char* bytes, unsigned int count);
+/// Keeps what cairo writes. Cairo is C and nothing may be thrown through it: a stop between two pieces looks
+/// to it like a full disk, and is thrown when it has returned.
+class CairoBytes {
+ public:
+  /// Takes a piece, for the CairoBytes that cairo was given.
+  static cairo_status_t take(void* self, const unsigned char* bytes, unsigned int count) noexcept;
+
+  /// All that was written.
+  /// \throws Stopped  where the job was to end meanwhile
+  [[nodiscard]] std::string all() &&;
+
+ private:
+  std::string bytes_;
+  std::optional<Stopped> stopped_;
+};
 
 }  // namespace lekalo::draw

@@ -1,6 +1,8 @@
 #include <cairo-pdf.h>
 #include <fmt/core.h>
 
+#include <utility>
+
 #include "cairo.hpp"
 #include "lekalo/base/version.hpp"
 #include "lekalo/io/text/words.hpp"
@@ -10,9 +12,9 @@ namespace lekalo::draw {
 
 Result<std::string> scene_pdf(const Scene& scene, const std::vector<Scene>& more) {
   constexpr double kPointsPerMillimetre = 72 / 25.4;
-  std::string bytes;
+  CairoBytes bytes;
   const Surface surface(cairo_pdf_surface_create_for_stream(
-      append_bytes, &bytes, scene.width * kPointsPerMillimetre, scene.height * kPointsPerMillimetre));
+      CairoBytes::take, &bytes, scene.width * kPointsPerMillimetre, scene.height * kPointsPerMillimetre));
   const auto set = [&](cairo_pdf_metadata_t field, const std::string& text) {
     cairo_pdf_surface_set_metadata(surface.get(), field, io::clean_text(text).c_str());
   };
@@ -35,12 +37,13 @@ Result<std::string> scene_pdf(const Scene& scene, const std::vector<Scene>& more
     status = cairo_status(canvas.get());
   }
   cairo_surface_finish(surface.get());
+  std::string all = std::move(bytes).all();
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface.get());
   if (status != CAIRO_STATUS_SUCCESS) {
     return failure(ErrorCode::environment,
                    fmt::format("the page could not be written as PDF: {}", cairo_status_to_string(status)));
   }
-  return bytes;
+  return all;
 }
 
 }  // namespace lekalo::draw

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <utility>
 
 #include "cairo.hpp"
 
@@ -18,15 +19,16 @@ Result<std::string> scene_png(const Scene& scene, int width_px) {
   cairo_scale(canvas.get(), scale, scale);
   paint_scene(scene, canvas.get());
   cairo_status_t status = cairo_status(canvas.get());
-  std::string bytes;
+  CairoBytes bytes;
   if (status == CAIRO_STATUS_SUCCESS) {
-    status = cairo_surface_write_to_png_stream(surface.get(), append_bytes, &bytes);
+    status = cairo_surface_write_to_png_stream(surface.get(), CairoBytes::take, &bytes);
   }
+  std::string all = std::move(bytes).all();
   if (status != CAIRO_STATUS_SUCCESS) {
     return failure(ErrorCode::environment, fmt::format("the picture of {} x {} pixels could not be drawn: {}",
                                                        width_px, height_px, cairo_status_to_string(status)));
   }
-  return bytes;
+  return all;
 }
 
 }  // namespace lekalo::draw
