@@ -442,7 +442,10 @@ TEST(SolidGrowth, TwiceTheFileCostsTwiceTheTime) {
   };
   constexpr std::size_t kSize = 50;
   for (const auto& [title, make] : families) {
-    const double first = seconds(make(kSize)), second = seconds(make(2 * kSize));
+    double first = 1e9, second = 1e9;
+    // Tens of milliseconds are a matter of chance; what really grows faster does so every time.
+    for (int attempt = 0; attempt < 4 && !(second < 2.5 * std::max(first, 0.02)); ++attempt)
+      first = std::min(first, seconds(make(kSize))), second = std::min(second, seconds(make(2 * kSize)));
     EXPECT_LT(second, 2.5 * std::max(first, 0.02)) << title << ": " << first << " s, " << second << " s";
   }
 }

@@ -59,7 +59,8 @@ std::string ring_program() {
   return program + "M5\nM2\n";
 }
 
-HeatJob job_of(std::string program, const std::string& pocket, double share) {
+/// Coarse voxels do where the figures do not matter.
+HeatJob job_of(std::string program, const std::string& pocket, double share, double pitch = 4) {
   HeatJob job;
   job.source.program = {"part.ngc", std::move(program)};
   job.source.pocket = {"pocket.json", pocket};
@@ -75,7 +76,7 @@ HeatJob job_of(std::string program, const std::string& pocket, double share) {
   state(Property::force_exponent, {0.25, 0.25});
   job.material = *heat::material_of(words);
   job.film = {20, 20};
-  job.pitch = 3;
+  job.pitch = pitch;
   return job;
 }
 
@@ -118,13 +119,20 @@ void expect_better(const Made& made) {
 }
 
 TEST(JobsHeatCorrection, TheFinishingPassesOfARectangleAreMoved) {
-  const Made made = made_of(job_of(rectangle_program(0.3, "24"), kPocket, 0.3));
+  const Made made = made_of(job_of(rectangle_program(0.3, "24"), kPocket, 0.3, 3));
   EXPECT_GT(made.found.errors.largest(), 2);
   expect_better(made);
 }
 
+// Places stand where the tool turns a corner: both walls count there, and neither's displacement alone.
+TEST(JobsHeatCorrection, CornersAreLeftNoWorseThanTheRest) {
+  const Made made = made_of(job_of(rectangle_program(0.3, "4"), kPocket, 0.3, 2));
+  EXPECT_GT(made.found.errors.largest(), 5);
+  EXPECT_LT(made.correction.after.largest(), 0.5);
+}
+
 TEST(JobsHeatCorrection, WallsAndIslandsAreMovedToOppositeSides) {
-  const Made made = made_of(job_of(ring_program(), kRing, 0.3));
+  const Made made = made_of(job_of(ring_program(), kRing, 0.3, 3));
   double walls = 0, islands = 0;
   for (const WallPoint& w : made.found.walls) {
     double& side = w.x * w.outward[0] + w.y * w.outward[1] > 0 ? walls : islands;
@@ -143,7 +151,7 @@ TEST(JobsHeatCorrection, ThePassesOfAPocketOfOursAreMoved) {
   pocketing.options.path.depth = 4, pocketing.options.path.step_down = 2;
   const Result<Pocketed> made = pocket(pocketing);
   ASSERT_TRUE(made) << made.error().message;
-  expect_better(made_of(job_of(made->program, kPocket, 0.3)));
+  expect_better(made_of(job_of(made->program, kPocket, 0.3, 3)));
 }
 
 TEST(JobsHeatCorrection, WithoutHeatTheProgramIsItsOwn) {
@@ -187,7 +195,7 @@ TEST(JobsHeatCorrection, ThreadsChangeNoByte) {
 
 TEST(JobsHeatCorrection, TheCheckerRebuildsWhatTheWrittenProgramLeavesAndFindsLies) {
   HeatResultJob job;
-  job.heat = job_of(rectangle_program(0.3, "24"), kPocket, 0.3);
+  job.heat = job_of(rectangle_program(0.3, "4"), kPocket, 0.3);
   job.correction = CorrectionWish{}, job.corrected_as = "corrected.ngc";
   const auto made = heat_result(job);
   ASSERT_TRUE(made) << made.error().message;
@@ -237,9 +245,10 @@ TEST(JobsHeatCorrection, TheCheckerRebuildsWhatTheWrittenProgramLeavesAndFindsLi
   // A program that goes 5 um further into one wall.
   std::string deeper = program;
   const auto report_of_deeper = [&] {
-    const std::size_t at = deeper.rfind("X37.00");
+    const std::size_t at = deeper.rfind("X37."), end = deeper.find(' ', at);
     EXPECT_NE(at, std::string::npos);
-    deeper.replace(at, 6, "X37.01");
+    deeper.replace(at, end - at,
+                   fmt::format("X{:.4f}", std::stod(deeper.substr(at + 1, end - at - 1)) + 0.005));
     return found(honest, deeper);
   };
   EXPECT_NE(report_of_deeper(), "");

@@ -13,11 +13,14 @@ namespace {
 
 /// Two stretches of the way that meet more sharply than this have no corner to be moved to: 1 + cosine.
 constexpr double kSharpest = 0.35;
+/// Two stretches make a corner where the sine of the angle between them is above this.
+constexpr double kCorner = 0.3;
 
 using FlatVector = std::array<double, 2>;
 
 /// How far the way is moved at a place of it, um: with the workpiece, and to its left.
 struct WayShift {
+  std::size_t piece = 0;
   double at = 0;  ///< along the way, mm
   FlatVector with{};
   double left = 0;
@@ -56,7 +59,7 @@ class MovedWay {
   }
 
   void take(const std::vector<WallPasses>& stations) {
-    std::vector<std::pair<std::size_t, WayShift>> shifts;
+    std::vector<WayShift> shifts;
     for (const WallPasses& passes : stations)
       for (const WallPass& pass : passes) {
         if (!pass.finishing || !pass.across) continue;
@@ -64,15 +67,14 @@ class MovedWay {
         const FlatVector way = direction_at(piece, pass.at.share > 0.5), to = pass.at.towards;
         const double side = -way[1] * to[0] + way[0] * to[1] > 0 ? 1 : -1;
         const double more = pass.moved - (pass.displaced[0] * to[0] + pass.displaced[1] * to[1]);
-        shifts.push_back({pass.at.piece,
-                          {ends_[pass.at.piece] - (1 - pass.at.share) * across_length(piece), pass.displaced,
-                           side * more}});
+        shifts.push_back({pass.at.piece, ends_[pass.at.piece] - (1 - pass.at.share) * across_length(piece),
+                          pass.displaced, side * more});
       }
-    std::ranges::stable_sort(shifts, {}, [](const auto& s) { return std::pair(s.first, s.second.at); });
-    for (const auto& [piece, shift] : shifts) {
-      if (stretches_.empty() || !goes_on(stretches_.back(), piece, shift.at))
-        stretches_.push_back({piece, piece, {}});
-      stretches_.back().last = piece;
+    std::ranges::stable_sort(shifts, {}, [](const WayShift& s) { return std::pair(s.piece, s.at); });
+    for (const WayShift& shift : shifts) {
+      if (stretches_.empty() || !goes_on(stretches_.back(), shift.piece, shift.at))
+        stretches_.push_back({shift.piece, shift.piece, {}});
+      stretches_.back().last = shift.piece;
       stretches_.back().shifts.push_back(shift);
     }
   }
@@ -125,13 +127,15 @@ class MovedWay {
   /// In mm.
   [[nodiscard]] FlatVector moved_in(const MovedStretch& stretch, std::size_t k) const {
     const std::vector<WayShift>& shifts = stretch.shifts;
+    if (const auto corner = moved_corner(shifts, k)) return *corner;
     const auto after = std::ranges::upper_bound(shifts, ends_[k], {}, &WayShift::at);
     WayShift shift = after == shifts.end() ? shifts.back() : *after;
     if (after != shifts.begin() && after != shifts.end()) {
       const WayShift& before = *std::prev(after);
       const double t = (ends_[k] - before.at) / (after->at - before.at);
       const auto mix = [t](double a, double b) { return a + t * (b - a); };
-      shift = {ends_[k],
+      shift = {k,
+               ends_[k],
                {mix(before.with[0], after->with[0]), mix(before.with[1], after->with[1])},
                mix(before.left, after->left)};
     }
@@ -139,13 +143,32 @@ class MovedWay {
     return {(shift.with[0] + shift.left * corner[0]) / 1000, (shift.with[1] + shift.left * corner[1]) / 1000};
   }
 
+  /// Returns the direction to the left of a piece at its beginning or its end.
+  [[nodiscard]] std::optional<FlatVector> left_of(std::size_t piece, bool end) const {
+    if (piece >= pieces_.size() || pieces_[piece].rapid || !(across_length(pieces_[piece]) > 0)) return {};
+    const FlatVector way = direction_at(pieces_[piece], end);
+    return FlatVector{-way[1], way[0]};
+  }
+
+  /// Moves the corner in which a piece meets the next, mm: both lines are moved as far as the places beside
+  /// each of them have it, and the corner is where they meet then. None where there is no corner.
+  [[nodiscard]] std::optional<FlatVector> moved_corner(const std::vector<WayShift>& shifts,
+                                                       std::size_t k) const {
+    const auto here = left_of(k, true), there = left_of(k + 1, false);
+    if (!here || !there) return {};
+    const FlatVector &a = *here, &b = *there;
+    const double sine = a[0] * b[1] - a[1] * b[0];
+    const auto next = std::ranges::upper_bound(shifts, k, {}, &WayShift::piece);
+    if (std::abs(sine) < kCorner || next == shifts.begin() || next == shifts.end()) return {};
+    const auto across = [](const FlatVector& left, const WayShift& shift) {
+      return left[0] * shift.with[0] + left[1] * shift.with[1] + shift.left;
+    };
+    const double by_a = across(a, *std::prev(next)), by_b = across(b, *next);
+    return FlatVector{(by_a * b[1] - by_b * a[1]) / sine / 1000, (by_b * a[0] - by_a * b[0]) / sine / 1000};
+  }
+
   /// Returns the vector that moves the end of a piece to the left of both it and the next piece by 1.
   [[nodiscard]] FlatVector left_at(std::size_t k) const {
-    const auto left_of = [&](std::size_t piece, bool end) -> std::optional<FlatVector> {
-      if (piece >= pieces_.size() || pieces_[piece].rapid || !(across_length(pieces_[piece]) > 0)) return {};
-      const FlatVector way = direction_at(pieces_[piece], end);
-      return FlatVector{-way[1], way[0]};
-    };
     const auto here = left_of(k, true), there = left_of(k + 1, false);
     if (!here || !there) return here ? *here : there.value_or(FlatVector{});
     const double meet = 1 + (*here)[0] * (*there)[0] + (*here)[1] * (*there)[1];

@@ -24,6 +24,8 @@ constexpr double kRoundedDistance = 1e-9;
 constexpr double kTimesMoved = 2, kMovedBesides = 1e-3;
 /// A rapid beside walls may meet so much more of them, mm of path.
 constexpr double kMoreRapid = 0.1;
+/// So much more may be left between passes that are moved, mm across.
+constexpr double kMoreUncut = 5e-3;
 
 /// The tool at a place once: how far beyond the place to which the program comes, um, in which direction, and
 /// the displacement of the workpiece in each case, um.
@@ -158,6 +160,7 @@ class CorrectionCheck : private HeldFigures {
       }
       said.beyond = 1000 * (nearest - found->distance), said.towards = found->towards;
       most_beyond_ = std::max(most_beyond_, said.beyond);
+      most_moved_ = std::max(most_moved_, std::abs(said.beyond));
     }
     for (const WallPlaces::Visit& visit : after.visits(height, -kRoundedDistance))
       if (std::none_of(walls_[i].visits.begin(), walls_[i].visits.end(),
@@ -216,7 +219,7 @@ class CorrectionCheck : private HeldFigures {
   }
 
   /// The corrected program is judged as any other: it leaves the pocket where it is moved out, and nowhere
-  /// else.
+  /// else, and leaves nothing uncut but by what it is moved.
   Result<void> check_pocket() {
     const auto judged = [&](const Document& program) {
       return simulate(program, *job_.followed.pocket, job_.options, job_.followed.earlier);
@@ -229,6 +232,11 @@ class CorrectionCheck : private HeldFigures {
           fmt::format("correction: the corrected program leaves the pocket by {:.6f} mm, and its finishing "
                       "passes are moved by {:.6f} mm",
                       after.gouge_mm, most_beyond_ / 1000));
+    const double wide = before.uncut_width_mm + kTimesMoved * most_moved_ / 1000 + kMoreUncut;
+    if (after.uncut_width_mm > wide)
+      find(fmt::format(
+          "correction: the corrected program leaves a spot {:.4f} mm wide, and the program {:.4f} mm",
+          after.uncut_width_mm, before.uncut_width_mm));
     if (after.rapid_cut_mm > before.rapid_cut_mm + kMoreRapid)
       find(fmt::format("correction: rapids of the corrected program meet material over {:.3f} mm of path",
                        after.rapid_cut_mm));
@@ -239,7 +247,7 @@ class CorrectionCheck : private HeldFigures {
   const CutHistory& history_;
   ReportFields& fields_;
   std::vector<CorrectedWall> walls_;
-  double most_beyond_ = 0;  ///< um
+  double most_beyond_ = 0, most_moved_ = 0;  ///< um
 };
 
 }  // namespace
