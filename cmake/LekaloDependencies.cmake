@@ -17,6 +17,14 @@ if(LEKALO_WITH_IPOPT)
     set(LEKALO_WITH_IPOPT OFF)
   endif()
 endif()
+if(LEKALO_WITH_QR)
+  pkg_check_modules(QRENCODE QUIET IMPORTED_TARGET libqrencode)
+  if(NOT QRENCODE_FOUND)
+    message(STATUS "No libqrencode (libqrencode-dev): lekalo is built without labels, whose QR codes it makes; "
+      "tools/setup.sh installs it.")
+    set(LEKALO_WITH_QR OFF)
+  endif()
+endif()
 
 # Of the program alone, not of the modules: the server of the editor.
 find_package(Boost 1.74 REQUIRED)  # headers: Asio, Beast

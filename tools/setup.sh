@@ -15,6 +15,7 @@ packages=(
   libmpfr-dev libgmp-dev                                     # exact checks
   libpng-dev                                                 # M-images
   libcairo2-dev fonts-dejavu-core                            # PNG pictures; their texts, Cyrillic too
+  libqrencode-dev                                            # QR codes of labels (LGPL 2.1, linked as a shared library)
   libexpat1-dev                                              # XML of SVG drawings
   zlib1g-dev                                                 # ZIP of 3MF models
   libboost-dev libsqlite3-dev                                # the server of the editor: HTTP and WebSocket, its store
@@ -30,6 +31,7 @@ test_packages=(
   python3-ezdxf python3-gdal # the same on DXF drawings
   python3-svgelements        # and on SVG
   librsvg2-bin python3-numpy python3-pil # and rasters of both
+  poppler-utils zbar-tools   # prints labels and reads their QR codes
   python3-shapely            # a second opinion on layouts
   python3-jsonschema         # the schema of layouts
 )

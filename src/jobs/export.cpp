@@ -4,8 +4,11 @@
 
 #include <utility>
 
+#include "lekalo/draw/label/layout_labels.hpp"
+#include "lekalo/io/text/sha256.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "lekalo/jobs/show.hpp"
+#include "lekalo/layout/completeness.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -33,6 +36,25 @@ Result<std::string> drawn(const Layout& layout, const ExportOptions& options) {
                         options.form == LayoutForm::pdf ? PictureForm::pdf : PictureForm::png);
 }
 
+/// Begins what the QR codes of the layout's labels say (docs/formats.md): whoever has the file can tell
+/// whether a label is of it, and a layout that was changed since has other labels.
+std::string label_code(const Layout& layout) {
+  std::string digits = io::sha256(layout_bytes(layout)).substr(0, 10);
+  for (char& c : digits)
+    if (c >= 'a') c = static_cast<char>(c - 'a' + 'A');
+  return "LK/" + digits;
+}
+
+Result<std::string> labels_of(const Layout& layout, const ExportOptions& options) {
+  const layout::Completeness completeness = layout::completeness(layout.document);
+  Result<std::string> made =
+      draw::labels_pdf({io::as_utf8(title_of(layout, options)), layout.document, completeness,
+                        label_code(layout), options.labels.least_remnant_mm},
+                       options.labels.paper);
+  if (!made) return fault_of(layout, made.error());
+  return made;
+}
+
 }  // namespace
 
 Result<io::Exported> export_layout(const Layout& layout, const ExportOptions& options) {
@@ -45,6 +67,8 @@ Result<io::Exported> export_layout(const Layout& layout, const ExportOptions& op
     case LayoutForm::pdf:
     case LayoutForm::png:
       return drawn(layout, options).map(alone);
+    case LayoutForm::labels:
+      return labels_of(layout, options).map(alone);
     case LayoutForm::machine:
       Result<io::Exported> made =
           io::export_layout(layout.document, title_of(layout, options), options.machine);

@@ -12,22 +12,6 @@ namespace {
 
 bool fine_side(double mm) { return limits::kShortestSide <= mm && mm <= limits::kLargestOutline; }
 
-/// "3000x1500", "8ftx4ft", "48x96in"; nothing for names of files.
-std::optional<SheetSize> size_of(const std::string& word) {
-  for (std::size_t at = word.find('x'); at != std::string::npos; at = word.find('x', at + 1)) {
-    const std::string right = word.substr(at + 1);
-    std::string left = word.substr(0, at);
-    const auto height = io::length_of(right);
-    if (!height || !io::length_of(left)) continue;
-    // A unit that stands once, at the end, counts for both.
-    const bool without_unit = left.find_last_of("0123456789.") == left.find_last_not_of(' ');
-    const std::size_t unit = right.find_last_of("0123456789.");
-    if (without_unit) left += right.substr(unit + 1);
-    return SheetSize{*io::length_of(left), *height};
-  }
-  return std::nullopt;
-}
-
 class TermsReader {
  public:
   TermsReader(const OrderWords& words, std::string_view prefix) : words_(words), prefix_(prefix) {}
@@ -71,7 +55,7 @@ class TermsReader {
   void add_sheet(const std::string& word) {
     const auto counted = counted_word(word);
     if (!counted) return complain("sheet", word, "does not end in a number from 1 to 1,000,000,000");
-    StockWord stock{counted->word, size_of(counted->word), counted->count};
+    StockWord stock{counted->word, io::size_of(counted->word), counted->count};
     if (stock.size && !(fine_side(stock.size->width_mm) && fine_side(stock.size->height_mm)))
       complain("sheet", word,
                fmt::format("has a side that is not from {} to {} mm", limits::kShortestSide,

@@ -26,11 +26,13 @@ function(expect)
 endfunction()
 
 file(REMOVE_RECURSE ${WORK})
-# This file goes before the system's of that name, and leads nowhere.
-file(WRITE ${WORK}/ipopt.pc "Name: ipopt\nDescription: none\nVersion: 0\nRequires: no-such-library\n")
+# These files go before the system's of those names, and lead nowhere.
+foreach(name ipopt libqrencode)
+  file(WRITE ${WORK}/${name}.pc "Name: ${name}\nDescription: none\nVersion: 0\nRequires: no-such-library\n")
+endforeach()
 
 configure(without_components -DLEKALO_WASM_CXX= -DLEKALO_NODE= -DCMAKE_DISABLE_FIND_PACKAGE_GTest=ON)
-expect("No IPOPT .coinor-libipopt-dev," "No GoogleTest .libgtest-dev.:" "No compiler for WebAssembly .clang-19,"
+expect("No IPOPT .coinor-libipopt-dev," "No libqrencode .libqrencode-dev.:" "No GoogleTest .libgtest-dev.:" "No compiler for WebAssembly .clang-19,"
        "No Node .nodejs,")
 configure(without_python -DLEKALO_WITH_WASM=OFF -DCMAKE_DISABLE_FIND_PACKAGE_Python3=ON)
 expect("No Python .python3.:")

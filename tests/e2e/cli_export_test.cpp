@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <tuple>
 
 #include "e2e/cli_run.hpp"
 #include "support/layout_texts.hpp"
@@ -101,7 +102,7 @@ TEST(CliExport, WrongCommandLinesAreRefusedInOneSentence) {
       {{"--format", "pdf", "--sheet", "s"}, "--sheet has no meaning for the form pdf"},
       {{"--format", "svg", "--sheet", "t"}, "there is no sheet t"},
       {{"--format", "hpgl", "--only", "CUTS"}, "the layers are CUT"},
-      {{"--format", "plt"}, "layout, placements, dxf, svg, pdf, hpgl"}};
+      {{"--format", "plt"}, "layout, placements, dxf, svg, pdf, labels, hpgl"}};
   for (const auto& [words, says] : wrong) {
     const Ran ran = run(folder.path(), Words{"export", "plates.json"} + words);
     EXPECT_EQ(ran.status, 2) << says;
@@ -109,6 +110,46 @@ TEST(CliExport, WrongCommandLinesAreRefusedInOneSentence) {
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
     EXPECT_EQ(ran.out, "");
   }
+}
+
+TEST(CliExport, LabelsAreOnePdfAndWhatIsWrongIsOneSentence) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plates.json", plates().dump());
+  Json empty = plates();
+  empty["placements"] = Json::array();
+  write_bytes(folder / "empty.json", empty.dump());
+  const Words labels{"export", "plates.json", "--format", "labels"};
+  const Ran sheet = run(folder.path(), labels + Words{"--label-sheet", "A4:3x8", "-o", "labels.pdf"});
+#ifndef LEKALO_WITH_QR
+  EXPECT_EQ(sheet.status, 5);
+  EXPECT_NE(sheet.err.find("libqrencode-dev"), std::string::npos) << sheet.err;
+  GTEST_SKIP() << "built without libqrencode";
+#endif
+  ASSERT_EQ(sheet.status, 0) << sheet.err;
+  EXPECT_EQ(sheet.err, "Written: labels.pdf\n");
+  EXPECT_EQ(read_bytes(folder / "labels.pdf"),
+            run(folder.path(), labels + Words{"--label-sheet", "A4:3x8"}).out);
+  const std::vector<std::tuple<Words, int, std::string>> wrong{
+      {labels + Words{"--label-size", "12x12"}, 2, "plates.json: labels of 12 x 12 mm are too small"},
+      {labels + Words{"--label-sheet", "A4:20x40"}, 2, "of which the paper takes"},
+      {labels + Words{"--label-size", "62"}, 2, "--label-size 62: has to be"},
+      {labels + Words{"--label-sheet", "B4:1x1"}, 2, "--label-sheet B4:1x1: has to be"},
+      {labels + Words{"--label-gap", "3"}, 2, "--label-gap has a meaning for sheets of labels alone"},
+      {labels + Words{"--kerf", "1"}, 2, "--kerf has no meaning for the form labels"},
+      {{"export", "plates.json", "--label-size", "62x29"},
+       2,
+       "--label-size has no meaning for the form layout"},
+      {{"export", "plates.json", "--format", "pdf", "--label-remnant", "9"},
+       2,
+       "no meaning for the form pdf"},
+      {{"export", "empty.json", "--format", "labels"}, 3, "empty.json: nothing is placed"}};
+  for (const auto& [words, status, says] : wrong) {
+    const Ran ran = run(folder.path(), words + Words{"-o", "wrong.pdf"});
+    EXPECT_EQ(ran.status, status) << says;
+    EXPECT_NE(ran.err.find(says), std::string::npos) << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  }
+  EXPECT_FALSE(fs::exists(folder / "wrong.pdf"));
 }
 
 TEST(CliExport, TheProgramPassesOurOwnReaderAndLocate) {

@@ -143,5 +143,56 @@ TEST(JobsExport, GivesEveryForm) {
   EXPECT_EQ(none.error().message.rfind("squares.json: ", 0), 0u) << none.error().message;
 }
 
+TEST(JobsExport, ReadsTheWordsOfLabels) {
+  const auto roll = read_label_words({{"label-size", "2.4x1.1in"}, {"label-remnant", "1m"}}, "--").value();
+  EXPECT_DOUBLE_EQ(roll.paper.label_width(), 2.4 * 25.4);
+  EXPECT_DOUBLE_EQ(roll.paper.label_height(), 1.1 * 25.4);
+  EXPECT_DOUBLE_EQ(roll.least_remnant_mm, 1000);
+  const auto sheet =
+      read_label_words({{"label-sheet", "A4:3x8"}, {"label-margin", "7x13"}, {"label-gap", "2.5x0"}}, "--")
+          .value();
+  EXPECT_EQ(sheet.paper.columns, 3);
+  EXPECT_EQ(sheet.paper.rows, 8);
+  EXPECT_NEAR(sheet.paper.label_width(), (210 - 14 - 5) / 3.0, 1e-9);
+  EXPECT_NEAR(sheet.paper.label_height(), (297 - 26) / 8.0, 1e-9);
+  EXPECT_DOUBLE_EQ(read_label_words({{"label-sheet", "letter:2x5"}}, "")->paper.page_width, 215.9);
+  EXPECT_DOUBLE_EQ(read_label_words({{"label-sheet", "100x150mm:1x4"}}, "")->paper.label_height(), 37.5);
+  const auto none = read_label_words({}, "").value();
+  EXPECT_DOUBLE_EQ(none.paper.label_width(), 62);
+  EXPECT_DOUBLE_EQ(none.paper.label_height(), 29);
+}
+
+TEST(JobsExport, RefusesWrongWordsOfLabelsInOneSentence) {
+  const std::vector<std::pair<std::vector<io::ExportWord>, std::string>> wrong{
+      {{{"label-size", "62"}}, "--label-size 62: has to be width and height"},
+      {{{"label-size", "0x29"}}, "--label-size 0x29: has to be"},
+      {{{"label-size", "62xnan"}}, "--label-size 62xnan: has to be"},
+      {{{"label-size", "62x1001"}}, "up to 1000 mm"},
+      {{{"label-size", "-62x29"}}, "--label-size -62x29: has to be"},
+      {{{"label-sheet", "A4"}}, "--label-sheet A4: has to be A4, A5, letter"},
+      {{{"label-sheet", "A9:3x8"}}, "--label-sheet A9:3x8: has to be"},
+      {{{"label-sheet", "A4:0x8"}}, "--label-sheet A4:0x8: has to be"},
+      {{{"label-sheet", "A4:3x101"}}, "up to 100"},
+      {{{"label-sheet", "A4:3x8x2"}}, "--label-sheet A4:3x8x2: has to be"},
+      {{{"label-sheet", "A4:3"}}, "as in A4:3x8"},
+      {{{"label-sheet", ":3x8"}}, "--label-sheet :3x8: has to be"},
+      {{{"label-margin", "7"}}, "--label-margin has a meaning for sheets of labels alone: --label-sheet"},
+      {{{"label-gap", "2"}, {"label-size", "62x29"}}, "--label-gap has a meaning for sheets"},
+      {{{"label-sheet", "A4:3x8"}, {"label-margin", "-1"}}, "--label-margin -1: has to be one length from 0"},
+      {{{"label-sheet", "A4:3x8"}, {"label-gap", "2x"}}, "--label-gap 2x: has to be"},
+      {{{"label-sheet", "A4:3x8"}, {"label-margin", "105x0"}},
+       "leave no room for 3 x 8 labels on paper of 210 x"},
+      {{{"label-sheet", "A4:3x8"}, {"label-size", "62x29"}}, "leave one out"},
+      {{{"label-remnant", "-5"}}, "--label-remnant -5: has to be a length"},
+      {{{"label-remnant", "all"}}, "--label-remnant all: has to be a length"},
+      {{{"kerf", "1"}}, "--kerf has no meaning for the form labels"}};
+  for (const auto& [words, says] : wrong) {
+    const auto read = read_label_words(words, "--");
+    ASSERT_FALSE(read) << says;
+    EXPECT_EQ(read.error().code, ErrorCode::usage);
+    EXPECT_NE(read.error().message.find(says), std::string::npos) << read.error().message;
+  }
+}
+
 }  // namespace
 }  // namespace lekalo::jobs::jobs_layout_test

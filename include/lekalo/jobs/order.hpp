@@ -7,6 +7,7 @@
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/io/formats/part_file.hpp"
+#include "lekalo/io/text/length_word.hpp"
 #include "lekalo/jobs/file.hpp"
 #include "lekalo/jobs/layout.hpp"
 #include "lekalo/layout/document.hpp"
@@ -27,9 +28,7 @@ struct OrderedPart {
 };
 
 /// A size in mm, from limits::kShortestSide to limits::kLargestOutline.
-struct SheetSize {
-  double width_mm = 0, height_mm = 0;
-};
+using SheetSize = io::PlaneSize;
 /// Stock to cut from: rectangles, a strip, or the outlines of a drawing.
 struct OrderedStock {
   /// Rectangles of this size; for a strip the width is left at 0 and the length is open.

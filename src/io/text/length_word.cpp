@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <string>
 
 #include "lekalo/base/units.hpp"
 
@@ -71,6 +72,19 @@ std::optional<double> length_of(std::string_view word) {
   const auto number = word.find('/') == std::string_view::npos ? number_of(word) : fraction_of(word);
   if (!number) return std::nullopt;
   return *number * mm;
+}
+
+std::optional<PlaneSize> size_of(std::string_view word) {
+  for (std::size_t at = word.find('x'); at != std::string_view::npos; at = word.find('x', at + 1)) {
+    const std::string_view right = word.substr(at + 1);
+    std::string left(word.substr(0, at));
+    const auto height = length_of(right);
+    if (!height || !length_of(left)) continue;
+    if (left.find_last_of("0123456789.") == left.find_last_not_of(' '))
+      left += right.substr(right.find_last_of("0123456789.") + 1);
+    return PlaneSize{*length_of(left), *height};
+  }
+  return std::nullopt;
 }
 
 }  // namespace lekalo::io
