@@ -25,7 +25,7 @@ struct ExportOptions {
   /// The name that placements give the file of their items; when it is empty, the layout's.
   std::string instance_name;
   io::ExportRequest machine;  ///< for LayoutForm::machine
-  LabelOptions labels;        ///< for LayoutForm::labels
+  LabelOptions labels{};      ///< for LayoutForm::labels
 };
 
 /// The layout in another form, whatever rules it breaks: one file, but for HPGL and G-code one for each
