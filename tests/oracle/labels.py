@@ -90,7 +90,7 @@ def words_of(folder, name):
         size = [POINT * float(n) for n in re.search(r'width="([\d.]+)" height="([\d.]+)"', page).groups()]
         found = re.findall(r'<word xMin="([\d.-]+)" yMin="([\d.-]+)" xMax="([\d.-]+)" yMax="([\d.-]+)">(.*?)</word>',
                            page)
-        pages.append((size, [([POINT * float(n) for n in word[:4]], word[4]) for word in found]))
+        pages.append((size, [([POINT * float(n) for n in word[:4]], word[4].replace("\u00a0", " ")) for word in found]))
     return pages
 
 
@@ -161,7 +161,8 @@ def main():
         texts = [" ".join(word for _, word in words) for _, words in pages]
         for text in ("Полка", "Шкаф 12/7", "плита #2", "40 x 20 mm", "mirrored", "Remnant", "part-0"):
             assert any(text in page for page in texts), f"\"{text}\" is on no label"
-        long = next(page for page in texts if "Боковина" in page)
+        pages = check_roll(folder, "layout.json", labels, (54, 17), 203)
+        long = next(text for words in pages for text in [" ".join(word for _, word in words[1])] if "Боковина" in text)
         assert "…" in long and "4711" in long, long
 
         refused = run(folder, LEKALO, "export", "layout.json", "--format", "labels", "--label-size", "10x10")
@@ -179,7 +180,7 @@ def main():
         with open(os.path.join(folder, "large.json"), "w", encoding="utf-8") as file:
             json.dump(document, file)
         check_roll(folder, "large.json", expected(folder, "large.json", document, 100), (40, 30), 203)
-    print(f"{len(labels)} labels, read back from 7 kinds of paper")
+    print(f"{len(labels)} labels, read back from 8 kinds of paper")
 
 
 if __name__ == "__main__":

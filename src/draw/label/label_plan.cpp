@@ -16,7 +16,7 @@ constexpr double kLargestModule = 1;    ///< a larger code is not read from fart
 constexpr double kCodeShare = 0.6;      ///< of the label's shorter side
 constexpr double kLargestLetters = 4;   ///< mm
 constexpr double kLettersStep = 0.1;    ///< between the sizes that are tried
-constexpr double kLeastColumn = 12;     ///< of text, mm
+constexpr double kLeastColumn = 16.5;   ///< of text, mm: "1234.5 x 1234.5 mm" in letters of 1.6
 constexpr double kBesidePicture = 20;   ///< of text where a picture takes a column of its own
 constexpr double kLeastPicture = 4;     ///< mm, the shorter side
 constexpr double kPictureShare = 0.25;  ///< of the label's width, at most, for a column of its own
@@ -53,21 +53,23 @@ std::vector<std::string> lines_of_field(const std::string& field, double room, s
   for (std::size_t k = 0; k + 1 < most; ++k) rest = words.find(lines[k], rest) + lines[k].size();
   rest = words.find_first_not_of(' ', rest);
   lines.resize(most - 1);
-  lines.push_back(io::shortened(words.substr(rest), room));
+  lines.push_back(io::shortened(words.substr(rest), room / kSmallerLetters));
   return lines;
 }
 
-/// The largest letters at which no word is wider than a line.
+/// The largest letters at which no word is wider than a line, but for those that the least letters do not
+/// save.
 double letters_of_whole_words(const std::vector<std::string>& fields, const Rect& text) {
   double letters = kLargestLetters;
   for (std::size_t i = 0; i < fields.size(); ++i)
     for (std::size_t begin = 0; begin < fields[i].size();) {
       const std::size_t end = std::min(fields[i].find(' ', begin), fields[i].size());
-      letters = std::min(
-          letters, io::fitting_size(fields[i].substr(begin, end - begin), letters, room_of(text, 1, i == 0)));
+      const double whole =
+          io::fitting_size(fields[i].substr(begin, end - begin), letters, room_of(text, 1, i == 0));
+      if (whole >= kLeastLetters) letters = whole;
       begin = end + 1;
     }
-  return std::max(letters, kLeastLetters);
+  return letters;
 }
 
 /// The lines at this size of letters: as many as fields need, or fewer where there are no more than `most`.

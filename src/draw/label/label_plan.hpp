@@ -12,8 +12,8 @@ namespace lekalo::draw {
 
 /// The least side of a module of a QR code: three dots of a printer of 203 dpi.
 inline constexpr double kLeastModule = 0.4;
-/// The least size of the letters of a label; a line that is a little too long may be 0.8 of it.
-inline constexpr double kLeastLetters = 2;
+/// The least size of the letters of a label. A line that has to be shortened may have letters of 0.8 of it.
+inline constexpr double kLeastLetters = 2, kSmallerLetters = 0.8;
 /// The number's letters and the distances of baselines, in multiples of the letters' size.
 inline constexpr double kNumberLetters = 1.8, kLabelLine = 1.25;
 

@@ -33,6 +33,7 @@ using layout::Placement;
 constexpr Colour kLabelInk{0, 0, 0};
 constexpr double kLabelOutline = 0.2;  ///< width of the line, mm
 constexpr double kSumsLose = 1e-6;     ///< of lengths on paper, mm, by rounding
+constexpr double kLeastNumber = 1.2;   ///< letters of the number, in multiples of the others'
 constexpr double kNumberShare = 0.6;   ///< of the text's width, at most
 
 /// The words of one label. It shows the outline of the placement, or else of the remnant.
@@ -53,7 +54,8 @@ std::string label_number(double mm, Rounding rounding) {
 
 std::string label_size(const GridBox& box, Rounding rounding) {
   const Point size = geom::mm_from_grid(box.high - box.low);
-  return fmt::format("{} x {} mm", label_number(size.x, rounding), label_number(size.y, rounding));
+  return fmt::format("{}\u00A0x\u00A0{}\u00A0mm", label_number(size.x, rounding),
+                     label_number(size.y, rounding));
 }
 
 /// Writes the labels of a layout.
@@ -81,13 +83,11 @@ class LabelWriter {
   [[nodiscard]] LayoutLabel of_piece(const Placement& placement) const {
     ask(16);
     const layout::Part& part = document_.parts[placement.part];
-    std::vector<std::string> details;
-    if (!part.name.empty()) details.push_back(part.id);
-    details.push_back(label_size(bounds(part.outline.polygon), Rounding::nearest));
-    if (placement.mirrored) details.emplace_back("mirrored");
+    const std::string size = label_size(bounds(part.outline.polygon), Rounding::nearest);
     return {fmt::format("{}", placement.id),
             sheet_words({placement.stock, placement.copy}),
-            fields(part.name.empty() ? part.id : part.name, joined_text(details, ", ")),
+            fields({part.name.empty() ? part.id : part.name}, {size},
+                   {part.name.empty() ? "" : part.id, placement.mirrored ? "mirrored" : "", labels_.name}),
             fmt::format("{}/{}", labels_.code, placement.id),
             &placement,
             {}};
@@ -97,16 +97,22 @@ class LabelWriter {
   [[nodiscard]] LayoutLabel of_remnant(const layout::SheetUse& use, std::size_t number) const {
     return {fmt::format("R{}", number),
             sheet_words(use.sheet),
-            fields("Remnant", label_size(use.remnant, Rounding::down)),
+            fields({"Remnant"}, {label_size(use.remnant, Rounding::down)}, {labels_.name}),
             fmt::format("{}/R{}", labels_.code, number),
             nullptr,
             use.remnant};
   }
 
-  /// The lines below the number: what it is, what is to be known of it, and where it belongs.
-  [[nodiscard]] std::vector<std::string> fields(std::string what, std::string details) const {
-    std::vector<std::string> all{std::move(what), std::move(details)};
-    if (!labels_.name.empty()) all.push_back(labels_.name);
+  /// The lines below the number: what it is, what is to be measured of it, and where it belongs. Names may be
+  /// shortened, so that sizes do not stand beside them.
+  using FieldWords = std::vector<std::string>;
+  static std::vector<std::string> fields(const FieldWords& what, const FieldWords& measures,
+                                         const FieldWords& where) {
+    std::vector<std::string> all;
+    for (FieldWords words : {what, measures, where}) {
+      std::erase(words, "");
+      if (!words.empty()) all.push_back(joined_text(words, ", "));
+    }
     return all;
   }
 
@@ -140,17 +146,20 @@ class LabelPainter {
  private:
   static void words(const LayoutLabel& label, const Rect& text, std::vector<Item>& items) {
     const LabelLines lines = label_lines(label.fields, text);
-    const double letters = kNumberLetters * lines.letters, share = kNumberShare * text.width;
-    // Nobody finds the piece by half of its number, so that it gets smaller, but never shorter.
-    const double size = io::fitting_size(label.number, letters, share / kReportBoldWider);
-    const double width = kReportBoldWider * size * io::text_width(label.number) + lines.letters;
-    double baseline = text.y + 0.75 * letters;
+    // Nobody finds the piece by half of its number: it gets smaller where the sheet wants room, never
+    // shorter.
+    const double gap = 0.5 * lines.letters, one = kReportBoldWider * io::text_width(label.number),
+                 sheet_width = kSmallerLetters * lines.letters * io::text_width(label.sheet),
+                 left = std::clamp((text.width - gap - sheet_width) / one, kLeastNumber * lines.letters,
+                                   kNumberLetters * lines.letters),
+                 size = std::min(left, kNumberShare * text.width / one), width = one * size + gap;
+    double baseline = text.y + 0.75 * kNumberLetters * lines.letters;
     items.push_back(TextItem{
         {text.x, baseline}, label.number, size, Anchor::start, kLabelInk, true, {"label-number", ""}});
     Sheet sheet(items);
     sheet.text(text.x + width, baseline, text.width - width, label.sheet,
                {.size = lines.letters, .colour = kLabelInk, .kind = "label-sheet"});
-    baseline = text.y + letters;
+    baseline = text.y + kNumberLetters * lines.letters;
     for (const LabelLines::Line& line : lines.lines) {
       sheet.text(text.x, baseline + lines.letters, text.width, line.words,
                  {.size = lines.letters, .colour = kLabelInk, .bold = line.bold, .kind = "label-line"});

@@ -91,7 +91,7 @@ std::vector<char32_t> characters(std::string_view text) {
 bool is_among(char32_t code, std::u32string_view set) { return set.find(code) != std::u32string_view::npos; }
 
 double width_of(char32_t code) {
-  if (is_among(code, U" .,:;!|'ijlI·")) return 0.40;
+  if (is_among(code, U" \u00A0.,:;!|'ijlI·")) return 0.40;
   if (is_among(code, U"()[]{}/\\-rtf\"")) return 0.46;
   if (is_among(code, U"mwMW@%—ЖШЩЮМФжшщюыЫДф")) return 1.10;
   if (code >= '0' && code <= '9') return 0.64;
