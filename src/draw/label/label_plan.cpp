@@ -105,7 +105,7 @@ LabelPlan wide_plan(const Rect& whole, int modules) {
   LabelPlan plan{whole, {}, {whole.right() - side, whole.bottom() - side, side, side}, {}};
   const double top = whole.y + kLabelEdge, height = whole.height - 2 * kLabelEdge;
   double right = plan.code.x;
-  plan.picture = {plan.code.x, top, side - kLabelEdge, plan.code.y - top};
+  plan.picture = {plan.code.x + kLabelEdge, top, side - 2 * kLabelEdge, plan.code.y - top};
   const double column = std::min(height, kPictureShare * whole.width);
   if (shorter_side(plan.picture) < kLeastPicture &&
       right - column - whole.x - 2 * kLabelEdge >= kBesidePicture) {

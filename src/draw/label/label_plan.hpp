@@ -50,7 +50,7 @@ struct LabelLines {
 };
 /// Letters are as large as the place allows with whole words, a field in as many lines as it needs. Where
 /// there is no room even for the least letters, every field has a line, the first ones more of them, and what
-/// remains of a field is shortened in its last line.
+/// remains of a field is shortened in its last line, whose words may need smaller letters (kSmallerLetters).
 /// \pre no field is empty, and the place holds a line of the least letters for each
 [[nodiscard]] LabelLines label_lines(const std::vector<std::string>& fields, const Rect& text);
 

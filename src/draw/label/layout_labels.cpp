@@ -265,7 +265,7 @@ Result<std::string> labels_pdf(const LayoutLabels& labels, const LabelPaper& pap
     Scene page;
     page.width = paper.page_width, page.height = paper.page_height;
     for (std::size_t i = first; i < std::min(first + on_page, written.size()); ++i) {
-      ask(512);
+      ask(2000);
       const auto column = static_cast<double>((i - first) % columns),
                  row = static_cast<double>((i - first) / columns);
       const Rect whole{paper.margin_x + column * (width + paper.gap_x),

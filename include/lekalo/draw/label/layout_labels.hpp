@@ -25,7 +25,7 @@ struct LayoutLabels {
 /// the number of the piece in pictures and exports (the placement's id), the sheet, the name, the size of the
 /// part as drawn, the outline as it lies on the sheet, the layout's name, and the QR code. What does not fit
 /// is shortened with an ellipsis. Same input, same bytes on a machine with the same libraries and fonts.
-/// Cost: O(points of all pieces), and some 0.1 ms a label.
+/// Cost: O(points of all pieces), and some 2 ms a label.
 ///
 /// Fails with ErrorCode::bad_input where nothing is placed, with ErrorCode::usage where labels of this paper
 /// are too small for what is printed on them, naming the least size; with ErrorCode::environment where the
