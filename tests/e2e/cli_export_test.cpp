@@ -165,5 +165,128 @@ TEST(CliExport, TheProgramPassesOurOwnReaderAndLocate) {
   EXPECT_NE(read_bytes(folder / "moved.nc").find("G2 "), std::string::npos);
 }
 
+const Words kSteel{"--format",   "gcode", "--processes", "shop.json",
+                   "--material", "steel", "--thickness", "2"};
+
+Json shop() {
+  return Json::parse(R"({"format": "lekalo-process/1", "processes": [
+    {"material": "steel", "thickness_mm": 2, "process": "laser", "kerf_mm": 0.2, "feed_mm_per_min": 3000,
+     "speed": 900, "pierce_s": 0.3, "lead_in_mm": 1.5},
+    {"material": "steel", "thickness_mm": 4, "process": "plasma", "kerf_mm": 0.8, "feed_mm_per_min": 2500,
+     "lead_in_mm": 4, "lead": "arc",
+     "holes": [{"up_to_diameter_mm": 11, "lead_in_mm": 1, "feed_share": 0.4}]},
+    {"material": "birch", "thickness_mm": 6, "process": "router", "post": "grbl", "kerf_mm": 2,
+     "feed_mm_per_min": 1500, "speed": 18000, "depth_mm": 6.2, "plunge_mm_per_min": 300},
+    {"material": "birch", "thickness_mm": 6, "process": "laser", "kerf_mm": 0.3, "feed_mm_per_min": 400}]})");
+}
+
+TEST(CliExport, AProcessOfAFileWritesWhatItsWordsWrite) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plates.json", plates().dump());
+  write_bytes(folder / "shop.json", shop().dump());
+  const auto program = [&](const Words& words) {
+    const Ran ran = run(folder.path(), Words{"export", "plates.json", "--sheet", "s#1"} + words);
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    return ran.out;
+  };
+  const Words line{"--format", "gcode",   "--kerf", "0.2",      "--feed",
+                   "3000",     "--speed", "900",    "--pierce", "0.3"};
+  EXPECT_EQ(program(kSteel), program(line + Words{"--lead-in", "1.5"}));
+  EXPECT_EQ(program(kSteel + Words{"--lead-in", "0.5", "--post", "fanuc", "--unit", "inch"}),
+            program(line + Words{"--lead-in", "0.5", "--post", "fanuc", "--unit", "inch"}));
+  EXPECT_EQ(program({"--format", "gcode", "--processes", "shop.json", "--material", "birch", "--thickness",
+                     "6.0", "--process", "router"}),
+            program({"--format", "gcode", "--process", "router", "--post", "grbl", "--kerf", "2", "--feed",
+                     "1500", "--speed", "18000", "--depth", "6.2", "--plunge", "300"}));
+  const Ran told =
+      run(folder.path(), Words{"export", "plates.json", "--sheet", "s#1", "-o", "cut.nc"} + kSteel);
+  EXPECT_EQ(told.status, 0) << told.err;
+  EXPECT_NE(told.err.find("note: the process is entry 1 of shop.json: steel, 2 mm (laser)\n"),
+            std::string::npos)
+      << told.err;
+}
+
+TEST(CliExport, HolesThatAreCutSlowerAreSaidAndConfirmed) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plates.json", plates().dump());
+  write_bytes(folder / "shop.json", shop().dump());
+  const Words steel{"export",    "plates.json", "--sheet", "s#1",         "--format", "gcode", "--processes",
+                    "shop.json", "--material",  "steel",   "--thickness", "4",        "-o",    "cut.nc"};
+  for (const Words& more :
+       {Words{}, Words{"--unit", "inch"}, Words{"--post", "fanuc"}, Words{"--lead", "line"}}) {
+    const Ran ran = run(folder.path(), steel + more);
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_NE(ran.err.find("; 2 holes are up to 11 mm in diameter, cut at 1000 mm/min with a lead of 1 mm"),
+              std::string::npos)
+        << ran.err;
+    const std::string program = read_bytes(folder / "cut.nc");
+    EXPECT_NE(program.find("(HOLES UP TO "), std::string::npos) << program;
+    const Words verify{"verify", "cut.nc", "--layout", "plates.json", "--sheet", "s#1", "--kerf"};
+    const Ran verified = run(folder.path(), verify + Words{"0.8"});
+    EXPECT_EQ(verified.status, 0) << verified.err;
+    EXPECT_EQ(run(folder.path(), verify + Words{"1"}).status, 4);
+  }
+  const std::string program = read_bytes(folder / "cut.nc");
+  EXPECT_NE(program.find(" F1000.0\n"), std::string::npos) << program;
+  EXPECT_NE(program.find(" F2500.0\n"), std::string::npos) << program;
+}
+
+TEST(CliExport, ProcessesThatWillNotDoAreRefusedInOneSentence) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plates.json", plates().dump());
+  write_bytes(folder / "shop.json", shop().dump());
+  Json kerfless = shop();
+  kerfless["processes"][1].erase("kerf_mm");
+  write_bytes(folder / "kerfless.json", kerfless.dump());
+  Json keys = shop();
+  keys["processes"][0]["gas"] = "O2";
+  keys["processes"][2]["pierce_s"] = 1;
+  write_bytes(folder / "keys.json", keys.dump());
+  write_bytes(folder / "broken.json", "{\"format\": \"lekalo-process/1\",\n \"processes\": [");
+  const auto from = [](const std::string& file, const std::string& material, const std::string& thickness) {
+    return Words{"--format", "gcode", "--processes", file, "--material", material, "--thickness", thickness};
+  };
+  struct Case {
+    Words words;
+    int status;
+    std::string says;
+  };
+  const std::vector<Case> wrong{
+      {from("shop.json", "brass", "2"), 2,
+       "there is no process for brass, 2 mm; there are: steel, 2 mm (laser); "},
+      {from("shop.json", "steel", "3"), 2, "there are: steel, 2 mm (laser); steel, 4 mm (plasma)"},
+      {kSteel + Words{"--process", "router"}, 2, "there is no process for steel, 2 mm (router)"},
+      {from("shop.json", "birch", "6"), 2,
+       "shop.json: entries 3 and 4 are for birch, 6 mm: router and laser; say which with --process"},
+      {from("kerfless.json", "steel", "2"), 3,
+       "kerfless.json: entry 2: kerf_mm is missing: the width of the cut"},
+      {from("keys.json", "steel", "2"), 3, "keys.json: entry 1: there is no key 'gas'"},
+      {from("keys.json", "steel", "2"), 3, "; entry 3: pierce_s has no meaning for routers"},
+      {from("broken.json", "steel", "2"), 3, "broken.json"},
+      {from("nowhere.json", "steel", "2"), 3, "nowhere.json"},
+      {from("plates.json", "steel", "2"), 3, "plates.json: this is no file of processes"},
+      {from("shop.json", "steel", "two"), 2, "--thickness: \"two\" is not a thickness from 0.001 to 1000 mm"},
+      {{"--format", "gcode", "--processes", "shop.json", "--thickness", "2"}, 2, "--material is missing"},
+      {{"--format", "gcode", "--processes", "shop.json", "--material", "steel"}, 2, "--thickness is missing"},
+      {{"--format", "gcode", "--material", "steel", "--kerf", "1", "--feed", "1"}, 2, "--processes FILE"},
+      {{"--format", "dxf", "--processes", "shop.json", "--material", "steel", "--thickness", "2"},
+       2,
+       "--processes has no meaning for the form dxf"},
+      {kSteel + Words{"--kerf", "0"}, 2, "--kerf 0: has to be a number from 0.01 to 100"},
+      {kSteel + Words{"--depth", "3"}, 2, "--depth has a meaning for routers alone"},
+      {from("shop.json", "birch", "6") + Words{"--process", "laser", "--post", "grbl"}, 2,
+       "--speed is missing"},
+      {kSteel + Words{"-o", "shop.json"}, 2, "shop.json"}};
+  const auto before = folder.files();
+  for (const auto& [words, status, says] : wrong) {
+    const Ran ran = run(folder.path(), Words{"export", "plates.json", "--sheet", "s#1"} + words);
+    EXPECT_EQ(ran.status, status) << says;
+    EXPECT_NE(ran.err.find(says), std::string::npos) << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+    EXPECT_EQ(ran.out, "");
+  }
+  EXPECT_EQ(folder.files(), before);
+}
+
 }  // namespace
 }  // namespace lekalo::test::cli_export_test

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "lekalo/nc/rewrite.hpp"
@@ -72,12 +73,18 @@ ProfileOptions random_options(Random& random) {
   o.lead_in_mm = random.below(4) == 0 ? 0 : random.uniform(0.3, 12);
   o.feed_mm_per_min = 1000;
   o.speed = 500;
+  // Leads of the holes' own, which may be too long for them as well.
+  for (double up_to = random.uniform(2, 6); up_to < 40; up_to *= random.uniform(1.5, 4)) {
+    const bool has_lead = random.below(4) != 0;
+    o.holes.push_back(
+        {up_to, has_lead ? std::optional(random.uniform(0, 8)) : std::nullopt, random.uniform(0.05, 1)});
+  }
   return o;
 }
 
 TEST(NcProfile, TheKerfOfThePrintedProgramStaysOutOfEveryPart) {
   const std::size_t count = cases::case_count(25);
-  std::size_t leads = 0, bare = 0, looked_at = 0;
+  std::size_t leads = 0, bare = 0, by_rule = 0, looked_at = 0;
   for (std::size_t index = 0; index < count; ++index) {
     SCOPED_TRACE(fmt::format("seed {} case {}", cases::seed(), index));
     const std::vector<ProfilePart> parts = cases::random_parts(cases::seed(), index);
@@ -106,9 +113,11 @@ TEST(NcProfile, TheKerfOfThePrintedProgramStaysOutOfEveryPart) {
           }
     }
     bare += made->bare_starts, leads += options.lead_in_mm > 0 ? cuts.size() - made->bare_starts : 0;
+    for (const std::size_t ruled : made->cuts_by_hole) by_rule += ruled;
   }
   EXPECT_GT(looked_at, 100 * count);
   EXPECT_GT(leads, count);
+  EXPECT_GT(by_rule, count);
   EXPECT_GT(bare, 0U);  // leads of 12 mm in holes of 2 mm
 }
 

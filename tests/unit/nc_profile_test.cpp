@@ -1,9 +1,13 @@
 #include "lekalo/nc/profile.hpp"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <optional>
+#include <string>
 
+#include "lekalo/geom/trig.hpp"
 #include "support/profile_parts.hpp"
 
 namespace lekalo::nc::nc_profile_test {
@@ -216,6 +220,94 @@ TEST(NcProfile, ThePostsWriteTheirOwnWords) {
   for (const char* down : {"G1 Z-2.0000 F90.0\n", "G1 Z-4.0000 F90.0\n", "G1 Z-5.0000 F90.0\n"})
     EXPECT_TRUE(has(text(), down));
   EXPECT_FALSE(has(text(), "Z-6"));
+}
+
+/// The first feed behind the comment of a hole, and whether a lead comes before its path: it then has one
+/// motion more.
+std::string feed_of_hole(const std::string& text, std::size_t hole) {
+  const std::size_t cut = text.find(fmt::format("(PLACEMENT 1 HOLE {})", hole));
+  const std::size_t feed = text.find(" F", cut);
+  return text.substr(feed + 1, text.find('\n', feed) - feed - 1);
+}
+
+TEST(NcProfile, HolesUpToADiameterHaveLeadsAndFeedsOfTheirOwn) {
+  ProfileOptions options = plain();
+  options.lead_in_mm = 2;
+  // Diameters of 3, 5, 4 * 80 / 84 and 20 mm: four times the area over the length.
+  const std::vector<ProfilePart> parts{
+      {1, region_of_contours(box_contour(0, 0, 80, 80),
+                             {circle_contour({10, 10}, 1.5, true), box_contour(20, 5, 5, 5),
+                              box_contour(10, 30, 40, 2), circle_contour({60, 60}, 10, true)})}};
+  const auto without = profile_program(parts, "x", options);
+  ASSERT_TRUE(without) << without.error().message;
+  EXPECT_TRUE(without->cuts_by_hole.empty());
+  options.holes = {{3, 0.5, 0.4}, {5, std::nullopt, 0.65}};
+  const auto made = profile_program(parts, "x", options);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->cuts_by_hole, (std::vector<std::size_t>{1, 2}));
+  EXPECT_NE(made->text.find("NO G41 G42)\n(HOLES UP TO 3.0000 LEAD 0.5000 F240.0)\n"
+                            "(HOLES UP TO 5.0000 LEAD 2.0000 F390.0)\nG21"),
+            std::string::npos)
+      << made->text;
+  EXPECT_EQ(feed_of_hole(made->text, 1), "F240.0");
+  EXPECT_EQ(feed_of_hole(made->text, 2), "F390.0");
+  EXPECT_EQ(feed_of_hole(made->text, 3), "F390.0");
+  EXPECT_EQ(feed_of_hole(made->text, 4), "F600.0");
+  // The path of the first hole has a radius of 1: its lead begins half a millimetre off it, not one of 2 mm
+  // that was shortened.
+  EXPECT_NE(made->text.find("(PLACEMENT 1 HOLE 1)\nG0 X9.5000 Y10.0000\n"), std::string::npos) << made->text;
+  EXPECT_EQ(without->shortened_leads - made->shortened_leads, 1U);
+  // Larger holes are cut as without the rules.
+  options.holes = {{2.9, 0.5, 0.4}};
+  const auto larger = profile_program(parts, "x", options);
+  ASSERT_TRUE(larger) << larger.error().message;
+  std::string text = larger->text;
+  const std::size_t begin = text.find("(HOLES");
+  text.erase(begin, text.find('\n', begin) + 1 - begin);
+  EXPECT_EQ(text, without->text);
+}
+
+TEST(NcProfile, ATurnedHoleIsCutByTheSameRule) {
+  ProfileOptions options = plain();
+  options.holes = {{7, 0.0, 0.5}};
+  for (int k = 0; k < 60; ++k) {
+    const auto [sine, cosine] = geom::sincos(0.11 * k);
+    const geom::Point along{7 * cosine, 7 * sine}, across{-7 * sine, 7 * cosine}, at{40.1, 37.3};
+    const auto made = profile_program(
+        {{1, region_of_contours(box_contour(0, 0, 80, 80),
+                                {cases::ring_contour({at, at + along, at + along + across, at + across})})}},
+        "x", options);
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_EQ(made->cuts_by_hole, std::vector<std::size_t>{1}) << k;
+  }
+}
+
+TEST(NcProfile, RulesOfHolesOutOfRangeAreRefusedByName) {
+  struct Case {
+    std::vector<HoleCut> holes;
+    const char* says;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Case wrong[] = {{{{0, 1.0, 1}}, "the diameter up to which"},
+                        {{{nan, 1.0, 1}}, "the diameter up to which"},
+                        {{{3, -1.0, 1}}, "lead-in in mm of holes up to 3 mm is -1"},
+                        {{{3, 1.0, 1.5}}, "share of the feed of holes up to 3 mm is 1.5"},
+                        {{{3, 1.0, nan}}, "share of the feed"},
+                        {{{3, 1.0, 0.001}}, "share of the feed"},
+                        {{{5, 1.0, 1}, {5, 1.0, 1}}, "ascending order"}};
+  for (const Case& one : wrong) {
+    ProfileOptions options = plain();
+    options.holes = one.holes;
+    const auto made = profile_program({square(1, 0, 0)}, "x", options);
+    ASSERT_FALSE(made) << one.says;
+    EXPECT_EQ(made.error().code, ErrorCode::usage);
+    EXPECT_NE(made.error().message.find(one.says), std::string::npos) << made.error().message;
+  }
+  ProfileOptions slow = plain();
+  slow.feed_mm_per_min = 1, slow.holes = {{3, 1.0, 0.05}};
+  const auto made = profile_program({square(1, 0, 0)}, "x", slow);
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().message.find("feed in mm/min of holes up to 3 mm is 0.05"), std::string::npos);
 }
 
 }  // namespace

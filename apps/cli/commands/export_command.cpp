@@ -6,6 +6,8 @@
 
 #include "layout_input.hpp"
 #include "lekalo/disk/files.hpp"
+#include "lekalo/io/layout/process_file.hpp"
+#include "lekalo/io/text/words.hpp"
 #include "lekalo/jobs/export.hpp"
 #include "outputs.hpp"
 #include "summary.hpp"
@@ -26,7 +28,9 @@ Result<std::string> write_sheets(const ExportOptions& o, const std::vector<io::E
   std::vector<NamedPath> paths;
   for (std::size_t i = 0; i < sheets.size(); ++i)
     paths.push_back({"--output", sheets.size() == 1 ? o.output : numbered(o.output, i + 1)});
-  LEKALO_CHECK(check_outputs(paths, {{"the layout", o.source.path}, {"--instance", o.source.instance}}));
+  LEKALO_CHECK(check_outputs(paths, {{"the layout", o.source.path},
+                                     {"--instance", o.source.instance},
+                                     {"--processes", o.process ? o.process->path : ""}}));
   disk::AtomicFiles files;
   std::string said;
   for (std::size_t i = 0; i < sheets.size(); ++i) {
@@ -38,15 +42,40 @@ Result<std::string> write_sheets(const ExportOptions& o, const std::vector<io::E
   return said;
 }
 
+struct TakenProcess {
+  io::ExportRequest request;
+  std::string said;  ///< a line that names the entry
+};
+
+Result<TakenProcess> take_process(const ProcessSource& source) {
+  LEKALO_TRY(const std::string bytes, disk::read_file(source.path));
+  LEKALO_TRY(const io::ProcessFile file, io::read_processes(bytes, io::as_utf8(source.path)));
+  LEKALO_TRY(const std::size_t index,
+             io::find_process(file, source.material, source.thickness_mm, source.kind));
+  const io::CutProcess& process = file.processes[index];
+  LEKALO_TRY(io::ExportRequest request, io::process_request(process, source.words, "--"));
+  return TakenProcess{std::move(request),
+                      fmt::format("note: the process is entry {} of {}: {}, {} mm ({})\n", index + 1,
+                                  file.name, process.material, process.thickness_mm, process.kind)};
+}
+
 }  // namespace
 
 Result<int> run_export(const ExportOptions& o) {
-  LEKALO_TRY(const jobs::Layout input, read_layout_input(o.source, {{"--output", o.output}}));
-  LEKALO_TRY(const io::Exported made, jobs::export_layout(input, o.form));
+  jobs::ExportOptions form = o.form;
   std::string said;
+  if (o.process) {
+    LEKALO_TRY(TakenProcess taken, take_process(*o.process));
+    form.machine = std::move(taken.request);
+    said = std::move(taken.said);
+  }
+  LEKALO_TRY(const jobs::Layout input,
+             read_layout_input(o.source, {{"--output", o.output}},
+                               {{"--processes", o.process ? o.process->path : ""}}));
+  LEKALO_TRY(const io::Exported made, jobs::export_layout(input, form));
   if (o.form.form == jobs::LayoutForm::placements && o.form.instance_name.empty() &&
       input.instance_name.empty())
-    said = "note: the placements do not say where their items stand; --instance-name does\n";
+    said += "note: the placements do not say where their items stand; --instance-name does\n";
   said += notes(input.notices) + notes(made.notes);
   if (!o.output.empty()) {
     LEKALO_TRY(const std::string written, write_sheets(o, made.files));

@@ -1,4 +1,6 @@
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "layout_words.hpp"
 #include "option_forms.hpp"
@@ -20,6 +22,7 @@ constexpr std::array kExportFormats{Word<jobs::LayoutForm>{"layout", jobs::Layou
 struct ExportWords {
   LayoutWords layout;
   std::string format, output, instance_name;
+  std::string processes, material, thickness;
   std::vector<io::ExportWord> machine;  ///< words that io::read_export_words understands
   std::vector<io::ExportWord> labels;   ///< words that jobs::read_label_words understands
 };
@@ -46,6 +49,31 @@ Result<void> no_words(const std::vector<io::ExportWord>& given, const std::strin
                                                format.empty() ? "layout" : format));
 }
 
+/// The process that the words ask for; nothing where they do not name a file.
+Result<std::optional<ProcessSource>> to_process(const ExportWords& w, std::vector<io::ExportWord> given) {
+  ProcessSource process{w.processes, w.material, 0, {}, std::move(given)};
+  WordReader reader;
+  for (const auto& [option, word] :
+       {std::pair{"--processes", &w.processes}, {"--material", &w.material}, {"--thickness", &w.thickness}}) {
+    if (word->empty()) continue;
+    reader.require(w.format == "gcode", fmt::format("{} has no meaning for the form {}", option,
+                                                    w.format.empty() ? "layout" : w.format));
+    reader.require(!w.processes.empty(),
+                   fmt::format("{} says which process to take, and --processes FILE from where", option));
+  }
+  if (!w.processes.empty()) {
+    reader.require(!w.material.empty(), "--material is missing: which of the processes to take");
+    reader.require(!w.thickness.empty(), "--thickness is missing: which of the processes to take");
+  }
+  reader.number("--thickness", w.thickness, 0.001, 1000.0, "a thickness from 0.001 to 1000 mm",
+                process.thickness_mm);
+  if (!reader.complaint().empty()) return failure(ErrorCode::usage, reader.complaint());
+  if (w.processes.empty()) return std::optional<ProcessSource>();
+  for (const io::ExportWord& word : process.words)
+    if (word.first == "process") process.kind = word.second;
+  return std::optional(std::move(process));
+}
+
 Result<Command> to_export(const ExportWords& w) {
   jobs::ExportOptions form;
   form.instance_name = w.instance_name;
@@ -53,8 +81,12 @@ Result<Command> to_export(const ExportWords& w) {
   if (!w.format.empty()) reader.choice("--format", w.format, kExportFormats, form.form);
   if (!reader.complaint().empty()) return failure(ErrorCode::usage, reader.complaint());
   const std::vector<io::ExportWord> machine = given_of(w.machine), labels = given_of(w.labels);
+  LEKALO_TRY(std::optional<ProcessSource> process, to_process(w, machine));
   if (form.form == jobs::LayoutForm::machine) {
-    LEKALO_TRY(form.machine, io::read_export_words(*io::export_form(w.format), machine, "--"));
+    // The file of processes, which is not read yet, may have what is missing on the line.
+    if (!process) {
+      LEKALO_TRY(form.machine, io::read_export_words(*io::export_form(w.format), machine, "--"));
+    }
   } else {
     LEKALO_CHECK(no_words(machine, w.format));
   }
@@ -64,7 +96,7 @@ Result<Command> to_export(const ExportWords& w) {
     LEKALO_CHECK(no_words(labels, w.format));
   }
   return to_layout_source(w.layout).map([&](LayoutSource&& source) {
-    return Command(ExportOptions{std::move(source), w.output, std::move(form)});
+    return Command(ExportOptions{std::move(source), w.output, std::move(form), std::move(process)});
   });
 }
 
@@ -78,7 +110,12 @@ Typed add_export_form(Form& form) {
   add("-o,--output", words->output, "FILE", "Write to this file [stdout]");
   add("--instance-name", words->instance_name, "NAME",
       "What placements give as the file of their items [as the input says, or itself]");
-  add_words(form, "For machines and other programs", io::export_words(), words->machine);
+  const std::string machines = "For machines and other programs";
+  add_words(form, machines, io::export_words(), words->machine);
+  const OptionAdder add_process(form, machines);
+  add_process("--processes", words->processes, "FILE", "gcode: take from this file what is not given here");
+  add_process("--material", words->material, "NAME", "gcode: the material of the process to take");
+  add_process("--thickness", words->thickness, "MM", "gcode: the thickness of the process to take");
   add_words(form, "For labels", jobs::label_words(), words->labels);
   form.footer =
       "Exit codes: 0 done, whatever rules are broken, 2 wrong command line, 3 a file cannot be read,\n"

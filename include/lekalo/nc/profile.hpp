@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,12 +25,22 @@ struct ProfilePart {
 
 enum class Process {
   laser,   ///< the beam goes on with the dialect's word and off with M5
-  plasma,  ///< the beam goes on with M3 and off with M5
+  plasma,  ///< the beam, or the jet of water, goes on with M3 and off with M5
   router   ///< the spindle moves in Z: depth in passes, plunge feed, safe height
 };
 enum class LeadShape {
   line,  ///< at a right angle to the contour
   arc    ///< a quarter of a circle that runs into the contour's direction
+};
+
+/// How holes up to a diameter are cut. The diameter of a hole is four times its area over the length of its
+/// contour, the hydraulic diameter: that of a circle, the side of a square, twice the width of a long slot.
+/// Turning and moving a part changes it by rounding alone.
+struct HoleCut {
+  double up_to_diameter_mm = 0;  ///< 0.01 to 10000; a micrometre more is as good
+  /// The length or radius of the lead, 0 to 1000; nothing: that of all cuts.
+  std::optional<double> lead_in_mm;
+  double feed_share = 1;  ///< of the feed of all cuts, 0.01 to 1
 };
 
 struct ProfileOptions {
@@ -53,6 +64,8 @@ struct ProfileOptions {
   double safe_height_mm = 5;
   /// The feed downwards, above 0 to 1e6; routers only.
   double plunge_mm_per_min = 0;
+  /// In ascending order of their diameters; the first that a hole fits is how it is cut.
+  std::vector<HoleCut> holes;
 };
 
 struct ProfileProgram {
@@ -62,6 +75,8 @@ struct ProfileProgram {
   double deepest_mm = 0;
   /// A bare start is pierced on the contour for want of room.
   std::size_t cuts = 0, shortened_leads = 0, bare_starts = 0;
+  /// How many holes were cut by each of ProfileOptions::holes.
+  std::vector<std::size_t> cuts_by_hole;
   double cut_mm = 0, travel_mm = 0;
   /// The distance from the kerf of the corner of a contour that is farthest from it, in the placement
   /// `left_over_of`. Material stays there: little in corners that point inwards, which the kerf rounds, and

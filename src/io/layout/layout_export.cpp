@@ -116,6 +116,16 @@ Result<Exported> plotted(const std::vector<SheetShapes>& sheets, const ExportReq
   return made;
 }
 
+/// Says what a rule of holes did, as the end of a sentence.
+std::string holes_cut(std::size_t count, const nc::ProfileOptions& profile, std::size_t rule) {
+  const nc::HoleCut& hole = profile.holes[rule];
+  const double lead = hole.lead_in_mm.value_or(profile.lead_in_mm);
+  return fmt::format("; {} up to {:g} mm in diameter, cut at {:g} mm/min {}",
+                     count == 1 ? "1 hole is" : fmt::format("{} holes are", count), hole.up_to_diameter_mm,
+                     hole.feed_share * profile.feed_mm_per_min,
+                     lead > 0 ? fmt::format("with a lead of {:g} mm", lead) : "without a lead");
+}
+
 Result<Exported> programmed(const std::vector<SheetShapes>& sheets, const std::string& name,
                             const ExportRequest& request) {
   Exported made;
@@ -130,6 +140,8 @@ Result<Exported> programmed(const std::vector<SheetShapes>& sheets, const std::s
         "sheet {}: {} cuts, {:.0f} mm, travel {:.0f} mm; the kerf enters no part by more than "
         "{:.5f} mm",
         sheet.name, p.cuts, p.cut_mm, p.travel_mm, p.deepest_mm + 0.5e-5);
+    for (std::size_t i = 0; i < p.cuts_by_hole.size(); ++i)
+      if (p.cuts_by_hole[i] > 0) said += holes_cut(p.cuts_by_hole[i], request.profile, i);
     if (p.shortened_leads > 0)
       said += fmt::format("; {} leads are shorter for want of room", p.shortened_leads);
     if (p.bare_starts > 0)

@@ -5,178 +5,168 @@
 #include <cmath>
 #include <iterator>
 
+#include "export_word_taker.hpp"
 #include "lekalo/base/joined_text.hpp"
 #include "lekalo/io/layout/layout_export.hpp"
 
 namespace lekalo::io {
-namespace {
+namespace detail {
 
-/// Takes words one after the other into a request, and at the end asks for those that are missing.
-/// \pre values are not empty
-class WordTaker {
- public:
-  WordTaker(ExportRequest& request, const std::string& prefix) : request_(request), prefix_(prefix) {}
+Result<void> ExportWordTaker::take(const ExportWord& word) {
+  const auto known = std::find_if(export_words().begin(), export_words().end(),
+                                  [&](const ExportWordHelp& help) { return help.name == word.first; });
+  const auto& [name, value] = word;
+  if (known == export_words().end())
+    return failure(ErrorCode::usage, fmt::format("there is no option {}", shown_(name)));
+  if (!fits_form(name))
+    return failure(ErrorCode::usage,
+                   fmt::format("{} has no meaning for the form {}", shown_(name), form_name()));
+  given_.push_back(name);
+  nc::ProfileOptions& p = request_.profile;
+  if (name == "sheet") {
+    request_.sheet = value;
+    return {};
+  }
+  if (name == "only") return layers(value);
+  if (name == "unit")
+    return choice(word, {{"mm", LengthUnit::millimetre}, {"inch", LengthUnit::inch}}, request_.unit);
+  if (name == "post") return post(word);
+  if (name == "process")
+    return choice(word,
+                  {{"laser", nc::Process::laser},
+                   {"plasma", nc::Process::plasma},
+                   {"waterjet", nc::Process::plasma},
+                   {"router", nc::Process::router}},
+                  p.process);
+  if (name == "lead")
+    return choice(word, {{"line", nc::LeadShape::line}, {"arc", nc::LeadShape::arc}}, p.lead);
+  if (name == "tolerance" && request_.form == ExportForm::hpgl)
+    return number(word, 1e-4, 10, request_.chord_tolerance_mm);
+  return profile_number(word);
+}
 
-  Result<void> take(const ExportWord& word) {
-    const auto known = std::find_if(export_words().begin(), export_words().end(),
-                                    [&](const ExportWordHelp& help) { return help.name == word.first; });
-    const auto& [name, value] = word;
-    if (known == export_words().end())
-      return failure(ErrorCode::usage, fmt::format("there is no option {}{}", prefix_, name));
-    if (!fits_form(name))
-      return failure(ErrorCode::usage,
-                     fmt::format("{}{} has no meaning for the form {}", prefix_, name, form_name()));
-    given_.push_back(name);
-    nc::ProfileOptions& p = request_.profile;
-    if (name == "sheet") {
-      request_.sheet = value;
+std::vector<std::string> ExportWordTaker::complete() {
+  std::vector<std::string> complaints;
+  if (request_.form != ExportForm::gcode) return complaints;
+  const auto needs = [&](const char* name, const char* why) {
+    if (!was_given(name)) complaints.push_back(fmt::format("{} is missing: {}", shown_(name), why));
+  };
+  nc::ProfileOptions& p = request_.profile;
+  needs("kerf", "the width of the cut in mm");
+  needs("feed", "the speed of the cut in mm/min");
+  const bool router = p.process == nc::Process::router;
+  if (router || (p.post.laser_needs_power && p.process == nc::Process::laser))
+    needs("speed", router ? "the speed of the spindle, the S word"
+                          : "the power of the beam, the S word; without it the beam stays dark");
+  if (router) {
+    needs("depth", "how deep a router cuts, in mm");
+    needs("plunge", "how fast a router goes down, in mm/min");
+  }
+  for (const char* name : {"depth", "pass", "safe-height", "plunge"})
+    if (!router && was_given(name))
+      complaints.push_back(
+          fmt::format("{} has a meaning for routers alone: {} router", shown_(name), shown_("process")));
+  if (router && p.pierce_s > 0)
+    complaints.push_back(fmt::format("{} has no meaning for routers: leave it out", shown_("pierce")));
+  if (!was_given("tolerance")) p.tolerance_mm = std::min(p.tolerance_mm, 0.25 * p.kerf_mm);
+  if (!(p.tolerance_mm <= 0.25 * p.kerf_mm))
+    complaints.push_back(fmt::format("{} {:g}: has to be at most a quarter of the kerf of {:g} mm",
+                                     shown_("tolerance"), p.tolerance_mm, p.kerf_mm));
+  return complaints;
+}
+
+bool ExportWordTaker::was_given(const char* name) const {
+  return std::find(given_.begin(), given_.end(), name) != given_.end();
+}
+
+const char* ExportWordTaker::form_name() const {
+  constexpr const char* kNames[] = {"dxf", "svg", "hpgl", "gcode"};
+  return kNames[static_cast<int>(request_.form)];
+}
+
+bool ExportWordTaker::fits_form(const std::string& name) const {
+  const bool gcode = request_.form == ExportForm::gcode;
+  if (name == "sheet") return true;
+  if (name == "only") return !gcode;
+  if (name == "unit") return gcode || request_.form == ExportForm::dxf;
+  if (name == "tolerance") return gcode || request_.form == ExportForm::hpgl;
+  return gcode;
+}
+
+Result<void> ExportWordTaker::layers(const std::string& value) {
+  for (std::size_t begin = 0; begin <= value.size();) {
+    const std::size_t end = std::min(value.find(',', begin), value.size());
+    const std::string layer = value.substr(begin, end - begin);
+    if (std::none_of(std::begin(kExportLayers), std::end(kExportLayers),
+                     [&](const char* k) { return layer == k; }))
+      return failure(ErrorCode::usage, fmt::format("{} {}: the layers are {}", shown_("only"), value,
+                                                   joined_text(kExportLayers, ", ")));
+    request_.only.push_back(layer);
+    begin = end + 1;
+  }
+  return {};
+}
+
+template <class T>
+Result<void> ExportWordTaker::choice(const ExportWord& word,
+                                     std::initializer_list<std::pair<const char*, T>> choices, T& to) const {
+  std::string list;
+  for (const auto& [name, value] : choices) {
+    if (word.second == name) {
+      to = value;
       return {};
     }
-    if (name == "only") return layers(value);
-    if (name == "unit")
-      return choice(word, {{"mm", LengthUnit::millimetre}, {"inch", LengthUnit::inch}}, request_.unit);
-    if (name == "post") return post(word);
-    if (name == "process")
-      return choice(
-          word,
-          {{"laser", nc::Process::laser}, {"plasma", nc::Process::plasma}, {"router", nc::Process::router}},
-          p.process);
-    if (name == "lead")
-      return choice(word, {{"line", nc::LeadShape::line}, {"arc", nc::LeadShape::arc}}, p.lead);
-    if (name == "tolerance" && request_.form == ExportForm::hpgl)
-      return number(word, 1e-4, 10, request_.chord_tolerance_mm);
-    return profile_number(word);
+    list += (list.empty() ? "" : ", ") + std::string(name);
   }
+  return none_of(word, list);
+}
 
-  /// Fails for words that have to be given but were not, and for those that contradict each other.
-  Result<void> complete() {
-    const auto needs = [&](const char* name, const char* why) -> Result<void> {
-      if (std::find(given_.begin(), given_.end(), name) != given_.end()) return {};
-      return failure(ErrorCode::usage, fmt::format("{}{} is missing: {}", prefix_, name, why));
-    };
-    nc::ProfileOptions& p = request_.profile;
-    if (request_.form != ExportForm::gcode) return {};
-    LEKALO_CHECK(needs("kerf", "the width of the cut in mm"));
-    LEKALO_CHECK(needs("feed", "the speed of the cut in mm/min"));
-    const bool router = p.process == nc::Process::router;
-    if (router || (p.post.laser_needs_power && p.process == nc::Process::laser))
-      LEKALO_CHECK(needs("speed", router
-                                      ? "the speed of the spindle, the S word"
-                                      : "the power of the beam, the S word; without it the beam stays dark"));
-    if (router) {
-      LEKALO_CHECK(needs("depth", "how deep a router cuts, in mm"));
-      LEKALO_CHECK(needs("plunge", "how fast a router goes down, in mm/min"));
-    }
-    for (const char* name : {"depth", "pass", "safe-height", "plunge"})
-      if (!router && std::find(given_.begin(), given_.end(), name) != given_.end())
-        return failure(ErrorCode::usage, fmt::format("{}{} has a meaning for routers alone: {}process router",
-                                                     prefix_, name, prefix_));
-    if (router && p.pierce_s > 0)
-      return failure(ErrorCode::usage,
-                     fmt::format("{}pierce has no meaning for routers: leave it out", prefix_));
-    if (std::find(given_.begin(), given_.end(), "tolerance") == given_.end())
-      p.tolerance_mm = std::min(p.tolerance_mm, 0.25 * p.kerf_mm);
-    if (!(p.tolerance_mm <= 0.25 * p.kerf_mm))
-      return failure(ErrorCode::usage,
-                     fmt::format("{}tolerance {:g}: has to be at most a quarter of the kerf of {:g} mm",
-                                 prefix_, p.tolerance_mm, p.kerf_mm));
-    return {};
-  }
+Result<void> ExportWordTaker::post(const ExportWord& word) {
+  const nc::Dialect* const known = nc::post_named(word.second);
+  if (known == nullptr) return none_of(word, nc::post_names(", ", ", "));
+  request_.profile.post = *known;
+  return {};
+}
 
- private:
-  [[nodiscard]] const char* form_name() const {
-    constexpr const char* kNames[] = {"dxf", "svg", "hpgl", "gcode"};
-    return kNames[static_cast<int>(request_.form)];
-  }
+tl::unexpected<Error> ExportWordTaker::none_of(const ExportWord& word, const std::string& list) const {
+  return failure(ErrorCode::usage,
+                 fmt::format("{} {}: has to be one of {}", shown_(word.first), word.second, list));
+}
 
-  [[nodiscard]] bool fits_form(const std::string& name) const {
-    const bool gcode = request_.form == ExportForm::gcode;
-    if (name == "sheet") return true;
-    if (name == "only") return !gcode;
-    if (name == "unit") return gcode || request_.form == ExportForm::dxf;
-    if (name == "tolerance") return gcode || request_.form == ExportForm::hpgl;
-    return gcode;
-  }
+Result<void> ExportWordTaker::number(const ExportWord& word, double low, double high, double& to) const {
+  const std::string& text = word.second;
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !(value >= low && value <= high))
+    return failure(ErrorCode::usage, fmt::format("{} {}: has to be a number from {:g} to {:g}",
+                                                 shown_(word.first), text, low, high));
+  to = value;
+  return {};
+}
 
-  Result<void> layers(const std::string& value) {
-    for (std::size_t begin = 0; begin <= value.size();) {
-      const std::size_t end = std::min(value.find(',', begin), value.size());
-      const std::string layer = value.substr(begin, end - begin);
-      if (std::none_of(std::begin(kExportLayers), std::end(kExportLayers),
-                       [&](const char* k) { return layer == k; }))
-        return failure(ErrorCode::usage, fmt::format("{}only {}: the layers are {}", prefix_, value,
-                                                     joined_text(kExportLayers, ", ")));
-      request_.only.push_back(layer);
-      begin = end + 1;
-    }
-    return {};
-  }
+Result<void> ExportWordTaker::profile_number(const ExportWord& word) {
+  struct Number {
+    const char* name;
+    double low, high;
+    double* to;
+  };
+  nc::ProfileOptions& p = request_.profile;
+  const Number numbers[] = {{"kerf", 0.01, 100, &p.kerf_mm},
+                            {"tolerance", 1e-4, 25, &p.tolerance_mm},
+                            {"lead-in", 0, 1000, &p.lead_in_mm},
+                            {"feed", 0.1, 1e6, &p.feed_mm_per_min},
+                            {"speed", 1, 1e6, &p.speed},
+                            {"pierce", 0, 100, &p.pierce_s},
+                            {"depth", 0.01, 1000, &p.depth_mm},
+                            {"pass", 0.01, 1000, &p.pass_mm},
+                            {"safe-height", 0.1, 1000, &p.safe_height_mm},
+                            {"plunge", 0.1, 1e6, &p.plunge_mm_per_min}};
+  for (const Number& one : numbers)
+    if (word.first == one.name) return number(word, one.low, one.high, *one.to);
+  return {};
+}
 
-  template <class T>
-  Result<void> choice(const ExportWord& word, std::initializer_list<std::pair<const char*, T>> choices,
-                      T& to) const {
-    std::string list;
-    for (const auto& [name, value] : choices) {
-      if (word.second == name) {
-        to = value;
-        return {};
-      }
-      list += (list.empty() ? "" : ", ") + std::string(name);
-    }
-    return none_of(word, list);
-  }
-
-  Result<void> post(const ExportWord& word) {
-    const nc::Dialect* const known = nc::post_named(word.second);
-    if (known == nullptr) return none_of(word, nc::post_names(", ", ", "));
-    request_.profile.post = *known;
-    return {};
-  }
-
-  [[nodiscard]] tl::unexpected<Error> none_of(const ExportWord& word, const std::string& list) const {
-    return failure(ErrorCode::usage,
-                   fmt::format("{}{} {}: has to be one of {}", prefix_, word.first, word.second, list));
-  }
-
-  Result<void> number(const ExportWord& word, double low, double high, double& to) const {
-    const std::string& text = word.second;
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !(value >= low && value <= high))
-      return failure(ErrorCode::usage, fmt::format("{}{} {}: has to be a number from {:g} to {:g}", prefix_,
-                                                   word.first, text, low, high));
-    to = value;
-    return {};
-  }
-
-  Result<void> profile_number(const ExportWord& word) {
-    struct Number {
-      const char* name;
-      double low, high;
-      double* to;
-    };
-    nc::ProfileOptions& p = request_.profile;
-    const Number numbers[] = {{"kerf", 0.01, 100, &p.kerf_mm},
-                              {"tolerance", 1e-4, 25, &p.tolerance_mm},
-                              {"lead-in", 0, 1000, &p.lead_in_mm},
-                              {"feed", 0.1, 1e6, &p.feed_mm_per_min},
-                              {"speed", 1, 1e6, &p.speed},
-                              {"pierce", 0, 100, &p.pierce_s},
-                              {"depth", 0.01, 1000, &p.depth_mm},
-                              {"pass", 0.01, 1000, &p.pass_mm},
-                              {"safe-height", 0.1, 1000, &p.safe_height_mm},
-                              {"plunge", 0.1, 1e6, &p.plunge_mm_per_min}};
-    for (const Number& one : numbers)
-      if (word.first == one.name) return number(word, one.low, one.high, *one.to);
-    return {};
-  }
-
-  ExportRequest& request_;
-  const std::string& prefix_;
-  std::vector<std::string> given_;
-};
-
-}  // namespace
+}  // namespace detail
 
 const std::vector<ExportWordHelp>& export_words() {
   static const std::vector<ExportWordHelp> words{
@@ -190,7 +180,7 @@ const std::vector<ExportWordHelp>& export_words() {
       {"lead-in", "MM", "gcode: length of a lead, or radius of an arc [0: none]"},
       {"lead", "line|arc", "gcode: shape of a lead [line]"},
       {"post", nc::post_names("|", "|"), fmt::format("gcode: the control [{}]", nc::posts().front().name)},
-      {"process", "laser|plasma|router", "gcode: the tool [laser]"},
+      {"process", "laser|plasma|waterjet|router", "gcode: the tool [laser]"},
       {"speed", "S", "gcode: the S word: speed of a spindle, power of a beam"},
       {"pierce", "S", "gcode: seconds to wait for the pierce [0]"},
       {"depth", "MM", "gcode, router: depth below Z 0"},
@@ -204,9 +194,10 @@ Result<ExportRequest> read_export_words(ExportForm form, const std::vector<Expor
                                         const std::string& prefix) {
   ExportRequest request;
   request.form = form;
-  WordTaker taker(request, prefix);
+  detail::ExportWordTaker taker(request, [&](const std::string& name) { return prefix + name; });
   for (const ExportWord& word : words) LEKALO_CHECK(taker.take(word));
-  LEKALO_CHECK(taker.complete());
+  if (const std::vector<std::string> complaints = taker.complete(); !complaints.empty())
+    return failure(ErrorCode::usage, complaints.front());
   request.profile.unit = request.unit;
   return request;
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/edge_distance.hpp"
@@ -21,11 +23,38 @@ using geom::Point;
 
 constexpr std::size_t kLongestProgram = 500'000'000;  // bytes
 
+double length_of(const geom::Edge& edge) {
+  return edge.kind == geom::EdgeKind::line ? geom::norm(edge.to - edge.from)
+                                           : geom::arc_radius(edge) * geom::arc_sweep(edge);
+}
+
+double length_of(const std::vector<WrittenEdge>& edges, const Resolution& resolution) {
+  double sum = 0;
+  for (const WrittenEdge& edge : edges) sum += length_of(edge_mm(edge, resolution));
+  return sum;
+}
+
 /// NaN fails every comparison, and so is out of every range.
-Result<void> check_range(const char* what, double value, double low, double high) {
+Result<void> check_range(const std::string& what, double value, double low, double high) {
   if (value >= low && value <= high) return {};
   return failure(ErrorCode::usage,
                  fmt::format("{} is {:g}: from {:g} to {:g} is allowed", what, value, low, high));
+}
+
+Result<void> check_holes(const ProfileOptions& o) {
+  double before = 0;
+  for (const HoleCut& hole : o.holes) {
+    const std::string of = fmt::format(" of holes up to {:g} mm", hole.up_to_diameter_mm);
+    LEKALO_CHECK(
+        check_range("the diameter up to which holes are cut so, in mm", hole.up_to_diameter_mm, 0.01, 1e4));
+    LEKALO_CHECK(check_range("lead-in in mm" + of, hole.lead_in_mm.value_or(0), 0, 1000));
+    LEKALO_CHECK(check_range("share of the feed" + of, hole.feed_share, 0.01, 1));
+    LEKALO_CHECK(check_range("feed in mm/min" + of, hole.feed_share * o.feed_mm_per_min, 0.1, 1e6));
+    if (!(hole.up_to_diameter_mm > before))
+      return failure(ErrorCode::usage, "diameters of holes have to stand in ascending order");
+    before = hole.up_to_diameter_mm;
+  }
+  return {};
 }
 
 Result<void> check_options(const ProfileOptions& o) {
@@ -61,7 +90,40 @@ Result<void> check_options(const ProfileOptions& o) {
                     o.post.control));
   if (router && o.pierce_s > 0)
     return failure(ErrorCode::usage, "a router does not pierce: leave the pierce time out");
-  return {};
+  return check_holes(o);
+}
+
+/// A hole that is drawn with the diameter of a rule is not beyond it by the rounding of its part's turn. The
+/// chords of a circle lie in the hole, so that they only make it smaller.
+constexpr double kDiameterRounding = 1e-3;  // mm
+
+/// The rule of options.holes by which a contour is cut; none for outlines and larger holes.
+std::optional<std::size_t> hole_rule(const ProfilePart& part, const Cut& cut, const ProfileOptions& options) {
+  if (cut.outline || options.holes.empty()) return std::nullopt;
+  const geom::Contour& contour = part.region.holes[cut.hole];
+  double length = 0;
+  for (const geom::Edge& edge : contour) length += length_of(edge);
+  const double diameter = 4 * std::abs(geom::signed_area(contour)) / length;
+  const auto fits = std::find_if(options.holes.begin(), options.holes.end(), [&](const HoleCut& hole) {
+    return diameter <= hole.up_to_diameter_mm + kDiameterRounding;
+  });
+  if (fits == options.holes.end()) return std::nullopt;
+  return static_cast<std::size_t>(fits - options.holes.begin());
+}
+
+/// The lead that a cut wants, and its feed.
+struct CutTerms {
+  std::optional<std::size_t> rule;  ///< of ProfileOptions::holes
+  double lead_in_mm = 0, feed_mm_per_min = 0;
+};
+
+CutTerms terms_of(const ProfilePart& part, const Cut& cut, const ProfileOptions& options) {
+  CutTerms terms{hole_rule(part, cut, options), options.lead_in_mm, options.feed_mm_per_min};
+  if (!terms.rule) return terms;
+  const HoleCut& hole = options.holes[*terms.rule];
+  terms.lead_in_mm = hole.lead_in_mm.value_or(options.lead_in_mm);
+  terms.feed_mm_per_min = hole.feed_share * options.feed_mm_per_min;
+  return terms;
 }
 
 /// The refusal of a cut whose kerf would enter a part.
@@ -93,16 +155,6 @@ Result<double> proved_depth(const std::vector<ProfilePart>& parts, const Cut& cu
   if (finding.inside || !(finding.deepest_mm <= options.tolerance_mm))
     return entered(parts, cut, finding, options);
   return finding.deepest_mm;
-}
-
-double length_of(const std::vector<WrittenEdge>& edges, const Resolution& resolution) {
-  double sum = 0;
-  for (const WrittenEdge& edge : edges) {
-    const geom::Edge mm = edge_mm(edge, resolution);
-    sum += mm.kind == geom::EdgeKind::line ? geom::norm(mm.to - mm.from)
-                                           : geom::arc_radius(mm) * geom::arc_sweep(mm);
-  }
-  return sum;
 }
 
 /// The distance from the kerf of that corner of the contour which is farthest from it.
@@ -145,11 +197,14 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, co
   // Step 5. The path is proved as it will be written, after starts_of has begun new edges in it.
   const KerfProof proof(parts, options);
   ProfileProgram program;
+  program.cuts_by_hole.resize(options.holes.size());
+  std::vector<CutTerms> terms;
   std::vector<Starts> starts;
   for (Cut& cut : cuts) {
-    starts.push_back(starts_of(cut.path, proof, options));
-    LEKALO_CHECK(proved_depth(parts, cut, cut.path, proof, options));
     const ProfilePart& part = parts[cut.part];
+    terms.push_back(terms_of(part, cut, options));
+    starts.push_back(starts_of(cut.path, terms.back().lead_in_mm, proof, options));
+    LEKALO_CHECK(proved_depth(parts, cut, cut.path, proof, options));
     const double left = left_over(cut.outline ? part.region.outer : part.region.holes[cut.hole], cut.path,
                                   resolution, 0.5 * options.kerf_mm);
     if (left > program.left_over_mm) program.left_over_mm = left, program.left_over_of = part.id;
@@ -163,6 +218,7 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, co
   for (const OrderedCut& ordered : order) {
     const Cut& cut = cuts[ordered.cut];
     const Starts& its = starts[ordered.cut];
+    const CutTerms& on_terms = terms[ordered.cut];
     const Start& start = its.choices[ordered.start];
     const std::vector<WrittenEdge> path = begun_at(cut.path, start.edge);
     std::vector<WrittenEdge> all = start.lead;
@@ -171,7 +227,7 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, co
     program.deepest_mm = std::max(program.deepest_mm, deepest_mm);
     writer.comment(fmt::format("placement {} {}", parts[cut.part].id,
                                cut.outline ? "outline" : fmt::format("hole {}", cut.hole + 1)));
-    writer.cut(start.lead, path);
+    writer.cut(start.lead, path, on_terms.feed_mm_per_min);
     if (writer.size() > kLongestProgram)
       return failure(
           ErrorCode::bad_input,
@@ -181,9 +237,10 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, co
     here = resolution.mm(start.on_contour);
     program.cut_mm += length_of(all, resolution);
     ++program.cuts;
-    if (options.lead_in_mm > 0 && start.lead.empty())
+    if (on_terms.rule) ++program.cuts_by_hole[*on_terms.rule];
+    if (on_terms.lead_in_mm > 0 && start.lead.empty())
       ++program.bare_starts;
-    else if (its.lead_mm < options.lead_in_mm)
+    else if (its.lead_mm < on_terms.lead_in_mm)
       ++program.shortened_leads;
   }
   program.travel_mm += geom::norm(here);

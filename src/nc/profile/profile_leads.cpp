@@ -52,15 +52,15 @@ void split_lines(std::vector<WrittenEdge>& path, const Resolution& resolution, d
 
 }  // namespace
 
-Starts starts_of(std::vector<WrittenEdge>& path, const KerfProof& proof, const ProfileOptions& options) {
+Starts starts_of(std::vector<WrittenEdge>& path, double lead_in_mm, const KerfProof& proof,
+                 const ProfileOptions& options) {
   const Resolution resolution = resolution_of(options);
-  const double wanted = options.lead_in_mm;
-  if (wanted > 0) split_lines(path, resolution, 4 * options.kerf_mm);
+  if (lead_in_mm > 0) split_lines(path, resolution, 4 * options.kerf_mm);
   const std::size_t count = std::min(path.size(), kMostStarts);
   const auto edge_at = [&](std::size_t k) { return k * path.size() / count; };
   for (const double part : {1.0, 0.5, 0.25}) {
-    if (!(wanted > 0)) break;
-    Starts found{{}, part * wanted};
+    if (!(lead_in_mm > 0)) break;
+    Starts found{{}, part * lead_in_mm};
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t edge = edge_at(k);
       const WrittenPoint at = path[edge].from;

@@ -20,11 +20,11 @@ struct Starts {
   double lead_mm = 0;          ///< their length; 0 where there was no room
 };
 
-/// Step 5 of docs/design/export.md: the longest leads, of full, half or a quarter of the length, that stay
+/// Step 5 of docs/design/export.md: the longest leads, of full, half or a quarter of `lead_in_mm`, that stay
 /// out of every part. They come from the waste side, at up to kMostStarts places spread over the path. New
 /// edges begin in the middle of long ones, which changes `path`, as a curve, by rounding alone.
 inline constexpr std::size_t kMostStarts = 12;
-[[nodiscard]] Starts starts_of(std::vector<WrittenEdge>& path, const KerfProof& proof,
+[[nodiscard]] Starts starts_of(std::vector<WrittenEdge>& path, double lead_in_mm, const KerfProof& proof,
                                const ProfileOptions& options);
 
 }  // namespace lekalo::nc

@@ -17,41 +17,47 @@ ProfileWriter::ProfileWriter(const std::string& name, const ProfileOptions& opti
       out_(options.post, options.unit, resolution_.decimals) {
   out_.begin(name);
   comment(fmt::format("kerf {} compensated in the path, no G41 G42", length(options.kerf_mm)));
+  for (const HoleCut& hole : options.holes)
+    comment(fmt::format("holes up to {} lead {}{}", length(hole.up_to_diameter_mm),
+                        length(hole.lead_in_mm.value_or(options.lead_in_mm)),
+                        out_.feed(hole.feed_share * options.feed_mm_per_min, kInchFeedDecimals)));
   out_.lines(options.post.profile.modes);
   if (options.process != Process::router) return;
   out_.line("G0 Z" + length(options.safe_height_mm));
   out_.line(fmt::format("M3 S{:.0f}", options.speed));
 }
 
-void ProfileWriter::cut(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path) {
+void ProfileWriter::cut(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path,
+                        double feed_mm_per_min) {
   rapid_to(lead.empty() ? path.front().from : lead.front().from);
   if (options_.process == Process::router)
-    cut_by_router(lead, path);
+    cut_by_router(lead, path, feed_mm_per_min);
   else
-    cut_by_beam(lead, path);
+    cut_by_beam(lead, path, feed_mm_per_min);
 }
 
-void ProfileWriter::cut_by_beam(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path) {
+void ProfileWriter::cut_by_beam(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path,
+                                double feed) {
   const std::string_view on = options_.process == Process::laser ? options_.post.laser_on : "M3";
   out_.line(fmt::format("{}{}", on, options_.speed > 0 ? fmt::format(" S{:.0f}", options_.speed) : ""));
   const auto& [units_per_second, decimals] = options_.post.dwell;
   if (options_.pierce_s > 0)
     out_.line(fmt::format("G4 P{:.{}f}", units_per_second * options_.pierce_s, decimals));
-  follow(lead, true);
-  follow(path, lead.empty());
+  follow(lead, feed);
+  follow(path, lead.empty() ? std::optional(feed) : std::nullopt);
   out_.line("M5");
 }
 
-void ProfileWriter::cut_by_router(const std::vector<WrittenEdge>& lead,
-                                  const std::vector<WrittenEdge>& path) {
+void ProfileWriter::cut_by_router(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path,
+                                  double feed) {
   const double pass = options_.pass_mm > 0 ? options_.pass_mm : options_.depth_mm;
   const auto passes = static_cast<int>(std::ceil(options_.depth_mm / pass * (1 - 1e-12)));
   for (int k = 1; k <= passes; ++k) {
     const double z = k == passes ? options_.depth_mm : k * pass;
     out_.line("G1 Z" + length(-z) + out_.feed(options_.plunge_mm_per_min, kInchFeedDecimals));
     // Later passes go down where the contour closes, in the kerf that is already there.
-    if (k == 1) follow(lead, true);
-    follow(path, k > 1 || lead.empty());
+    if (k == 1) follow(lead, feed);
+    follow(path, k > 1 || lead.empty() ? std::optional(feed) : std::nullopt);
   }
   out_.line("G0 Z" + length(options_.safe_height_mm));
 }
@@ -62,7 +68,7 @@ std::string ProfileWriter::finish() {
   return out_.finish(options_.post.profile.end);
 }
 
-void ProfileWriter::follow(const std::vector<WrittenEdge>& edges, bool feed_changed) {
+void ProfileWriter::follow(const std::vector<WrittenEdge>& edges, std::optional<double> feed) {
   for (const WrittenEdge& edge : edges) {
     std::string words = edge.kind == geom::EdgeKind::line      ? "G1"
                         : edge.kind == geom::EdgeKind::arc_ccw ? "G3"
@@ -70,8 +76,8 @@ void ProfileWriter::follow(const std::vector<WrittenEdge>& edges, bool feed_chan
     words += out_.pair('X', 'Y', edge.to);
     if (edge.kind != geom::EdgeKind::line)
       words += out_.pair('I', 'J', {edge.centre.x - edge.from.x, edge.centre.y - edge.from.y});
-    if (feed_changed) words += out_.feed(options_.feed_mm_per_min, kInchFeedDecimals);
-    feed_changed = false;
+    if (feed) words += out_.feed(*feed, kInchFeedDecimals);
+    feed.reset();
     out_.line(words);
   }
 }

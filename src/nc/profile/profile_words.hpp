@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,15 +16,17 @@ class ProfileWriter {
 
   void comment(const std::string& words) { out_.comment(words); }
   /// A contour from its pierce: the lead, perhaps, and the closed path.
-  void cut(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path);
+  void cut(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path,
+           double feed_mm_per_min);
   [[nodiscard]] std::string finish();
   [[nodiscard]] std::size_t size() const noexcept { return out_.size(); }
 
  private:
-  void cut_by_beam(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path);
-  void cut_by_router(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path);
+  void cut_by_beam(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path, double feed);
+  void cut_by_router(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path, double feed);
   void rapid_to(WrittenPoint p) { out_.line("G0" + out_.pair('X', 'Y', p)); }
-  void follow(const std::vector<WrittenEdge>& edges, bool feed_changed);
+  /// \param feed  mm/min, for the first of the edges; nothing: the feed stands already
+  void follow(const std::vector<WrittenEdge>& edges, std::optional<double> feed);
   [[nodiscard]] std::string length(double mm) const;
 
   const ProfileOptions& options_;

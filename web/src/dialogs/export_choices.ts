@@ -18,7 +18,7 @@ export interface Field {
 export type Values = Record<string, string>;
 
 const ROUTER = ['router'];
-const BEAM = ['laser', 'plasma'];
+const BEAM = ['laser', 'plasma', 'waterjet'];
 const UNIT: Field = { name: 'unit', of: ['mm', 'inch'] };
 /** The empty value stands for all layers. */
 const ONLY: Field = { name: 'only', of: ['', 'CUT'] };
@@ -29,7 +29,7 @@ export const CHOICES: Record<ChosenForm, { name: string; sheetEach: boolean; fie
     name: 'G-code',
     sheetEach: true,
     fields: [
-      { name: 'process', of: ['laser', 'plasma', 'router'] },
+      { name: 'process', of: ['laser', 'plasma', 'waterjet', 'router'] },
       { name: 'post', of: ['linuxcnc', 'grbl', 'fanuc', 'haas'] },
       UNIT,
       { name: 'kerf', required: true },

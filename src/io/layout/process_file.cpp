@@ -1,0 +1,311 @@
+#include "lekalo/io/layout/process_file.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "export_word_taker.hpp"
+#include "io/text/json_reader.hpp"
+#include "io/text/json_tree.hpp"
+#include "io/text/refusal.hpp"
+#include "lekalo/io/text/excerpt.hpp"
+
+namespace lekalo::io {
+namespace {
+
+using detail::JsonKind;
+using detail::JsonTree;
+using detail::JsonValue;
+
+constexpr std::string_view kProcessFormat = "lekalo-process/1";
+constexpr std::size_t kMostProcesses = 10'000, kMostHoleRows = 100;
+/// So many faults, or processes, are told one by one.
+constexpr std::size_t kMostProcessesTold = 20;
+
+/// A key of an entry and the word of an export that it stands for.
+struct ProcessKey {
+  const char *key, *word;
+  bool is_number;
+};
+constexpr std::array kProcessKeys{ProcessKey{"process", "process", false},
+                                  ProcessKey{"post", "post", false},
+                                  ProcessKey{"kerf_mm", "kerf", true},
+                                  ProcessKey{"feed_mm_per_min", "feed", true},
+                                  ProcessKey{"speed", "speed", true},
+                                  ProcessKey{"pierce_s", "pierce", true},
+                                  ProcessKey{"lead", "lead", false},
+                                  ProcessKey{"lead_in_mm", "lead-in", true},
+                                  ProcessKey{"depth_mm", "depth", true},
+                                  ProcessKey{"pass_mm", "pass", true},
+                                  ProcessKey{"plunge_mm_per_min", "plunge", true},
+                                  ProcessKey{"safe_height_mm", "safe-height", true}};
+
+std::string process_key_of(const std::string& word) {
+  const auto found = std::find_if(kProcessKeys.begin(), kProcessKeys.end(),
+                                  [&](const ProcessKey& key) { return word == key.word; });
+  return found == kProcessKeys.end() ? word : found->key;
+}
+
+std::string described_process(const CutProcess& process) {
+  return fmt::format("{}, {} mm ({})", process.material, process.thickness_mm, process.kind);
+}
+
+/// Keeps every fault of a file, so that one reading of the sentence mends it.
+class ProcessReader {
+ public:
+  explicit ProcessReader(const std::string& name) : name_(name) {}
+
+  Result<ProcessFile> read(JsonValue root) {
+    if (root.kind() != JsonKind::object)
+      return refuse(name_, fmt::format("a file of processes is an object, not {}", name_of(root.kind())));
+    const auto format = root.find("format");
+    if (!format || !format->text_is(kProcessFormat))
+      return refuse(name_,
+                    fmt::format("this is no file of processes: \"format\" has to be \"{}\"", kProcessFormat));
+    for (const JsonValue item : root)
+      if (item.key() != "format" && item.key() != "processes")
+        complain(fmt::format("there is no key {} beside \"format\" and \"processes\"", excerpt(item.key())));
+    const auto list = root.find("processes");
+    if (!list || list->kind() != JsonKind::list || list->size() == 0 || list->size() > kMostProcesses)
+      complain(fmt::format("\"processes\" has to be a list of 1 to {} entries", kMostProcesses));
+    else
+      for (const JsonValue item : *list) entry(item);
+    if (complained_ > kMostProcessesTold)
+      complaints_ += fmt::format("; and {} more", complained_ - kMostProcessesTold);
+    if (!complaints_.empty()) return refuse(name_, complaints_);
+    return ProcessFile{name_, std::move(processes_)};
+  }
+
+ private:
+  void complain(const std::string& what) {
+    if (++complained_ > kMostProcessesTold) return;
+    complaints_ += (complaints_.empty() ? "" : "; ") + where_ + what;
+  }
+
+  void entry(JsonValue json) {
+    const std::size_t number = ++entries_;
+    where_ = fmt::format("entry {}: ", number);
+    CutProcess process;
+    if (json.kind() != JsonKind::object)
+      complain(fmt::format("an object is needed, not {}", name_of(json.kind())));
+    else
+      take(json, process);
+    const auto [place, is_new] =
+        first_.emplace(std::tuple(process.material, process.thickness_mm, process.kind), number);
+    if (!is_new && !process.material.empty() && !process.kind.empty() && process.thickness_mm > 0)
+      complain(fmt::format("{} is entry {} already", described_process(process), place->second));
+    processes_.push_back(std::move(process));
+    where_.clear();
+  }
+
+  void take(JsonValue json, CutProcess& process) {
+    ExportRequest request;
+    request.form = ExportForm::gcode;
+    detail::ExportWordTaker taker(request, process_key_of);
+    // Without a kind of machine and a control nobody knows what else has to be given.
+    bool kind_is_known = true;
+    bool has_material = false, has_thickness = false, has_kind = false;
+    std::optional<JsonValue> holes;
+    for (const JsonValue item : json) {
+      const std::string_view key = item.key();
+      if (key == "material") {
+        has_material = true;
+        if (const auto said = text(item)) process.material = *said;
+      } else if (key == "thickness_mm") {
+        has_thickness = true;
+        if (const auto said = number(item, 0.001, 1000)) process.thickness_mm = *said;
+      } else if (key == "holes") {
+        holes = item;
+      } else {
+        const bool is_taken = word(item, taker, process);
+        has_kind = has_kind || key == "process";
+        if (!is_taken && (key == "process" || key == "post")) kind_is_known = false;
+      }
+    }
+    if (!has_material) complain("material is missing: the name that --material says");
+    if (!has_thickness) complain("thickness_mm is missing");
+    if (!has_kind) complain("process is missing: the kind of machine");
+    if (kind_is_known && has_kind)
+      for (const std::string& complaint : taker.complete()) complain(complaint);
+    if (holes) take_holes(*holes, request.profile.feed_mm_per_min, process);
+  }
+
+  /// Takes a key that stands for a word of an export; false after a complaint.
+  bool word(JsonValue item, detail::ExportWordTaker& taker, CutProcess& process) {
+    const auto known = std::find_if(kProcessKeys.begin(), kProcessKeys.end(),
+                                    [&](const ProcessKey& key) { return item.key() == key.key; });
+    if (known == kProcessKeys.end()) {
+      complain(fmt::format("there is no key {}{}", excerpt(item.key()), unknown_told_ ? "" : known_keys()));
+      unknown_told_ = true;
+      return false;
+    }
+    std::string value;
+    if (known->is_number) {
+      if (!item.is_number()) {
+        complain(fmt::format("{} has to be a number, not {}", known->key, name_of(item.kind())));
+        return false;
+      }
+      value = fmt::format("{}", item.number());
+    } else {
+      const auto said = text(item);
+      if (!said) return false;
+      value = *said;
+    }
+    const ExportWord made{known->word, std::move(value)};
+    if (const Result<void> taken = taker.take(made); !taken) {
+      complain(taken.error().message);
+      return false;
+    }
+    if (made.first == "process") process.kind = made.second;
+    process.words.push_back(made);
+    return true;
+  }
+
+  static std::string known_keys() {
+    std::string known = "; known are material, thickness_mm";
+    for (const ProcessKey& key : kProcessKeys) known += std::string(", ") + key.key;
+    return known + " and holes";
+  }
+
+  std::optional<std::string> text(JsonValue item) {
+    if (item.kind() == JsonKind::text) {
+      const std::string_view said = item.text();
+      const bool is_plain = std::none_of(
+          said.begin(), said.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+      if (is_plain && !said.empty() && said.size() <= detail::kLongestText) return std::string(said);
+    }
+    complain(fmt::format("{} has to be a text of 1 to {} bytes without control characters", item.key(),
+                         detail::kLongestText));
+    return std::nullopt;
+  }
+
+  std::optional<double> number(JsonValue item, double low, double high) {
+    if (item.is_number() && item.number() >= low && item.number() <= high) return item.number();
+    complain(fmt::format("{}{} has to be a number from {:g} to {:g}", item.key(),
+                         item.is_number() ? fmt::format(" {}:", item.number()) : "", low, high));
+    return std::nullopt;
+  }
+
+  void take_holes(JsonValue list, double feed, CutProcess& process) {
+    if (list.kind() != JsonKind::list || list.size() > kMostHoleRows)
+      return complain(fmt::format("holes has to be a list of at most {} rows", kMostHoleRows));
+    const std::string entry = where_;
+    double before = 0;
+    std::size_t row = 0;
+    for (const JsonValue item : list) {
+      where_ = fmt::format("{}, row {} of holes: ", entry.substr(0, entry.size() - 2), ++row);
+      if (item.kind() != JsonKind::object) {
+        complain(fmt::format("an object is needed, not {}", name_of(item.kind())));
+        continue;
+      }
+      process.holes.push_back(hole_of(item, feed));
+      const double up_to = process.holes.back().up_to_diameter_mm;
+      if (up_to > 0 && up_to <= before)
+        complain(fmt::format("up_to_diameter_mm {}: has to be above that of the row before", up_to));
+      before = std::max(before, up_to);
+    }
+    where_ = entry;
+  }
+
+  nc::HoleCut hole_of(JsonValue json, double feed) {
+    nc::HoleCut hole;
+    for (const JsonValue item : json) {
+      if (item.key() == "up_to_diameter_mm")
+        hole.up_to_diameter_mm = number(item, 0.01, 1e4).value_or(-1);
+      else if (item.key() == "lead_in_mm")
+        hole.lead_in_mm = number(item, 0, 1000);
+      else if (item.key() == "feed_share")
+        hole.feed_share = number(item, 0.01, 1).value_or(1);
+      else
+        complain(
+            fmt::format("there is no key {} in a row; known are up_to_diameter_mm, lead_in_mm and feed_share",
+                        excerpt(item.key())));
+    }
+    if (hole.up_to_diameter_mm == 0) complain("up_to_diameter_mm is missing");
+    if (feed > 0 && !(hole.feed_share * feed >= 0.1))
+      complain(fmt::format("feed_share {} leaves less than 0.1 of {} mm/min", hole.feed_share, feed));
+    return hole;
+  }
+
+  const std::string& name_;
+  std::string complaints_, where_;
+  std::size_t complained_ = 0, entries_ = 0;
+  bool unknown_told_ = false;
+  std::vector<CutProcess> processes_;
+  std::map<std::tuple<std::string, double, std::string>, std::size_t> first_;
+};
+
+/// Processes of the material if there are any, and else all, as far as a sentence holds them.
+std::string processes_there(const ProcessFile& file, const std::string& material) {
+  const bool knows_material =
+      std::any_of(file.processes.begin(), file.processes.end(),
+                  [&](const CutProcess& process) { return process.material == material; });
+  std::string list;
+  std::size_t told = 0, left = 0;
+  for (const CutProcess& process : file.processes) {
+    if (knows_material && process.material != material) continue;
+    if (told == kMostProcessesTold) {
+      ++left;
+      continue;
+    }
+    list += (told++ == 0 ? "" : "; ") + described_process(process);
+  }
+  return left == 0 ? list : fmt::format("{}; and {} more", list, left);
+}
+
+}  // namespace
+
+Result<ProcessFile> read_processes(std::string_view bytes, const std::string& name) {
+  LEKALO_TRY(const JsonTree tree, JsonTree::parse(bytes, name));
+  return ProcessReader(name).read(tree.root());
+}
+
+Result<std::size_t> find_process(const ProcessFile& file, const std::string& material, double thickness_mm,
+                                 const std::string& kind) {
+  std::vector<std::size_t> fits;
+  for (std::size_t i = 0; i < file.processes.size(); ++i) {
+    const CutProcess& process = file.processes[i];
+    if (process.material == material && process.thickness_mm == thickness_mm &&
+        (kind.empty() || process.kind == kind))
+      fits.push_back(i);
+  }
+  if (fits.size() == 1) return fits.front();
+  const std::string wanted =
+      fmt::format("{}, {} mm{}", material, thickness_mm, kind.empty() ? "" : fmt::format(" ({})", kind));
+  if (fits.empty())
+    return failure(ErrorCode::usage, fmt::format("{}: there is no process for {}; there are: {}", file.name,
+                                                 wanted, processes_there(file, material)));
+  std::string entries, kinds;
+  for (std::size_t k = 0; k < fits.size(); ++k) {
+    const char* const between = k == 0 ? "" : k + 1 == fits.size() ? " and " : ", ";
+    entries += between + std::to_string(fits[k] + 1);
+    kinds += between + file.processes[fits[k]].kind;
+  }
+  return failure(ErrorCode::usage, fmt::format("{}: entries {} are for {}: {}; say which with --process",
+                                               file.name, entries, wanted, kinds));
+}
+
+Result<ExportRequest> process_request(const CutProcess& process, const std::vector<ExportWord>& words,
+                                      const std::string& prefix) {
+  const auto is_given = [&](const std::string& name) {
+    return std::any_of(words.begin(), words.end(),
+                       [&](const ExportWord& word) { return word.first == name; });
+  };
+  std::vector<ExportWord> all;
+  std::copy_if(process.words.begin(), process.words.end(), std::back_inserter(all),
+               [&](const ExportWord& word) { return !is_given(word.first); });
+  all.insert(all.end(), words.begin(), words.end());
+  LEKALO_TRY(ExportRequest request, read_export_words(ExportForm::gcode, all, prefix));
+  request.profile.holes = process.holes;
+  if (is_given("lead-in"))
+    for (nc::HoleCut& hole : request.profile.holes) hole.lead_in_mm.reset();
+  return request;
+}
+
+}  // namespace lekalo::io
