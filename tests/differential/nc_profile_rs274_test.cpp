@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "lekalo/nc/profile.hpp"
 #include "support/cases.hpp"
@@ -85,6 +86,7 @@ TEST(NcProfileRs274, TheInterpreterCutsBesideEveryPart) {
     if (options.process == Process::plasma) options.pierce_s = 0.4;
     if (options.process == Process::router)
       options.depth_mm = 6, options.pass_mm = 2.5, options.plunge_mm_per_min = 200;
+    options.holes = {{7, 0.7, 0.5}, {15, std::nullopt, 0.8}};
     const auto made = profile_program(parts, "random", options);
     ASSERT_TRUE(made) << made.error().message;
     const rs274::Run run = oracle().run(made->text);
