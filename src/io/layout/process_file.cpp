@@ -145,13 +145,10 @@ class ProcessReader {
       unknown_told_ = true;
       return false;
     }
+    // A value that is no number is refused like those out of range.
     std::string value;
     if (known->is_number) {
-      if (!item.is_number()) {
-        complain(fmt::format("{} has to be a number, not {}", known->key, name_of(item.kind())));
-        return false;
-      }
-      value = fmt::format("{}", item.number());
+      value = item.is_number() ? fmt::format("{}", item.number()) : name_of(item.kind());
     } else {
       const auto said = text(item);
       if (!said) return false;
