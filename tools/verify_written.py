@@ -97,8 +97,10 @@ def checks(argv, stdout, status):
             if command == "nest" and given and is_json(pathlib.Path(given).read_text(errors="replace"),
                                                        "lekalo-layout/1"):
                 found.append([out, "--layout", given])
-        if is_json(stdout, "lekalo-nest") and out:
+        if is_json(stdout, "lekalo-nest", "lekalo-order") and out:
             found.append(["{}"])
+            if order := is_json(stdout, "lekalo-order"):
+                found += [[file["path"]] for file in order["outputs"]]
     elif command == "fit":  # a result names the files of its turned profile, beside which it lies
         if out and os.path.isfile(out):
             found.append([out])

@@ -65,6 +65,9 @@ const std::atomic<bool>* StopRequests::interrupt() noexcept { return &interrupt_
 void StopRequests::end_at(double seconds) noexcept {
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began;
   handle(SIGALRM);
+  stop_flag.store(false);
+  // A Ctrl-C between the two lines sets it again.
+  if (interrupt_flag.load()) stop_flag.store(true);
   if (seconds > passed.count())
     start_timer(seconds - passed.count());
   else

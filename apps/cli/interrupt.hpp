@@ -24,7 +24,8 @@ class StopRequests {
   /// Set by Ctrl-C and SIGTERM alone, with the flag.
   [[nodiscard]] static const std::atomic<bool>* interrupt() noexcept;
   /// Lets the flag be set by itself so long after this object was made, s; at once where that is past. `nest`
-  /// says so when all is read, because before that a time limit would leave nothing.
+  /// says so when all is read, because before that a time limit would leave nothing. It may be said again: a
+  /// flag that only the time before has set is taken back.
   static void end_at(double seconds) noexcept;
 };
 

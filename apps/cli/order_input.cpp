@@ -10,6 +10,8 @@
 #include "lekalo/io/formats/drawing_formats.hpp"
 #include "lekalo/io/formats/order_table.hpp"
 #include "lekalo/io/text/words.hpp"
+#include "lekalo/jobs/bill.hpp"
+#include "lekalo/jobs/material.hpp"
 #include "lekalo/jobs/order_words.hpp"
 
 namespace lekalo::cli {
@@ -24,7 +26,7 @@ class OrderReader {
   OrderReader(const OrderSource& source, const std::vector<NamedPath>& outputs)
       : source_(source), outputs_(outputs) {}
 
-  Result<jobs::Layout> read() {
+  Result<std::vector<jobs::MaterialLayout>> read() {
     order_ = jobs::order_of(source_.terms);
     order_.reading = source_.reading;
     if (source_.parts.empty() && source_.table.empty())
@@ -37,27 +39,40 @@ class OrderReader {
       io::OrderRow row;
       row.file = word.files;
       row.quantity = word.count.value_or(1);
+      row.material = word.material;
       add_parts(row, "");
     }
     if (!source_.table.empty()) add_table();
     for (const jobs::StockWord& word : source_.terms.stocks) add_stock(word);
     if (!faults_.empty()) return failure(code_, faults_);
     LEKALO_CHECK(check_outputs(outputs_, inputs_));
-    LEKALO_TRY(jobs::Layout layout, jobs::open_order(order_));
-    layout.notices.insert(layout.notices.begin(), notices_.begin(), notices_.end());
-    return layout;
+    LEKALO_TRY(std::vector<jobs::MaterialLayout> layouts, jobs::open_orders(order_));
+    if (layouts.size() > 1) LEKALO_CHECK(check_outputs(outputs_of(layouts), inputs_));
+    std::vector<std::string>& notices = layouts.front().layout.notices;
+    notices.insert(notices.begin(), notices_.begin(), notices_.end());
+    return layouts;
   }
 
  private:
+  [[nodiscard]] std::vector<NamedPath> outputs_of(const std::vector<jobs::MaterialLayout>& layouts) const {
+    std::vector<NamedPath> all;
+    for (const jobs::MaterialLayout& one : layouts)
+      for (const NamedPath& output : outputs_)
+        all.push_back({output.option, jobs::path_with(output.path, one.file_word)});
+    return all;
+  }
+
   void fault(const std::string& sentence, ErrorCode code = ErrorCode::bad_input) {
     if (faults_.empty()) code_ = code;
     faults_ += (faults_.empty() ? "" : "; ") + sentence;
   }
 
-  std::optional<jobs::File> file(const char* option, const std::string& path) {
+  /// \param where, more  stand before and behind what is said of a file that cannot be read
+  std::optional<jobs::File> file(const char* option, const std::string& path, const std::string& where = {},
+                                 const std::string& more = {}) {
     Result<std::string> bytes = disk::read_file(path == "-" ? "/dev/stdin" : path);
     if (!bytes) {
-      fault(bytes.error().message);
+      fault(where + bytes.error().message + more);
       return std::nullopt;
     }
     inputs_.push_back({option, path});
@@ -69,11 +84,11 @@ class OrderReader {
     const std::string word = near ? (fs::path(folder) / row.file).string() : row.file;
     const auto files = disk::files_meant(
         word, [](const std::string& name) { return io::drawing_format_by_ending(name) != nullptr; });
-    if (!files)
-      return fault((row.line > 0 ? fmt::format("{}: line {}: ", shown(source_.table), row.line) : "") +
-                   files.error().message);
+    const std::string where = row.said_in.empty() ? "" : row.said_in + ": ";
+    const std::string more = row.assembly.empty() ? "" : "; and no line has it as its assembly";
+    if (!files) return fault(where + files.error().message + more);
     for (const std::string& path : *files) {
-      std::optional<jobs::File> read = file("--part", path);
+      std::optional<jobs::File> read = file("--part", path, where, more);
       if (!read) continue;
       order_.parts.push_back(jobs::ordered_part(row, *std::move(read), source_.terms));
     }
@@ -82,8 +97,10 @@ class OrderReader {
   void add_table() {
     const std::optional<jobs::File> table = file("--order", source_.table);
     if (!table) return;
-    const auto rows = io::read_order(table->bytes, table->name);
-    if (!rows) return fault(rows.error().message);
+    const auto rows = io::read_order(table->bytes, table->name).and_then([&](io::OrderTable read) {
+      return jobs::ordered_rows(std::move(read), table->name, source_.terms.builds, "--");
+    });
+    if (!rows) return fault(rows.error().message, rows.error().code);
     notices_.insert(notices_.end(), rows->notices.begin(), rows->notices.end());
     const std::string folder = source_.table == "-" ? "" : fs::path(source_.table).parent_path().string();
     for (const io::OrderRow& row : rows->rows) add_parts(row, folder);
@@ -93,6 +110,7 @@ class OrderReader {
     jobs::OrderedStock stock;
     stock.size = word.size;
     stock.count = word.count;
+    stock.material = word.material;
     if (!stock.size) {
       std::error_code unseen;
       if (word.said != "-" && !fs::exists(word.said, unseen))
@@ -116,8 +134,21 @@ class OrderReader {
 
 }  // namespace
 
-Result<jobs::Layout> read_order_input(const OrderSource& order, const std::vector<NamedPath>& outputs) {
+Result<std::vector<jobs::MaterialLayout>> read_order_input(const OrderSource& order,
+                                                           const std::vector<NamedPath>& outputs) {
   return OrderReader(order, outputs).read();
+}
+
+Result<void> several_need_files(const std::vector<jobs::MaterialLayout>& layouts, const std::string& output) {
+  if (layouts.size() == 1 || !output.empty()) return {};
+  std::string materials;
+  for (const jobs::MaterialLayout& one : layouts)
+    materials += (materials.empty() ? "" : "; ") + jobs::words_of(one.material);
+  return failure(
+      ErrorCode::usage,
+      fmt::format("the order is of {} materials ({}), and each gets a layout of its own; say --output "
+                  "FILE, as in out.json for out-{}.json and the like",
+                  layouts.size(), materials, layouts.front().file_word));
 }
 
 }  // namespace lekalo::cli

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lekalo/io/text/excerpt.hpp"
+#include "lekalo/jobs/bill.hpp"
 #include "lekalo/jobs/order_words.hpp"
 #include "multipart.hpp"
 
@@ -67,6 +68,8 @@ class OrderForm {
       words_.border = value;
     } else if (field.name == "kerf") {
       words_.kerf = value;
+    } else if (field.name == "build") {
+      words_.builds.push_back(value);
     } else if (field.name == "rotations") {
       words_.rotations = value;
     } else if (field.name == "grain") {
@@ -88,6 +91,9 @@ class OrderForm {
       if (!read) return fault(read.error().message);
       table = *std::move(read);
     }
+    auto rows = jobs::ordered_rows(std::move(table), "the table", terms.builds, "");
+    if (!rows) return fault(rows.error().message);
+    table = *std::move(rows);
     notices = std::move(table.notices);
     for (const io::OrderRow& row : table.rows)
       if (auto file = file_named(row.file))
@@ -98,6 +104,7 @@ class OrderForm {
     jobs::OrderedStock stock;
     stock.size = word.size;
     stock.count = word.count;
+    stock.material = word.material;
     if (!stock.size) {
       if (!files_.contains(word.said))
         return fault(fmt::format("sheet: {} is neither a size such as 3000x1500 nor a file that came along",

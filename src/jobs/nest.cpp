@@ -165,6 +165,14 @@ Result<Nested> nest(const Document& document, const NestOptions& options, const 
   return nest_checked(nest::nest, document, options, control);
 }
 
+void write_unplaced(io::JsonWriter& json, const Nested& nested) {
+  json.key("unplaced").list(nested.unplaced, [&](const nest::Unplaced& u) {
+    json.object({{"part", nested.document.parts[u.part].id},
+                 {"count", u.count},
+                 {"reason", nest::name_of(u.reason)}});
+  });
+}
+
 std::string nest_json(const Layout& given, const NestOptions& options, const Nested& nested,
                       const std::string& written_as, double cpu_seconds) {
   io::JsonWriter json = begin_layout_json("lekalo-nest", nested.unplaced.empty() ? "complete" : "incomplete",
@@ -178,11 +186,7 @@ std::string nest_json(const Layout& given, const NestOptions& options, const Nes
   if (sheets.size() == 1) json.field("length", sheets[0].used_length_mm);
   json.key("stocks").list(sheets, [&](const layout::SheetUse& use) { write(json, use, nested.document); });
   write_kits(json.key("kits"), nested);
-  json.key("unplaced").list(nested.unplaced, [&](const nest::Unplaced& u) {
-    json.object({{"part", nested.document.parts[u.part].id},
-                 {"count", u.count},
-                 {"reason", nest::name_of(u.reason)}});
-  });
+  write_unplaced(json, nested);
   json.key("run").object({{"cpu_seconds", cpu_seconds}, {"threads", options.threads}});
   return end_document(json);
 }

@@ -5,12 +5,56 @@
 #include <utility>
 
 #include "lekalo/base/limits.hpp"
+#include "lekalo/io/formats/drawing_formats.hpp"
+#include "lekalo/io/text/excerpt.hpp"
+#include "lekalo/io/text/format.hpp"
 #include "lekalo/io/text/length_word.hpp"
 
 namespace lekalo::jobs {
 namespace {
 
 bool fine_side(double mm) { return limits::kShortestSide <= mm && mm <= limits::kLargestOutline; }
+
+/// Takes "=5" off the end of a word. Fails where the number is out of range.
+Result<std::optional<std::int64_t>> take_count(std::string& word) {
+  const std::size_t equals = word.find_last_of('=');
+  const bool digits = equals != std::string::npos && equals + 1 < word.size() &&
+                      word.find_first_not_of("0123456789", equals + 1) == std::string::npos;
+  if (!digits) return std::optional<std::int64_t>();
+  const auto count = io::quantity_of(word.substr(equals + 1));
+  if (!count) return failure(ErrorCode::usage, "does not end in a number from 1 to 1,000,000,000");
+  word.resize(equals);
+  return count;
+}
+
+bool ends_like_a_file(const std::string& word) {
+  return io::drawing_format_by_ending(word) != nullptr || io::kJsonFormat.is_named_so(word) ||
+         io::kPointsFormat.is_named_so(word);
+}
+
+/// Takes "@steel:2" off the end of a word.
+Result<layout::Material> take_material(std::string& word) {
+  layout::Material material;
+  const std::size_t at = word.find_last_of('@');
+  if (at == std::string::npos || ends_like_a_file(word)) return material;
+  const std::string said = word.substr(at + 1);
+  const std::size_t colon = said.find_last_of(':');
+  const auto name = io::kept_text(said.substr(0, colon));
+  if (!name)
+    return failure(ErrorCode::usage, "names a material of more than 1,000 bytes or with control characters");
+  material.name = *name;
+  if (colon != std::string::npos) {
+    const auto thickness = io::thickness_of(said.substr(colon + 1));
+    if (!thickness)
+      return failure(
+          ErrorCode::usage,
+          fmt::format("has the thickness {}, which is no length from 0.001 to 262144 mm, as 2 or 1/16in",
+                      io::excerpt(said.substr(colon + 1))));
+    material.thickness = *thickness;
+  }
+  word.resize(at);
+  return material;
+}
 
 class TermsReader {
  public:
@@ -19,6 +63,7 @@ class TermsReader {
   Result<OrderTerms> read() {
     for (const std::string& word : words_.sheets) add_sheet(word);
     for (const std::string& word : words_.strips) add_strip(word);
+    for (const std::string& word : words_.builds) add_build(word);
     constexpr const char* kLength = "a length from 0 to 262144 mm, as 4, 1/8in or 3 mm";
     length("gap", words_.gap, 0, kLength, terms_.gap_mm);
     length("border", words_.border, 0, kLength, terms_.border_mm);
@@ -53,9 +98,9 @@ class TermsReader {
   }
 
   void add_sheet(const std::string& word) {
-    const auto counted = counted_word(word);
-    if (!counted) return complain("sheet", word, "does not end in a number from 1 to 1,000,000,000");
-    StockWord stock{counted->word, io::size_of(counted->word), counted->count};
+    const auto read = ordered_word(word);
+    if (!read) return complain("sheet", word, read.error().message);
+    StockWord stock{read->word, io::size_of(read->word), read->count, read->material};
     if (stock.size && !(fine_side(stock.size->width_mm) && fine_side(stock.size->height_mm)))
       complain("sheet", word,
                fmt::format("has a side that is not from {} to {} mm", limits::kShortestSide,
@@ -64,10 +109,21 @@ class TermsReader {
   }
 
   void add_strip(const std::string& word) {
-    StockWord stock{word, SheetSize{}, std::nullopt};
-    length("strip", word, limits::kShortestSide, "the width of a strip from 0.001 to 262144 mm",
+    const auto read = ordered_word(word);
+    if (!read) return complain("strip", word, read.error().message);
+    if (read->count) return complain("strip", word, "has a number of pieces; there is one of a strip");
+    StockWord stock{read->word, SheetSize{}, std::nullopt, read->material};
+    length("strip", read->word, limits::kShortestSide, "the width of a strip from 0.001 to 262144 mm",
            stock.size->height_mm);
     terms_.stocks.push_back(std::move(stock));
+  }
+
+  void add_build(const std::string& word) {
+    Build build{word, 1};
+    const auto count = take_count(build.assembly);
+    if (!count) return complain("build", word, count.error().message);
+    build.count = count->value_or(1);
+    terms_.builds.push_back(std::move(build));
   }
 
   const OrderWords& words_;
@@ -82,14 +138,13 @@ Result<OrderTerms> read_order_words(const OrderWords& words, std::string_view pr
   return TermsReader(words, prefix).read();
 }
 
-std::optional<CountedWord> counted_word(const std::string& word) {
-  const std::size_t equals = word.find_last_of('=');
-  const bool digits = equals != std::string::npos && equals + 1 < word.size() &&
-                      word.find_first_not_of("0123456789", equals + 1) == std::string::npos;
-  if (!digits) return CountedWord{word, std::nullopt};
-  const auto count = io::quantity_of(word.substr(equals + 1));
-  if (!count) return std::nullopt;
-  return CountedWord{word.substr(0, equals), count};
+Result<OrderedWord> ordered_word(const std::string& word) {
+  OrderedWord read{word, std::nullopt, {}};
+  LEKALO_TRY(read.count, take_count(read.word));
+  LEKALO_TRY(read.material, take_material(read.word));
+  if (read.count) return read;
+  LEKALO_TRY(read.count, take_count(read.word));
+  return read;
 }
 
 OrderedPart ordered_part(const io::OrderRow& row, File file, const OrderTerms& terms) {
@@ -102,6 +157,9 @@ OrderedPart ordered_part(const io::OrderRow& row, File file, const OrderTerms& t
   part.grain = row.grain;
   if (!part.grain && terms.grain_degrees) part.grain = layout::Grain{*terms.grain_degrees, 0};
   part.priority = row.priority;
+  part.material = row.material;
+  part.purpose = row.purpose;
+  part.said_in = row.said_in;
   return part;
 }
 

@@ -47,6 +47,7 @@ class ClaimJudge {
       case Kind::simulate_report:
         return reported(verify::verify_cut_report);
       case Kind::nest_report:
+      case Kind::order_report:
       case Kind::check_report:
       case Kind::show_report:
         return reported(verify::verify_layout_report);

@@ -1,6 +1,7 @@
 #include "lekalo/layout/document.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace lekalo::layout {
@@ -13,6 +14,22 @@ bool within(geom::GridRotation rotation, double from_degrees, double to_degrees)
 }
 
 }  // namespace
+
+bool is_day(std::string_view text) {
+  constexpr std::string_view kForm = "0000-00-00";
+  if (text.size() != kForm.size()) return false;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (kForm[i] == '-' ? text[i] != '-' : text[i] < '0' || text[i] > '9') return false;
+  const auto number = [&](std::size_t first, std::size_t count) {
+    unsigned value = 0;
+    for (const char digit : text.substr(first, count))
+      value = 10 * value + static_cast<unsigned>(digit - '0');
+    return value;
+  };
+  return std::chrono::year_month_day(std::chrono::year(static_cast<int>(number(0, 4))),
+                                     std::chrono::month(number(5, 2)), std::chrono::day(number(8, 2)))
+      .ok();
+}
 
 geom::GridRegion placed_outline(const Part& part, const Placement& placement) {
   return geom::moved(geom::turned(part.outline.polygon, placement.rotation, placement.mirrored),

@@ -132,6 +132,13 @@ std::int64_t pieces_wanted(const Document& document, const std::vector<Part>& mo
 }
 
 template <class Item>
+Material common_material(const std::vector<Item>& items) {
+  for (const Item& one : items)
+    if (!(one.material == items.front().material)) return {};
+  return items.empty() ? Material{} : items.front().material;
+}
+
+template <class Item>
 std::vector<ItemChange<Item>> coming(const std::vector<Item>& there, std::vector<Item> items) {
   FreeIds ids;
   for (const Item& one : there) ids.keep(one.id);
@@ -213,11 +220,16 @@ JobChange added(const Document& document, Additions additions) {
   const std::int64_t enough = pieces_wanted(document, additions.parts);
   const auto part_grain = common(document.parts, &Part::grain);
   const auto stock_grain = common(document.stocks, &Stock::grain_degrees);
-  for (Part& part : additions.parts)
+  const Material part_material = common_material(document.parts),
+                 stock_material = common_material(document.stocks);
+  for (Part& part : additions.parts) {
     if (!part.grain) part.grain = part_grain;
+    if (!part.material.is_said()) part.material = part_material;
+  }
   for (Stock& stock : additions.stocks) {
     if (stock.count == 0) stock.count = enough;
     if (!stock.grain_degrees) stock.grain_degrees = stock_grain;
+    if (!stock.material.is_said()) stock.material = stock_material;
   }
   return {coming(document.parts, std::move(additions.parts)),
           coming(document.stocks, std::move(additions.stocks)), std::nullopt};

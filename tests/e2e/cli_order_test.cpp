@@ -1,6 +1,9 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "e2e/cli_run.hpp"
 
@@ -182,6 +185,253 @@ TEST(CliOrder, GrainHoldsPartsAlongTheStock) {
   EXPECT_EQ(layout["parts"][0]["grain"]["deg"], 90);
   EXPECT_EQ(layout["stocks"][0]["grain_deg"], 90);
   EXPECT_EQ(layout["parts"][0]["mirror"], true);
+}
+
+/// An order of steel in two thicknesses and of birch.
+struct Works : Shop {
+  Works() {
+    write_bytes(*this / "order.csv",
+                "file;quantity;material;thickness;customer;due;label\n"
+                "side.svg;4;steel;2;Orlova;2026-12-01;order 7\n"
+                "lids/a.svg;3;birch plywood;9;;;\n"
+                "lids/b.svg;5;steel;1/16in;;;\n"
+                "lids/a.svg;2;steel;2mm;Petrov;;\n");
+  }
+  /// What is in the folder, but for the drawings and the order.
+  [[nodiscard]] std::vector<std::string> written() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(path()))
+      if (const std::string name = entry.path().filename(); name.rfind("out", 0) == 0) names.push_back(name);
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+};
+const Words kSheets{"--sheet", "200x100@steel:2",   "--sheet", "90x60=3@birch plywood:9",
+                    "--sheet", "50x50@steel:1/16in"};
+const Words kNestWorks = Words{"nest", "--order", "order.csv", "--work", "1000", "-o", "out.json"};
+
+TEST(CliOrder, EachMaterialBecomesALayoutWithItsPicture) {
+  const Works shop;
+  const Ran ran = shop(kNestWorks + kSheets + Words{"--picture", "out.svg"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(ran.out, "");
+  EXPECT_EQ(shop.written(), (std::vector<std::string>{"out-birch-plywood-9.json", "out-birch-plywood-9.svg",
+                                                      "out-steel-1.5875.json", "out-steel-1.5875.svg",
+                                                      "out-steel-2.json", "out-steel-2.svg"}));
+  for (const char* line :
+       {"steel, 2 mm: 6 placed, 0 missing, 1 sheet, density 36.000 %", "Written: out-steel-2.json",
+        "birch plywood, 9 mm: 3 placed, 0 missing, 1 sheet", "in all: 14 placed, 0 missing, 3 sheets"})
+    EXPECT_NE(ran.err.find(line), std::string::npos) << line << "\n" << ran.err;
+  const Json steel = Json::parse(read_bytes(shop / "out-steel-2.json"));
+  ASSERT_EQ(steel["parts"].size(), 2u);
+  const Json& side = steel["parts"][0];
+  EXPECT_EQ(side["material"], "steel");
+  EXPECT_EQ(side["thickness"], 2);
+  EXPECT_EQ(side["customer"], "Orlova");
+  EXPECT_EQ(side["due"], "2026-12-01");
+  EXPECT_EQ(side["label"], "order 7");
+  EXPECT_EQ(steel["stocks"][0]["material"], "steel");
+  EXPECT_EQ(steel["stocks"][0]["thickness"], 2);
+  EXPECT_FALSE(steel["parts"][1].contains("due"));
+  for (const char* name : {"out-steel-2.json", "out-birch-plywood-9.json", "out-steel-1.5875.json"})
+    EXPECT_EQ(shop({"verify", name}).status, 0) << name;
+
+  // What is said of a part outlives a correction by hand.
+  write_bytes(shop / "words.txt", "lekalo-commands/1\nlock 1\n");
+  ASSERT_EQ(shop({"edit", "out-steel-2.json", "--commands", "words.txt", "-o", "edited.json"}).status, 0);
+  EXPECT_EQ(Json::parse(read_bytes(shop / "edited.json"))["parts"][0], side);
+}
+
+TEST(CliOrder, TheReportOfSeveralMaterialsIsVerified) {
+  const Works shop;
+  const Ran ran = shop(kNestWorks + kSheets + Words{"--json"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const Json report = ran.json();
+  EXPECT_EQ(report["format"]["name"], "lekalo-order");
+  EXPECT_EQ(report["status"], "complete");
+  ASSERT_EQ(report["layouts"].size(), 3u);
+  EXPECT_EQ(report["layouts"][1]["material"], "birch plywood");
+  EXPECT_EQ(report["layouts"][1]["thickness"], 9);
+  EXPECT_EQ(report["layouts"][1]["placed"], 3);
+  EXPECT_EQ(report["placed"], 14);
+  EXPECT_EQ(report["missing"], 0);
+  EXPECT_EQ(report["sheets"], 3);
+  const double parts = 4 * 1600 + 2 * 400 + 3 * 400 + 5 * 100, sheets = 20000 + 5400 + 2500;
+  EXPECT_NEAR(report["density"].get<double>(), parts / sheets, 1e-9);
+  EXPECT_EQ(report["outputs"].size(), 3u);
+  EXPECT_EQ(report["inputs"].size(), 4u);
+  write_bytes(shop / "r.json", ran.out);
+  const Ran verified = shop({"verify", "r.json"});
+  EXPECT_EQ(verified.status, 1) << verified.err;
+  EXPECT_NE(verified.err.find("every rule and figure was rechecked for 14 placements in 3 layouts"),
+            std::string::npos)
+      << verified.err;
+  Json lie = report;
+  lie["layouts"][0]["thickness"] = 3;
+  write_bytes(shop / "r.json", lie.dump());
+  EXPECT_EQ(shop({"verify", "r.json"}).status, 4);
+}
+
+TEST(CliOrder, PiecesThatFindNoRoomAreCountedInTheirLayoutAndInAll) {
+  const Works shop;
+  const Ran ran = shop(kNestWorks + Words{"--json", "--sheet", "90x50=1@steel:2", "--sheet",
+                                          "90x60@birch plywood:9", "--sheet", "50x50@steel:1/16in"});
+  ASSERT_EQ(ran.status, 1) << ran.err;
+  const Json report = ran.json();
+  EXPECT_EQ(report["status"], "incomplete");
+  EXPECT_EQ(report["missing"], report["layouts"][0]["missing"]);
+  EXPECT_EQ(report["layouts"][1]["missing"], 0);
+  EXPECT_GT(report["missing"].get<int>(), 0);
+  EXPECT_EQ(shop.written().size(), 3u);
+  write_bytes(shop / "r.json", ran.out);
+  EXPECT_EQ(shop({"verify", "r.json"}).status, 1);
+}
+
+TEST(CliOrder, NewWritesALayoutForEachMaterialAndNestGivesTheSameBytes) {
+  const Works shop;
+  const Ran made = shop(Words{"new", "--order", "order.csv", "-o", "job.json"} + kSheets);
+  ASSERT_EQ(made.status, 0) << made.err;
+  ASSERT_EQ(shop(kNestWorks + kSheets).status, 0);
+  for (const char* word : {"steel-2", "steel-1.5875", "birch-plywood-9"})
+    EXPECT_EQ(shop({"nest", std::string("job-") + word + ".json", "--work", "1000"}).out,
+              read_bytes(shop / (std::string("out-") + word + ".json")));
+}
+
+TEST(CliOrder, OneMaterialIsOneFileAsBefore) {
+  const Shop shop;
+  const Words nest = Words{"nest", "--part", "side.svg=4", "--work", "1000"} + kSheet;
+  const Ran plain = shop(nest);
+  write_bytes(shop / "order.csv", "file,quantity,material,thickness\nside.svg,4,steel,2\n");
+  const Ran ran = shop(Words{"nest", "--order", "order.csv", "--work", "1000", "-o", "out.json"} + kSheet);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  Json layout = Json::parse(read_bytes(shop / "out.json"));
+  for (const char* list : {"parts", "stocks"}) {
+    EXPECT_EQ(layout[list][0]["material"], "steel");
+    layout[list][0].erase("material");
+    layout[list][0].erase("thickness");
+  }
+  EXPECT_EQ(layout, plain.json());
+}
+
+TEST(CliOrder, OfSeveralLayoutsAllAreWrittenOrNone) {
+  const Works shop;
+  fs::create_directory(shop / "out-steel-1.5875.json");
+  const Ran folder = shop(kNestWorks + kSheets);
+  EXPECT_EQ(folder.status, 5);
+  EXPECT_NE(folder.err.find("--output: out-steel-1.5875.json is a folder"), std::string::npos) << folder.err;
+  EXPECT_EQ(shop.written(), std::vector<std::string>{"out-steel-1.5875.json"});
+}
+
+TEST(CliOrder, WhatIsWrongWithMaterialsIsOneSentence) {
+  const Works shop;
+  write_bytes(shop / "unsaid.csv", "file,material\nside.svg,steel\nlids/a.svg,\n");
+  write_bytes(shop / "thick.csv", "file,thickness\nside.svg,thick\n");
+  write_bytes(shop / "day.csv", "file,due\nside.svg,2026-02-30\n");
+  const Words order{"nest", "--order", "order.csv", "-o", "out.json"};
+  struct Case {
+    Words words;
+    int status;
+    const char* told;
+  };
+  for (const Case& one : {
+           Case{order + Words{"--sheet", "90x90@steel:2", "--sheet", "90x90@birch plywood:9"}, 3,
+                "order.csv: line 4: there is no sheet of steel, 1.5875 mm; say it behind a sheet, as in "
+                "3000x1500@steel:1.5875 (there are sheets of: steel, 2 mm; birch plywood, 9 mm)"},
+           {order + Words{"--sheet", "90x90"}, 3, "order.csv: line 2: there is no sheet of steel, 2 mm"},
+           {order + Words{"--sheet", "90x90@"}, 3, "there are sheets of: no material"},
+           {Words{"nest", "--order", "unsaid.csv", "-o", "out.json", "--sheet", "90x90@steel", "--sheet",
+                  "9x9@felt"},
+            3, "unsaid.csv: line 3: there is no sheet of no material; say what it is of"},
+           {Words{"nest", "--order", "order.csv"} + kSheets, 2,
+            "the order is of 3 materials (steel, 2 mm; birch plywood, 9 mm; steel, 1.5875 mm), and each gets "
+            "a layout "
+            "of its own; say --output FILE"},
+           {Words{"new", "--order", "order.csv"} + kSheets, 2,
+            "say --output FILE, as in out.json for out-steel-2.json"},
+           {order + Words{"--sheet", "90x90@steel:thick"}, 2,
+            "--sheet: \"90x90@steel:thick\" has the thickness 'thick', which is no length"},
+           {order + Words{"--sheet", "90x90=0@steel:2"}, 2,
+            "does not end in a number from 1 to 1,000,000,000"},
+           {order + Words{"--strip", "90=3@steel:2"}, 2, "has a number of pieces; there is one of a strip"},
+           {order + Words{"--strip", "90@steel:"}, 2, "--strip: \"90@steel:\" has the thickness ''"},
+           {order + Words{"--part", "side.svg@:0", "--sheet", "90x90"}, 2,
+            "--part: \"side.svg@:0\" has the thickness"},
+           {Words{"nest", "--order", "thick.csv", "-o", "out.json", "--sheet", "90x90"}, 3,
+            "thick.csv: line 2: the thickness 'thick' is not a length"},
+           {Words{"nest", "--order", "day.csv", "-o", "out.json", "--sheet", "90x90"}, 3,
+            "day.csv: line 2: the due '2026-02-30' is not a day, as 2026-12-01"},
+       }) {
+    const Ran ran = shop(one.words);
+    EXPECT_EQ(ran.status, one.status) << ran.err;
+    EXPECT_NE(ran.err.find(one.told), std::string::npos) << one.told << "\n" << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+    EXPECT_TRUE(shop.written().empty()) << one.told;
+  }
+}
+
+/// Two of a pair have 4 bookcases, 4 frames, so 4 * 2 + 2 * 1 = 10 sides and 4 * 3 = 12 of b.
+const char* const kBill =
+    "assembly,file,quantity\npair,bookcase,2\npair,side.svg,1\nbookcase,frame,1\nbookcase,lids/b.svg,3\n"
+    "frame,side.svg,2\n";
+
+TEST(CliOrder, ABillOfMaterialsIsMultipliedOut) {
+  const Shop shop;
+  write_bytes(shop / "bill.csv", kBill);
+  const Ran built = shop({"new", "--order", "bill.csv", "--build", "pair=2", "--sheet", "200x100"});
+  ASSERT_EQ(built.status, 0) << built.err;
+  const Ran flat = shop({"new", "--part", "side.svg=10", "--part", "lids/b.svg=12", "--sheet", "200x100"});
+  ASSERT_EQ(flat.status, 0) << flat.err;
+  EXPECT_EQ(built.out, flat.out);
+  const Ran nested = shop({"nest", "--order", "bill.csv", "--build", "frame", "--build", "bookcase=1",
+                           "--sheet", "200x100", "--work", "1"});
+  ASSERT_EQ(nested.status, 0) << nested.err;
+  EXPECT_EQ(nested.json()["placements"].size(), 4u + 3u);
+}
+
+TEST(CliOrder, WhatIsWrongWithABillIsOneSentence) {
+  const Shop shop;
+  write_bytes(shop / "bill.csv", kBill);
+  write_bytes(shop / "order.csv", "file,quantity\nside.svg,1\n");
+  write_bytes(shop / "circle.csv", "assembly,file\ndesk,drawer\ndrawer,desk\n");
+  write_bytes(shop / "gone.csv", "assembly,file\ndesk,drawer\n");
+  write_bytes(shop / "many.csv", "assembly,file,quantity\ndesk,drawer,1000000\ndrawer,side.svg,1001\n");
+  write_bytes(shop / "unsaid.csv", "assembly,file\n,side.svg\n");
+  const Words sheet{"--sheet", "200x100", "-o", "out.json"};
+  struct Case {
+    Words words;
+    int status;
+    const char* told;
+  };
+  for (const Case& one : {
+           Case{{"--order", "bill.csv"},
+                2,
+                "say how many are built, as in --build cabinet=2; in no other assembly: 'pair'"},
+           {{"--order", "bill.csv", "--build", "desk"},
+            2,
+            "--build: 'desk' is no assembly of bill.csv, which has 'pair', "},
+           {{"--order", "bill.csv", "--build", "pair=0"},
+            2,
+            "--build: \"pair=0\" does not end in a number from 1"},
+           {{"--order", "order.csv", "--build", "pair"}, 2, "--build: order.csv is no bill of materials"},
+           {{"--part", "side.svg", "--build", "pair"},
+            2,
+            "--build says what is built of a bill of materials, which --order"},
+           {{"--order", "circle.csv", "--build", "desk"},
+            3,
+            "circle.csv: line 2: 'drawer' is a part of itself ('drawer' in"},
+           {{"--order", "gone.csv", "--build", "desk"}, 3, "gone.csv: line 2: drawer: "},
+           {{"--order", "gone.csv", "--build", "desk"}, 3, "; and no line has it as its assembly"},
+           {{"--order", "many.csv", "--build", "desk"},
+            3,
+            "many.csv: line 3: 1000000 of 'drawer', with 1001 of 'side.svg'"},
+           {{"--order", "unsaid.csv", "--build", "desk"}, 3, "unsaid.csv: line 2: the assembly is missing"},
+       }) {
+    const Ran ran = shop(Words{"nest"} + one.words + sheet);
+    EXPECT_EQ(ran.status, one.status) << ran.err;
+    EXPECT_NE(ran.err.find(one.told), std::string::npos) << one.told << "\n" << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+    EXPECT_FALSE(fs::exists(shop / "out.json"));
+  }
 }
 
 }  // namespace

@@ -166,6 +166,41 @@ TEST(Serve, MakesOneLayoutOfAnOrderOfManyDrawingsAsTheCommandDoes) {
   EXPECT_EQ(read_bytes(folder / "o.json"), written);
 }
 
+TEST(Serve, ABillIsMultipliedOutAndWhatIsAddedIsOfTheLayoutsMaterial) {
+  const TemporaryFolder folder;
+  const ServerProcess server(folder.path());
+  const auto post = [&](const std::string& table, const std::string& build) {
+    return ask(server, http::verb::post, "/api/layouts?name=job&order=1",
+               form_of({{"table", "", table},
+                        {"build", "", build},
+                        {"sheet", "", "300x200=3@steel:2"},
+                        {"file", "tray.svg", kTray}}));
+  };
+  const std::string bill = "assembly,file,quantity,due\ndesk,drawer,3,\ndrawer,tray.svg,2,2026-12-01\n";
+  const Answer made = post(bill, "desk=2");
+  ASSERT_EQ(made.status, 201u) << made.body;
+  Json part = Json::parse(ask(server, http::verb::get, "/api/layouts/1/export?form=layout").body)["parts"][0];
+  EXPECT_EQ(part["demand"], 12);
+  EXPECT_EQ(part["material"], "steel");
+  EXPECT_EQ(part["due"], "2026-12-01");
+  ASSERT_EQ(ask(server, http::verb::post, "/api/layouts/1/order",
+                form_of({{"sheet", "", "50x50"}, {"file", "lid.svg", kTray}}))
+                .status,
+            200u);
+  const Json document = Json::parse(ask(server, http::verb::get, "/api/layouts/1/export?form=layout").body);
+  EXPECT_EQ(document["parts"][1]["material"], "steel");
+  EXPECT_EQ(document["stocks"][1]["thickness"], 2);
+
+  EXPECT_NE(post(bill, "chair").body.find("build: 'chair' is no assembly of the table"), std::string::npos);
+  const Answer several = ask(server, http::verb::post, "/api/layouts?name=job&order=1",
+                             form_of({{"table", "", "file,material\ntray.svg,steel\ntray.svg,birch\n"},
+                                      {"sheet", "", "300x200@steel"},
+                                      {"sheet", "", "300x200@birch"},
+                                      {"file", "tray.svg", kTray}}));
+  EXPECT_EQ(several.status, 400u);
+  EXPECT_NE(several.body.find("the order is of 2 materials"), std::string::npos) << several.body;
+}
+
 TEST(Serve, PartsAndSheetsOfAnOpenLayoutChangeForEveryone) {
   const TemporaryFolder folder;
   auto server = std::make_unique<ServerProcess>(folder.path());

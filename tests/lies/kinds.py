@@ -26,6 +26,10 @@ TREE = {"units": "mm", "shape": {"difference": [
 POCKET = {"units": "mm", "outer": [
     {"line": {"from": [0, 0], "to": [40, 0]}}, {"line": {"from": [40, 0], "to": [40, 24]}},
     {"line": {"from": [40, 24], "to": [0, 24]}}, {"line": {"from": [0, 24], "to": [0, 0]}}]}
+SQUARE = '<svg xmlns="http://www.w3.org/2000/svg" width="30mm" height="30mm" viewBox="0 0 30 30">' \
+         '<rect width="30" height="30"/></svg>'
+ORDER = "file,quantity,material,thickness,customer,due,label\na.svg,1,steel,2,Orlova,2026-12-01,7\n" \
+        "b.svg,2,birch,9,,,\nb.svg,1,steel,2,,2026-12-02,\n"
 SHEET = "steel 2 mm#1"
 PROGRAM = "G21 G90 G17 G54 F90\nT1 M6\nG0 X0. Y0.\nG43 H1 Z80.\nG1 Z40.\nG2 X10. Y0. I5. Z38.\nG91 G1 X2. Z-1.5\nG90\n" \
           "G98 G81 X1. Y2. Z-3. R42.\nX5.\nG80\nG0 Z80.\nM30\n"
@@ -302,6 +306,14 @@ def of_layouts():
     against = ["--layout", "nested.json"]
     yield Kind("layout", frames, [nest], "nested.json", ["verify", "nested.json", "--layout", "frames.json"],
                layouts.kept, step=step)
+    order = ["--order", "o.csv", "--sheet", "60x50@steel:2", "--sheet", "40x40=2@birch:9"]
+    made = {"o.csv": ORDER, "a.svg": SQUARE, "b.svg": SQUARE.replace("30", "20")}
+    steel = ["nest", "job-steel-2.json", "--work", "1000", "-o", "nested.json"]
+    yield Kind("layout, of an order", [], [["new", "-o", "job.json"] + order, steel], "nested.json",
+               ["verify", "nested.json", "--layout", "job-steel-2.json"], layouts.kept, step=step, written=made)
+    yield Kind("report of an order", [], [["nest", "-o", "out.json", "--work", "1000", "--json", ">r.json"] + order],
+               "r.json", ["verify", "r.json"], lambda context: lambda change: None, base=1, written=made,
+               inputs=["a.svg", "b.svg", "out-steel-2.json", "out-birch-9.json"])
     yield Kind("report of nest", frames, [nest], "report.json", ["verify", "report.json"], truth.nest_report,
                inputs=["frames.json", "nested.json"])
     yield Kind("report of check", frames, [nest, ["check", "nested.json", "--json", ">c.json"]], "c.json",

@@ -174,6 +174,14 @@ inline layout::Document random_document(std::uint64_t seed, std::uint64_t index)
     d.placements.push_back(p);
   }
   if (half()) d.rules.kerf = gap();
+  const auto material = [&] {
+    return layout::Material{random_text(random), half() ? 0 : 2'000 + some(100'000'000)};
+  };
+  for (layout::Stock& s : d.stocks) s.material = material();
+  for (layout::Part& p : d.parts) {
+    p.material = material();
+    if (half()) p.purpose = {random_text(random), "2028-02-29", random_text(random)};
+  }
   return d;
 }
 

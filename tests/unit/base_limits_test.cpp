@@ -73,7 +73,7 @@ TEST(Limits, JsonNumbersBeyondThemAreNamedWithTheirPlace) {
 const std::string kLayout = R"({"format": "lekalo-layout/1", "units": "mm",
  "rules": {"gap": 0, "border_gap": 0, "defect_gap": 0},
  "stocks": [{"id": "r", "kind": "strip", "height": 50, "length": 90},
-            {"id": "s", "kind": "sheet", "count": 1, "cost": 1, "grain_deg": 0,
+            {"id": "s", "thickness": 1, "kind": "sheet", "count": 1, "cost": 1, "grain_deg": 0,
              "outline": {"polygon": {"outer": [[0, 0], [90, 0], [90, 90], [0, 90]]}},
              "defects": [{"id": "d", "severity": 1,
                           "outline": {"polygon": {"outer": [[0, 0], [9, 0], [9, 9], [0, 9]]}}}],
@@ -112,6 +112,8 @@ std::vector<Limit> limits_of_layouts() {
       least("/rules/border_gap", "rules.border_gap", 0),
       most("/stocks/0/height", "stocks[0].height", kLargestOutline),
       least("/stocks/0/length", "stocks[0].length", kShortestSide),
+      most("/stocks/1/thickness", "stocks[1].thickness", kLargestOutline),
+      least("/stocks/1/thickness", "stocks[1].thickness", kShortestSide),
       most_whole("/stocks/1/count", "stocks[1].count", kMostCount),
       least_whole("/stocks/1/count", "stocks[1].count", 1),
       most("/stocks/1/cost", "stocks[1].cost", kMostMoney),
@@ -190,6 +192,7 @@ TEST(Limits, TheSchemaStatesThem) {
   states("degrees", -kMostDegrees, kMostDegrees);
   states("level", 0, level);
   states("money", 0, kMostMoney);
+  states("thickness", kShortestSide, kLargestOutline);
   states("point/items", -kLargestOutline, kLargestOutline);
   states("outline/properties/chord_tolerance", kLeastChordTolerance, kMostChordTolerance);
   states("stock/properties/count", 1, count);

@@ -1,5 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lekalo/geom/grid.hpp"
 #include "lekalo/io/formats/order_table.hpp"
 
 namespace lekalo::io::io_order_table_test {
@@ -13,7 +18,7 @@ TEST(OrderTable, ColumnsAreFoundByNameInAnyOrderAndCase) {
   EXPECT_EQ(table->rows[0].quantity, 3);
   EXPECT_EQ(table->rows[0].name, "left");
   EXPECT_EQ(table->rows[1].quantity, 1);
-  EXPECT_EQ(table->rows[1].line, 3u);
+  EXPECT_EQ(table->rows[1].said_in, "o.csv: line 3");
   EXPECT_FALSE(table->rows[1].rotations || table->rows[1].may_mirror || table->rows[1].grain);
 }
 
@@ -36,19 +41,35 @@ TEST(OrderTable, EverySeparatorGivesTheSameRows) {
   }
 }
 
+TEST(OrderTable, MaterialAndPurposeAreReadAsTheyStand) {
+  const auto table = read_order(
+      "file;material;thickness;due;customer;label\n"
+      "a.dxf;birch plywood;1/4in;2028-02-29;\xD0\x9E\xD1\x80\xD0\xBB\xD0\xBE\xD0\xB2\xD0\xB0;order "
+      "7\nb.dxf;;;;;\n",
+      "o.csv");
+  ASSERT_TRUE(table) << table.error().message;
+  EXPECT_TRUE(table->notices.empty());
+  const OrderRow &row = table->rows.at(0), &other = table->rows.at(1);
+  EXPECT_EQ(row.material, (layout::Material{"birch plywood", geom::grid_from_mm(6.35)}));
+  EXPECT_EQ(row.purpose,
+            (layout::Purpose{"\xD0\x9E\xD1\x80\xD0\xBB\xD0\xBE\xD0\xB2\xD0\xB0", "2028-02-29", "order 7"}));
+  EXPECT_FALSE(other.material.is_said());
+  EXPECT_EQ(other.purpose, layout::Purpose{});
+}
+
 TEST(OrderTable, QuotesHoldQuotesAndLineEnds) {
   const auto table = read_order("file,name\n\"a \"\"b\"\".dxf\",\"two\nlines\"\nc.dxf,d\n", "o.csv");
   ASSERT_TRUE(table) << table.error().message;
   EXPECT_EQ(table->rows.at(0).file, "a \"b\".dxf");
   EXPECT_EQ(table->rows.at(0).name, "two\nlines");
-  EXPECT_EQ(table->rows.at(1).line, 4u);
+  EXPECT_EQ(table->rows.at(1).said_in, "o.csv: line 4");
 }
 
 TEST(OrderTable, LinesThatEndInACarriageReturnAloneAreCounted) {
   const auto table = read_order("file,quantity\ra.dxf,1\r\rb.dxf,2\r", "o.csv");
   ASSERT_TRUE(table) << table.error().message;
-  EXPECT_EQ(table->rows.at(0).line, 2u);
-  EXPECT_EQ(table->rows.at(1).line, 4u);
+  EXPECT_EQ(table->rows.at(0).said_in, "o.csv: line 2");
+  EXPECT_EQ(table->rows.at(1).said_in, "o.csv: line 4");
 }
 
 TEST(OrderTable, ColumnsThatNobodyKnowsAreTold) {
@@ -74,6 +95,23 @@ TEST(OrderTable, EverythingThatIsWrongIsToldAtOnceWithItsLine) {
   for (const char* part : {"line 2: the quantity '0'", "line 3: the mirror 'perhaps'",
                            "line 3: the file is missing", "line 4: 4 cells where 3 columns have names"})
     EXPECT_NE(told.find(part), std::string::npos) << told;
+}
+
+TEST(OrderTable, MaterialsAndDaysThatAreNoneAreToldWithTheirLine) {
+  const std::string head = "file,thickness,due,customer\na.dxf,";
+  for (const auto& [row, told] : std::vector<std::pair<std::string, std::string>>{
+           {"thick,,", "line 2: the thickness 'thick' is not a length from 0.001 to 262144 mm"},
+           {"0,,", "line 2: the thickness '0' is not a length"},
+           {"-2,,", "line 2: the thickness '-2' is not a length"},
+           {"300000,,", "line 2: the thickness '300000' is not a length"},
+           {"2 furlongs,,", "line 2: the thickness '2 furlongs' is not a length"},
+           {"2,1.12.2026,", "line 2: the due '1.12.2026' is not a day, as 2026-12-01"},
+           {"2,2026-02-30,", "line 2: the due '2026-02-30' is not a day"},
+           {"2,soon,", "line 2: the due 'soon' is not a day"},
+           {"2,,\"two\nlines\"",
+            "line 2: the customer 'two\\x0alines' is not a text of at most 1,000 bytes on one line"},
+           {"2,," + std::string(1001, 'x'), "is not a text of at most 1,000 bytes"}})
+    EXPECT_NE(refusal(head + row + "\n").find(told), std::string::npos) << refusal(head + row + "\n");
 }
 
 TEST(OrderTable, ATableWithoutFilesOrRowsSaysWhatIsMissing) {

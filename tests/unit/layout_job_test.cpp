@@ -231,6 +231,9 @@ TEST(LayoutJob, WhatComesIsCalledAsNobodyElseAndHasTheGrainOfTheOthers) {
   come.parts = {part("lid", 3, 3), part("lid", 4, 4), part("foot", 5, 5)};
   come.stocks = {sheet_of(50 * mm, 50 * mm, 0), sheet_of(50 * mm, 50 * mm, 3)};
   come.stocks[1].grain_degrees = 0;
+  for (Part& one : d.parts) one.material = {"steel", 2 * mm};
+  d.stocks[0].material = {"steel", 2 * mm};
+  come.parts[2].material.name = "brass";
   const JobChange change = added(d, come);
   ASSERT_TRUE(can_bring_in(d, change));
   bring_in(d, change);
@@ -242,6 +245,9 @@ TEST(LayoutJob, WhatComesIsCalledAsNobodyElseAndHasTheGrainOfTheOthers) {
   EXPECT_EQ(d.stocks[2].grain_degrees, 90);
   EXPECT_EQ(d.stocks[3].count, 3);
   EXPECT_EQ(d.stocks[3].grain_degrees, 0);
+  EXPECT_EQ(d.parts[3].material, (Material{"steel", 2 * mm}));
+  EXPECT_EQ(d.parts[5].material, (Material{"brass", 0}));
+  EXPECT_FALSE(d.stocks[2].material.is_said()) << "not all stock is of one";
 }
 
 TEST(LayoutJob, AChangeThatDoesNotFitIsNoticed) {

@@ -28,6 +28,7 @@ TEST(VerifyClaimsKind, JsonIsToldByItsFormat) {
   };
   EXPECT_EQ(named("locate"), "a placement");
   EXPECT_EQ(named("nest"), "a report of nest");
+  EXPECT_EQ(named("order"), "a report of an order");
   EXPECT_EQ(named("check"), "a report of check");
   EXPECT_EQ(named("show"), "a report of show");
   EXPECT_EQ(named("pocket"), "a report of pocket");
@@ -94,7 +95,7 @@ Json rich_layout() {
     {"id": "t", "kind": "strip", "height": 60},
     {"id": "u", "kind": "strip", "height": 60, "length": 300}],
    "parts": [
-    {"id": "p", "name": "part", "outline": {"polygon": {"outer": [[0, 0], [10, 0], [10, 6], [0, 6]], "holes": [[[2, 2], [2, 4], [4, 4], [4, 2]]]}},
+    {"id": "p", "name": "part", "material": "steel", "thickness": 2, "customer": "c", "due": "2026-12-01", "label": "l", "outline": {"polygon": {"outer": [[0, 0], [10, 0], [10, 6], [0, 6]], "holes": [[[2, 2], [2, 4], [4, 4], [4, 2]]]}},
      "quality": 1, "areas": [{"quality": 2, "outline": {"polygon": {"outer": [[1, 1], [2, 1], [2, 2], [1, 2]]}}}],
      "rotations": [0, {"from": 80, "to": 100}], "mirror": true, "grain": {"deg": 0, "tolerance_deg": 10},
      "tolerated_severity": 1, "priority": 3, "demand": 2, "gap": 1.5, "border_gap": 2.5, "defect_gap": 3.5},
@@ -185,6 +186,12 @@ TEST(VerifyClaims, EachWordOfAStockAPartAndAPieceCounts) {
       {"/parts/0/grain/tolerance_deg", "11", p},
       {"/parts/0/tolerated_severity", "2", p},
       {"/parts/0/priority", "4", p},
+      {"/parts/0/material", "\"brass\"", p},
+      {"/parts/0/thickness", "2.000001", p},
+      {"/parts/0/customer", "\"d\"", p},
+      {"/parts/0/due", "\"2026-12-02\"", p},
+      {"/parts/0/label", "\"\"", p},
+      {"/stocks/0/material", "\"steel\"", s},
       {"/parts/0/demand", "3", p},
       {"/parts/0/gap", "1.75", p},
       {"/parts/0/border_gap", "2.75", p},
@@ -343,6 +350,73 @@ TEST(VerifyClaims, OneFigureOfAReportOfNestThatIsWrongIsNamed) {
   report = Json::parse(kNest);
   layout.at("/parts/0/demand") = 2, given.at("/parts/0/demand") = 2;
   EXPECT_EQ(said(), "unplaced says 1 of \"p\" and is to say 2\n");
+}
+
+/// A layout of an order: parts of 10 x 10 on a sheet of 100 x 100.
+Json layout_of(const char* material, double thickness, int wanted, int placed) {
+  Json layout = cases::empty_layout();
+  Json& part = cases::add_part(layout, "a", cases::outline_json(cases::rectangle(0, 0, 10, 10)));
+  part["demand"] = wanted;
+  for (Json* item : {&part, &layout["stocks"][0]}) {
+    (*item)["material"] = material;
+    if (thickness > 0) (*item)["thickness"] = thickness;
+  }
+  for (int i = 0; i < placed; ++i) cases::place(layout, "a", 20 * i, 0);
+  return layout;
+}
+
+/// Of steel one piece of three is missing; of birch nobody said the thickness.
+const std::string kOrder = head("order", "incomplete") +
+                           R"("inputs": [{"role": "part", "path": "a.svg", "sha256": "x"}],
+  "outputs": [{"role": "nested", "path": "o-steel-2.json", "sha256": "x"}, {"role": "nested", "path": "o-birch.json", "sha256": "x"}],
+  "layouts": [{"material": "steel", "thickness": 2, "placed": 2, "missing": 1, "sheets": 1, "density": 0.02, "cost": 1, "work": 1,
+               "unplaced": [{"part": "a", "count": 1, "reason": "no-stock"}]},
+              {"material": "birch", "thickness": null, "placed": 1, "missing": 0, "sheets": 1, "density": 0.01, "cost": 1, "work": 1,
+               "unplaced": []}],
+  "placed": 3, "missing": 1, "sheets": 2, "density": 0.015, "cost": 2})";
+
+TEST(VerifyClaims, EveryFigureOfAReportOfAnOrderIsMadeAnew) {
+  const Json steel = layout_of("steel", 2, 3, 2), birch = layout_of("birch", 0, 1, 1);
+  const std::string open =
+      "unchecked: that stocks and parts are those of the order's drawings was not rechecked\n";
+  const auto said = [&](const std::string& report) {
+    return judged(report, {"", steel.dump(), birch.dump()});
+  };
+  ASSERT_EQ(said(kOrder), open);
+  std::size_t told = 0;
+  for (const Lie& lie : test::lies_of_json(kOrder)) {
+    const bool changes_information =
+        lie.how != std::string("deleted") &&
+        (begins(lie, {"/seed", "/work", "/version", "/warnings", "/layouts/0/unplaced/0/reason"}) ||
+         lie.path.ends_with("/work"));
+    const bool names_a_file = lie.path.ends_with("/path") || lie.path.ends_with("/sha256");
+    const bool is_rounding = lie.how == std::string("last place") && lie.path.ends_with("density");
+    if (changes_information || (names_a_file && lie.how != std::string("deleted")) || is_rounding ||
+        begins(lie, {"/inputs"}))
+      continue;
+    EXPECT_NE(said(lie.bytes()), open) << lie.path << " " << lie.how;
+    ++told;
+  }
+  EXPECT_GT(told, 60U);
+  Json report = Json::parse(kOrder);
+  std::swap(report["layouts"][0], report["layouts"][1]);
+  EXPECT_NE(said(report.dump()).find("layouts[0].material is not that of the part \"a\""), std::string::npos);
+  report = Json::parse(kOrder);
+  report["outputs"][1]["path"] = "o-steel-2.json";
+  EXPECT_NE(said(report.dump()).find("it names o-steel-2.json twice"), std::string::npos);
+}
+
+TEST(VerifyClaims, ARuleThatALayoutOfAnOrderBreaksIsNamedWithItsFile) {
+  Json steel = layout_of("steel", 2, 3, 2);
+  const Json birch = layout_of("birch", 0, 1, 1);
+  steel.at("/placements/1/x") = 5;
+  EXPECT_NE(judged(kOrder, {"", steel.dump(), birch.dump()}).find("d1.json: the rule overlap is broken by"),
+            std::string::npos);
+  steel.at("/placements/1/x") = 20;
+  steel.at("/stocks/0/thickness") = 3;
+  EXPECT_NE(
+      judged(kOrder, {"", steel.dump(), birch.dump()}).find("layouts[0].material is not that of the stock"),
+      std::string::npos);
 }
 
 TEST(VerifyClaims, SheetsThatAreNotThereCountForNothing) {

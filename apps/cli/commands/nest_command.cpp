@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <optional>
+#include <vector>
 
 #include "interrupt.hpp"
 #include "layout_input.hpp"
 #include "lekalo/disk/files.hpp"
 #include "lekalo/io/text/words.hpp"
+#include "lekalo/jobs/material.hpp"
 #include "lekalo/jobs/nest.hpp"
+#include "lekalo/jobs/order_report.hpp"
 #include "order_input.hpp"
 #include "outputs.hpp"
 #include "summary.hpp"
@@ -57,77 +61,144 @@ std::string text_of(const jobs::NestStanding& standing) {
   return text;
 }
 
-Result<jobs::Layout> read_input(const NestOptions& o) {
+/// The layouts that are to be nested: one, or those of an order.
+Result<std::vector<jobs::MaterialLayout>> read_input(const NestOptions& o) {
   const std::vector<NamedPath> outputs{
       {"--output", o.output}, {"--picture", o.picture}, {"--stream", o.stream}};
   if (o.order) return read_order_input(*o.order, outputs);
-  LEKALO_TRY(jobs::Layout input, read_layout_input(o.source, outputs));
+  std::vector<jobs::MaterialLayout> layouts(1);
+  jobs::Layout& input = layouts.front().layout;
+  LEKALO_TRY(input, read_layout_input(o.source, outputs));
   if (input.document.stocks.empty())
     return failure(ErrorCode::usage,
                    fmt::format("{} has parts and no sheet to place them on; say one: --sheet 3000x1500, or "
                                "--strip 1500",
                                io::as_utf8(o.source.path)));
-  return input;
+  return layouts;
+}
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 /// Nests with a stream of better layouts, a progress line, and a clock that may end it. The result is added
 /// to the files that are to appear.
-Result<jobs::Nested> nest_watched(const layout::Document& document, const NestOptions& o,
-                                  disk::AtomicFiles& files) {
-  using Clock = std::chrono::steady_clock;
+/// \param seconds  that the clock leaves
+Result<jobs::Nested> nest_watched(const jobs::MaterialLayout& given, const NestOptions& o,
+                                  std::optional<double> seconds, disk::AtomicFiles& files) {
   const auto begin = Clock::now();
+  const std::string output = jobs::path_with(o.output, given.file_word),
+                    stream = jobs::path_with(o.stream, given.file_word);
   std::string standing;
   jobs::NestOptions options = o.search;
   options.standing = [&](const jobs::NestStanding& now) { standing = text_of(now); };
-  if (!o.stream.empty())
+  if (!stream.empty())
     options.improved = [&](const layout::Document&, std::string_view bytes) {
-      return deliver(o.stream, bytes);
+      return deliver(stream, bytes);
     };
-  if (!o.output.empty())
-    options.while_checked = [&](std::string_view bytes) { return files.add(o.output, bytes); };
-  ProgressLine line("nesting");
+  if (!output.empty())
+    options.while_checked = [&](std::string_view bytes) { return files.add(output, bytes); };
+  ProgressLine line(given.file_word.empty() ? "nesting" : "nesting " + jobs::words_of(given.material));
   RunControl control;
   control.stop = StopRequests::flag();
   control.work_limit = o.work;
   control.progress = [&](const Progress& progress) {
-    const double passed = std::chrono::duration<double>(Clock::now() - begin).count();
-    const double share = o.seconds ? std::min(1.0, passed / *o.seconds) : 0;
+    const double share = seconds ? std::min(1.0, seconds_since(begin) / *seconds) : 0;
     line.show({progress.work, std::max(progress.fraction, share)}, standing);
   };
-  return jobs::nest(document, options, control);
+  return jobs::nest(given.layout.document, options, control);
+}
+
+/// Nests one layout after the other. Each has an equal share of the time that is left when its turn comes.
+/// \param begin  of the command
+Result<std::vector<jobs::NestedMaterial>> nest_all(std::vector<jobs::MaterialLayout> layouts,
+                                                   const NestOptions& o, Clock::time_point begin,
+                                                   disk::AtomicFiles& files) {
+  const double end = o.seconds ? end_of_search(*o.seconds, seconds_since(begin)) : 0;
+  std::vector<jobs::NestedMaterial> all;
+  for (std::size_t i = 0; i < layouts.size(); ++i) {
+    std::optional<double> share;
+    if (o.seconds) {
+      const double passed = seconds_since(begin);
+      share = std::max(0.0, end - passed) / static_cast<double>(layouts.size() - i);
+      StopRequests::end_at(passed + *share);
+    }
+    LEKALO_TRY(jobs::Nested nested, nest_watched(layouts[i], o, share, files));
+    const std::string picture = jobs::path_with(o.picture, layouts[i].file_word);
+    if (!picture.empty()) {
+      const ToTheEnd to_the_end;
+      LEKALO_TRY(const std::string drawn, picture_bytes(picture, o.source.path, nested.document, {}));
+      LEKALO_CHECK(files.add(picture, drawn));
+    }
+    std::string output = jobs::path_with(o.output, layouts[i].file_word);
+    all.push_back({std::move(layouts[i]), std::move(nested), std::move(output)});
+  }
+  return all;
+}
+
+/// Lines for people about one layout.
+std::string text_of(const jobs::NestedMaterial& one) {
+  const jobs::Nested& nested = one.nested;
+  std::string text = completeness_text(nested.document, nested.completeness);
+  for (const nest::Unplaced& u : nested.unplaced)
+    text += fmt::format("not placed: {} of {}: {}\n", u.count, nested.document.parts[u.part].id,
+                        sentence_of(u.reason));
+  if (!nested.searched)
+    text += "note: an order of so many pieces gets a first layout, and no search for a better one\n";
+  return text;
+}
+
+std::string text_of(const std::string& whose, const jobs::OrderFigures& figures) {
+  return fmt::format("{}: {} placed, {} missing, {}, density {:.3f} %\n", whose, figures.placed,
+                     figures.missing, counted(figures.sheets, "sheet"), 100 * figures.density());
+}
+
+/// Lines for people about all layouts.
+/// \param seconds  processor time
+std::string text_of(const std::vector<jobs::NestedMaterial>& all, double seconds) {
+  std::string text, written;
+  std::vector<jobs::OrderFigures> figures;
+  std::uint64_t work = 0;
+  for (const jobs::NestedMaterial& one : all) {
+    text += notes(one.given.layout.notices);
+    figures.push_back(jobs::figures_of(one.nested));
+    if (all.size() > 1) text += text_of(jobs::words_of(one.given.material), figures.back());
+    text += text_of(one);
+    if (all.size() > 1) text += fmt::format("  work {}\n", one.nested.work);
+    work += one.nested.work;
+    if (!one.written_as.empty()) written += fmt::format("Written: {}\n", one.written_as);
+  }
+  if (all.size() > 1) text += text_of("in all", jobs::sum_of(figures));
+  text += fmt::format("work {} in {:.1f} s of processor time; checked twice\n", work, seconds);
+  return text + written;
 }
 
 }  // namespace
 
 Result<int> run_nest(const NestOptions& o) {
-  const auto begin = std::chrono::steady_clock::now();
-  LEKALO_TRY(const jobs::Layout input, read_input(o));
-  const double reading = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (o.seconds) StopRequests::end_at(end_of_search(*o.seconds, reading));
+  const auto begin = Clock::now();
+  LEKALO_TRY(std::vector<jobs::MaterialLayout> layouts, read_input(o));
+  if (!o.json) LEKALO_CHECK(several_need_files(layouts, o.output));
   const double start = processor_seconds();
   disk::AtomicFiles files;
-  LEKALO_TRY(const jobs::Nested nested, nest_watched(input.document, o, files));
+  LEKALO_TRY(const std::vector<jobs::NestedMaterial> all, nest_all(std::move(layouts), o, begin, files));
   const double seconds = processor_seconds() - start;
   const ToTheEnd to_the_end;
-  if (!o.picture.empty()) {
-    LEKALO_TRY(const std::string picture, picture_bytes(o.picture, o.source.path, nested.document, {}));
-    LEKALO_CHECK(files.add(o.picture, picture));
-  }
   LEKALO_CHECK(files.commit());
-  if (o.json)
-    LEKALO_CHECK(print(jobs::nest_json(input, o.search, nested, o.output, seconds)));
+  const jobs::NestedMaterial& first = all.front();
+  if (o.json && all.size() > 1)
+    LEKALO_CHECK(print(jobs::order_json(all, o.search, seconds)));
+  else if (o.json)
+    LEKALO_CHECK(
+        print(jobs::nest_json(first.given.layout, o.search, first.nested, first.written_as, seconds)));
   else if (o.output.empty())
-    LEKALO_CHECK(print(nested.bytes));
-  std::string said = notes(input.notices) + completeness_text(nested.document, nested.completeness);
-  for (const nest::Unplaced& u : nested.unplaced)
-    said += fmt::format("not placed: {} of {}: {}\n", u.count, nested.document.parts[u.part].id,
-                        sentence_of(u.reason));
-  if (!nested.searched)
-    said += "note: an order of so many pieces gets a first layout, and no search for a better one\n";
-  said += fmt::format("work {} in {:.1f} s of processor time; checked twice\n", nested.work, seconds);
-  if (!o.output.empty()) said += fmt::format("Written: {}\n", o.output);
-  tell(said);
-  return nested.unplaced.empty() ? 0 : 1;
+    LEKALO_CHECK(print(first.nested.bytes));
+  tell(text_of(all, seconds));
+  const bool complete = std::all_of(
+      all.begin(), all.end(), [](const jobs::NestedMaterial& one) { return one.nested.unplaced.empty(); });
+  return complete ? 0 : 1;
 }
 
 }  // namespace lekalo::cli

@@ -74,6 +74,7 @@ struct LayoutSource {
 struct PartWord {
   std::string files;
   std::optional<std::int64_t> count;
+  layout::Material material{};
 };
 
 /// A job that is made of drawings.

@@ -5,15 +5,19 @@
 namespace lekalo::cli {
 void add_order(Form& form, OrderWords& w) {
   const OptionAdder add(form, "An order, instead of a layout");
-  add("--part", w.parts, "FILE[=N]",
+  add("--part", w.parts, "FILE[=N][@MATERIAL:T]",
       "A drawing that is wanted N times [1], a folder, a pattern in quotes; again for more")
       .one_word_a_time = true;
   add("--order", w.table, "TABLE",
       "Parts as a table (CSV) with the columns file, quantity, ...; - reads stdin");
-  add("--sheet", w.terms.sheets, "WxH[=N]",
-      "A sheet of this size, or of a drawing, N of them [as many as needed]; again for more")
+  add("--build", w.terms.builds, "ASSEMBLY[=N]",
+      "Of a table with the column assembly, a bill of materials: build N of it [1]; again for more")
       .one_word_a_time = true;
-  add("--strip", w.terms.strips, "H", "A strip of this width, as long as needed").one_word_a_time = true;
+  add("--sheet", w.terms.sheets, "WxH[=N][@MATERIAL:T]",
+      "A sheet of this size, or of a drawing, N of them [as many as needed], T thick; again for more")
+      .one_word_a_time = true;
+  add("--strip", w.terms.strips, "H[@MATERIAL:T]", "A strip of this width, as long as needed")
+      .one_word_a_time = true;
   add("--gap", w.terms.gap, "LENGTH", "Between finished parts [0]");
   add("--border", w.terms.border, "LENGTH", "Between parts and the border [0]");
   add("--kerf", w.terms.kerf, "LENGTH", "The width of the cut; a smaller gap is raised to it [0]");
@@ -23,8 +27,8 @@ void add_order(Form& form, OrderWords& w) {
 }
 
 Result<std::optional<OrderSource>> to_order(const OrderWords& w, const LayoutWords& layout) {
-  const bool asked =
-      !(w.parts.empty() && w.terms.sheets.empty() && w.terms.strips.empty() && w.table.empty());
+  const bool asked = !(w.parts.empty() && w.terms.sheets.empty() && w.terms.strips.empty() &&
+                       w.table.empty() && w.terms.builds.empty());
   const bool rules = !(w.terms.gap.empty() && w.terms.border.empty() && w.terms.kerf.empty() &&
                        w.terms.rotations.empty() && w.terms.grain.empty() && !w.terms.may_mirror);
   WordReader read;
@@ -33,13 +37,16 @@ Result<std::optional<OrderSource>> to_order(const OrderWords& w, const LayoutWor
       "--gap, --border, --kerf, --rotations, --grain and --mirror belong to an order, with --part and "
       "--sheet; a layout says its own");
   OrderSource order;
-  if (!layout.path.empty()) order.parts.push_back({layout.path, std::nullopt});
+  if (!layout.path.empty()) order.parts.push_back({layout.path, std::nullopt, {}});
   for (const std::string& word : w.parts) {
-    const auto part = jobs::counted_word(word);
-    read.require(part.has_value(),
-                 fmt::format("--part: \"{}\" does not end in a number from 1 to 1,000,000,000", word));
-    if (part) order.parts.push_back({part->word, part->count});
+    auto part = jobs::ordered_word(word);
+    if (part)
+      order.parts.push_back({std::move(part->word), part->count, std::move(part->material)});
+    else
+      read.require(false, fmt::format("--part: \"{}\" {}", word, part.error().message));
   }
+  read.require(w.terms.builds.empty() || !w.table.empty(),
+               "--build says what is built of a bill of materials, which --order TABLE names");
   order.table = w.table;
   auto terms = jobs::read_order_words(w.terms, "--");
   if (terms)

@@ -25,6 +25,9 @@ struct OrderedPart {
   bool may_mirror = false;
   std::optional<layout::Grain> grain;
   int priority = 0;
+  layout::Material material{};
+  layout::Purpose purpose{};
+  std::string said_in{};  ///< "o.csv: line 7", for sentences; empty: they name the file
 };
 
 /// A size in mm, from limits::kShortestSide to limits::kLargestOutline.
@@ -37,6 +40,7 @@ struct OrderedStock {
   File file;
   /// How many there are, from 1; without a value as many as may be needed: one for every piece.
   std::optional<std::int64_t> count;
+  layout::Material material{};
 };
 
 /// An order says which outlines are wanted, how often, and what they are cut from.
@@ -55,11 +59,26 @@ struct Order {
   io::PartOptions reading;
 };
 
-/// Makes the layout that an order describes: parts, stocks and rules, and nothing placed. Its `inputs` are
-/// the files of the order.
+/// The layout of what is cut from one material.
+struct MaterialLayout {
+  layout::Material material;
+  Layout layout;
+  /// Tells its files from those of the others of an order: "steel-2" (jobs/material.hpp); empty where it is
+  /// the only one.
+  std::string file_word;
+};
+
+/// Makes the layouts that an order describes, one for each material and thickness, in the order in which
+/// parts name them: parts, stocks and rules, and nothing placed. Parts come beside the stock of their
+/// material, to the letter; what is said of one material alone counts for what says nothing
+/// (share_materials). A layout's `inputs` are its files. Stock of which nothing is cut is told in a notice.
 ///
 /// Fails with ErrorCode::usage where parts or stocks are missing, with ErrorCode::bad_input and one sentence
-/// that lists what is wrong in every file that cannot be read. Cost: that of reading the files.
+/// that lists what is wrong in every file that cannot be read, and the materials without stock. Cost: that of
+/// reading the files.
+[[nodiscard]] Result<std::vector<MaterialLayout>> open_orders(const Order& order);
+
+/// The same for an order that is to be one layout. Fails also with ErrorCode::bad_input where it is more.
 [[nodiscard]] Result<Layout> open_order(const Order& order);
 
 }  // namespace lekalo::jobs

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lekalo/geom/grid_region.hpp"
@@ -64,6 +65,24 @@ struct Grain {
   friend bool operator==(const Grain&, const Grain&) = default;
 };
 
+/// The material of stock, and what a part is to be cut from. No rule asks for it: whoever makes the layout of
+/// an order puts parts beside stock of their material (jobs/order.hpp).
+struct Material {
+  std::string name;            ///< empty where nobody said it
+  std::int64_t thickness = 0;  ///< grid steps; 0 where nobody said it
+  [[nodiscard]] bool is_said() const noexcept { return !name.empty() || thickness != 0; }
+  friend bool operator==(const Material&, const Material&) = default;
+};
+
+/// For whom and for when a part is, as labels and quotes say it; any of them may be empty. No rule asks for
+/// it.
+struct Purpose {
+  std::string customer;
+  std::string due;  ///< a day as is_day takes it
+  std::string label;
+  friend bool operator==(const Purpose&, const Purpose&) = default;
+};
+
 struct Part {
   std::string id;    ///< unique among parts, not empty
   std::string name;  ///< for people; may be empty
@@ -83,6 +102,8 @@ struct Part {
   /// The part's own gaps in grid steps; the larger of two parts' gaps counts between them. Without a value
   /// the rules' gap counts.
   std::optional<std::int64_t> gap, border_gap, defect_gap;
+  Material material{};
+  Purpose purpose{};
   friend bool operator==(const Part&, const Part&) = default;
 };
 
@@ -120,6 +141,7 @@ struct Stock {
   std::optional<double> grain_degrees;
   std::vector<Defect> defects;
   std::vector<QualityZone> zones;
+  Material material{};
   friend bool operator==(const Stock&, const Stock&) = default;
 };
 /// A strip of open length ends here, in steps: 262,144 mm.
@@ -178,6 +200,9 @@ struct Document {
   std::uint64_t next_id = 1;          ///< above every placement's id
   friend bool operator==(const Document&, const Document&) = default;
 };
+
+/// Says whether the text is a day of the calendar as ISO 8601 writes it: "2026-12-01".
+[[nodiscard]] bool is_day(std::string_view text);
 
 /// Returns the outline where it lies: turned, mirrored, moved.
 [[nodiscard]] geom::GridRegion placed_outline(const Part& part, const Placement& placement);

@@ -73,7 +73,7 @@ struct Additions {
 };
 /// Returns the change that brings them in behind those that are there, with ids that are free: "lid", or
 /// "lid-2". Where all parts of the layout have one grain, those that come without one get it too, and stocks
-/// likewise.
+/// likewise; and what comes without a material gets that of the others where they have one.
 [[nodiscard]] JobChange added(const Document& document, Additions additions);
 
 /// Gives ids that nothing else has: a name, then the name with -2, -3 behind it.

@@ -20,6 +20,7 @@ enum class Kind : std::uint8_t {
   layout,
   placements,  ///< of a strip, in the form of another nesting program
   nest_report,
+  order_report,
   check_report,
   show_report,
   pocket_report,
@@ -82,11 +83,12 @@ struct NamedFile {
 [[nodiscard]] Result<ClaimReport> verify_cut_report(const Document& report,
                                                     const std::vector<Document>& files);
 
-/// Rechecks a report of `lekalo nest` or `lekalo check`. Of nest: every rule and every figure of the layout
-/// that was written (density, cost, lengths, parts, kits, what is not placed, that remnants are free), and
-/// that its stocks, parts and kits are those of the layout given. Of check: that the violations are those
-/// that verify_layout finds; their amounts, places and directions are not rechecked. Of show: density, cost
-/// and the number of violations.
+/// Rechecks a report of `lekalo nest`, of an order of several layouts, or of `lekalo check`. Of nest: every
+/// rule and every figure of the layout that was written (density, cost, lengths, parts, kits, what is not
+/// placed, that remnants are free), and that its stocks, parts and kits are those of the layout given. Of an
+/// order: every rule of each layout that was written, its material, and the figures of each and of all. Of
+/// check: that the violations are those that verify_layout finds; their amounts, places and directions are
+/// not rechecked. Of show: density, cost and the number of violations.
 ///
 /// Fails with bad_input for fields that are missing, not known or of a wrong form, and for layouts that
 /// cannot be read. Cost: that of verify_layout. \param files  the bytes of named_files(), in that order

@@ -9,7 +9,10 @@
 #include <utility>
 
 #include "lekalo/base/limits.hpp"
+#include "lekalo/geom/grid.hpp"
 #include "lekalo/io/text/excerpt.hpp"
+#include "lekalo/io/text/length_word.hpp"
+#include "lekalo/io/text/words.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -128,6 +131,8 @@ bool into(std::optional<T> value, To& to) {
   return true;
 }
 
+constexpr const char* kText = "a text of at most 1,000 bytes on one line";
+
 constexpr std::array kColumns{
     Column{"file", "",
            [](std::string_view cell, OrderRow& row) {
@@ -150,10 +155,29 @@ constexpr std::array kColumns{
            [](std::string_view cell, OrderRow& row) {
              return into(number_of<int>(cell, -1'000'000, 1'000'000), row.priority);
            }},
-    Column{"name", "", [](std::string_view cell, OrderRow& row) {
+    Column{"name", "",
+           [](std::string_view cell, OrderRow& row) {
              row.name = cell;
              return true;
-           }}};
+           }},
+    Column{"material", kText,
+           [](std::string_view cell, OrderRow& row) { return into(kept_text(cell), row.material.name); }},
+    Column{"thickness", "a length from 0.001 to 262144 mm, as 2, 1.5 mm or 1/16in",
+           [](std::string_view cell, OrderRow& row) {
+             return into(thickness_of(cell), row.material.thickness);
+           }},
+    Column{"customer", kText,
+           [](std::string_view cell, OrderRow& row) { return into(kept_text(cell), row.purpose.customer); }},
+    Column{"due", "a day, as 2026-12-01",
+           [](std::string_view cell, OrderRow& row) {
+             row.purpose.due = trimmed(cell);
+             return layout::is_day(row.purpose.due);
+           }},
+    Column{"label", kText,
+           [](std::string_view cell, OrderRow& row) { return into(kept_text(cell), row.purpose.label); }},
+    Column{"assembly", kText,
+           [](std::string_view cell, OrderRow& row) { return into(kept_text(cell), row.assembly); }}};
+constexpr const Column* kAssembly = &kColumns.back();
 
 class OrderReader {
  public:
@@ -190,16 +214,22 @@ class OrderReader {
         table_.notices.push_back(fmt::format("{}: the column {} is not read", name_, excerpt(cell)));
       columns_.push_back(column == kColumns.end() ? nullptr : &*column);
       knows_files_ = knows_files_ || columns_.back() == &kColumns.front();
+      table_.is_bill = table_.is_bill || columns_.back() == kAssembly;
     }
     if (!knows_files_)
       complain(names.line,
-               "the column \"file\" is missing; the first row names the columns: file, quantity, rotations, "
-               "mirror, grain, priority, name");
+               "the column \"file\" is missing; the first row names the columns: " + names_of_columns());
+  }
+
+  static std::string names_of_columns() {
+    std::string names;
+    for (const Column& column : kColumns) names += std::string(names.empty() ? "" : ", ") + column.name;
+    return names;
   }
 
   void row(const Row& said) {
     OrderRow made;
-    made.line = said.line;
+    made.said_in = fmt::format("{}: line {}", name_, said.line);
     if (said.cells.size() > columns_.size())
       complain(said.line,
                fmt::format("{} cells where {} columns have names", said.cells.size(), columns_.size()));
@@ -210,6 +240,7 @@ class OrderReader {
                fmt::format("the {} {} is not {}", columns_[i]->name, excerpt(cell), columns_[i]->wanted));
     }
     if (made.file.empty()) complain(said.line, "the file is missing");
+    if (table_.is_bill && made.assembly.empty()) complain(said.line, "the assembly is missing");
     table_.rows.push_back(std::move(made));
   }
 
@@ -248,6 +279,21 @@ std::optional<double> grain_of(std::string_view text) {
   if (word == "x") return 0;
   if (word == "y") return 90;
   return number_of(word, -limits::kMostDegrees, limits::kMostDegrees);
+}
+
+std::optional<std::int64_t> thickness_of(std::string_view text) {
+  const auto mm = length_of(text);
+  if (!mm || !(limits::kShortestSide <= *mm && *mm <= limits::kLargestOutline)) return std::nullopt;
+  return geom::grid_from_mm(*mm);
+}
+
+std::optional<std::string> kept_text(std::string_view text) {
+  constexpr std::size_t kMost = 1000;
+  std::string kept = as_utf8(text);
+  const bool fine = kept.size() <= kMost && std::none_of(kept.begin(), kept.end(), [](char c) {
+                      return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+                    });
+  return fine ? std::optional(std::move(kept)) : std::nullopt;
 }
 
 std::optional<std::int64_t> quantity_of(std::string_view text) {

@@ -136,11 +136,12 @@ class LayoutReader {
 
   layout::Stock stock_of(JsonValue value) {
     layout::Stock stock;
-    if (!reader_.expect_object(value, {"id", "name", "kind", "count", "cost", "outline", "height", "length",
-                                       "grain_deg", "defects", "zones"}))
+    if (!reader_.expect_object(value, {"id", "name", "material", "thickness", "kind", "count", "cost",
+                                       "outline", "height", "length", "grain_deg", "defects", "zones"}))
       return stock;
     stock.id = id(value, stock_ids_, "stocks");
     optional(value, "name", [&](JsonValue v) { stock.name = reader_.text(v); });
+    material(value, stock.material);
     if (const auto kind = reader_.need(value, "kind", "\"strip\", \"sheet\" or \"hide\"")) {
       if (kind->text_is("strip"))
         stock.kind = layout::StockKind::strip;
@@ -212,6 +213,20 @@ class LayoutReader {
     stock.outline = outline(value, geom::ChordSide::shrink);
   }
 
+  void material(JsonValue value, layout::Material& material) {
+    optional(value, "material", [&](JsonValue v) { material.name = reader_.text(v); });
+    optional(value, "thickness", [&](JsonValue v) {
+      material.thickness = reader_.length(v, limits::kShortestSide, limits::kLargestOutline);
+    });
+  }
+
+  std::string day(JsonValue value) {
+    std::string text = reader_.text(value);
+    if (reader_.ok() && !layout::is_day(text))
+      reader_.refuse(value, fmt::format("{} is no day; write it as in 2026-12-01", excerpt(text)));
+    return text;
+  }
+
   void part(JsonValue value) {
     layout::Part part = part_of(value);
     part_index_.emplace(part.id, static_cast<std::uint32_t>(document_.parts.size()));
@@ -220,12 +235,18 @@ class LayoutReader {
 
   layout::Part part_of(JsonValue value) {
     layout::Part part;
-    if (!reader_.expect_object(
-            value, {"id", "name", "outline", "quality", "areas", "marks", "rotations", "mirror", "grain",
-                    "tolerated_severity", "priority", "demand", "gap", "border_gap", "defect_gap"}))
+    if (!reader_.expect_object(value,
+                               {"id",       "name",      "material", "thickness",  "customer",
+                                "due",      "label",     "outline",  "quality",    "areas",
+                                "marks",    "rotations", "mirror",   "grain",      "tolerated_severity",
+                                "priority", "demand",    "gap",      "border_gap", "defect_gap"}))
       return part;
     part.id = id(value, part_ids_, "parts");
     optional(value, "name", [&](JsonValue v) { part.name = reader_.text(v); });
+    material(value, part.material);
+    optional(value, "customer", [&](JsonValue v) { part.purpose.customer = reader_.text(v); });
+    optional(value, "due", [&](JsonValue v) { part.purpose.due = day(v); });
+    optional(value, "label", [&](JsonValue v) { part.purpose.label = reader_.text(v); });
     part.outline = outline(value, geom::ChordSide::grow);
     optional(value, "quality", [&](JsonValue v) { part.quality = quality(v); });
     items(value, "areas", kMostParts, [&](JsonValue v) {

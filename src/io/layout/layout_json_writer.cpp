@@ -23,8 +23,13 @@ class Fields {
   explicit Fields(JsonWriter& json) : json_(json) { json_.begin_object(); }
   JsonWriter& field(const char* key) { return json_.key(key); }
   void text(const char* key, std::string_view value) { json_.field(key, value); }
-  void name(const std::string& value) {
-    if (!value.empty()) text("name", value);
+  void name(const std::string& value) { said("name", value); }
+  void said(const char* key, const std::string& value) {
+    if (!value.empty()) text(key, value);
+  }
+  void material(const Material& material) {
+    said("material", material.name);
+    if (material.thickness != 0) mm("thickness", material.thickness);
   }
   template <class Integer>
   void integer(const char* key, Integer value) {
@@ -101,6 +106,7 @@ class ItemWriter {
     Fields fields(json_);
     fields.text("id", stock.id);
     fields.name(stock.name);
+    fields.material(stock.material);
     fields.text("kind", stock.kind == StockKind::strip   ? "strip"
                         : stock.kind == StockKind::sheet ? "sheet"
                                                          : "hide");
@@ -127,6 +133,10 @@ class ItemWriter {
     Fields fields(json_);
     fields.text("id", part.id);
     fields.name(part.name);
+    fields.material(part.material);
+    fields.said("customer", part.purpose.customer);
+    fields.said("due", part.purpose.due);
+    fields.said("label", part.purpose.label);
     fields.integer("demand", part.demand);
     if (part.quality != kAnyQuality) fields.quality(part.quality);
     if (!part.rotations.empty())

@@ -98,11 +98,54 @@ class LayoutReport {
     compare_sums();
     compare_sheets();
     compare_kits();
-    compare_unplaced();
+    compare_status(compare_unplaced(fields_) == 0);
     fields_.refuse_others();
     LEKALO_CHECK(fine());
     claims_.notes.push_back(fmt::format("every rule and figure was rechecked for {} placements in {}",
                                         verdict.placements, layout.name));
+    return std::move(claims_);
+  }
+
+  /// Rechecks an order of several layouts.
+  Result<ClaimReport> order() {
+    common("lekalo-order");
+    (void)fields_.get("outputs");
+    LEKALO_CHECK(fine());
+    std::vector<WrittenLayout> layouts;
+    std::size_t placements = 0;
+    std::set<std::string> written;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (names_[i].role != "nested") continue;
+      if (!written.insert(names_[i].path).second)
+        fields_.complain(fmt::format("it names {} twice among its outputs", names_[i].path));
+      LEKALO_TRY(WrittenLayout layout, read_layout(files_[i]));
+      layouts.push_back(std::move(layout));
+      LEKALO_TRY(const LayoutVerdict verdict, verify_layout(files_[i]));
+      for (const std::string& sentence : sentences(verdict.violations))
+        claims_.findings.push_back(fmt::format("{}: {}", files_[i].name, sentence));
+      placements += verdict.placements;
+    }
+    OrderTotals all;
+    compare_items(fields_, "layouts", layouts.size(), claims_, [&](ReportFields& item, std::size_t i) {
+      written_ = std::move(layouts[i]);
+      sheets_ = sheets_of(written_);
+      compare_material(item);
+      OrderTotals own;
+      for (const SheetFigures& sheet : sheets_) own.add(sheet, written_.stocks[sheet.stock].cost);
+      own.placed = written_.placements.size();
+      own.missing = compare_unplaced(item);
+      (void)item.index("work");
+      compare_order_totals(item, own);
+      all.add(own);
+    });
+    compare_status(all.missing == 0);
+    compare_order_totals(fields_, all);
+    fields_.refuse_others();
+    LEKALO_CHECK(fine());
+    claims_.unchecked.emplace_back(
+        "that stocks and parts are those of the order's drawings was not rechecked");
+    claims_.notes.push_back(fmt::format("every rule and figure was rechecked for {} placements in {} layouts",
+                                        placements, layouts.size()));
     return std::move(claims_);
   }
 
@@ -320,13 +363,63 @@ class LayoutReport {
     }
   }
 
-  void compare_unplaced() {
+  /// The sums of an order, or of a layout of it.
+  struct OrderTotals {
+    std::size_t placed = 0, sheets = 0;
+    std::int64_t missing = 0;
+    Wide parts_area = 0, material_area = 0;
+    double cost = 0;
+    void add(const SheetFigures& sheet, double sheet_cost) {
+      ++sheets;
+      parts_area += sheet.parts_area, material_area += sheet.material_area;
+      cost += sheet_cost;
+    }
+    void add(const OrderTotals& other) {
+      placed += other.placed, sheets += other.sheets, missing += other.missing;
+      parts_area += other.parts_area, material_area += other.material_area;
+      cost += other.cost;
+    }
+  };
+
+  void compare_order_totals(ReportFields& fields, const OrderTotals& totals) {
+    compare(fields, "placed", static_cast<double>(totals.placed), claims_);
+    compare(fields, "missing", static_cast<double>(totals.missing), claims_);
+    compare(fields, "sheets", static_cast<double>(totals.sheets), claims_);
+    compare_near(fields, "density", totals.sheets == 0 ? 0 : share(totals.parts_area, totals.material_area));
+    compare(fields, "cost", totals.cost, claims_);
+  }
+
+  /// The material of a layout of an order is that of all its parts and stocks.
+  void compare_material(ReportFields& item) {
+    WrittenMaterial said;
+    if (!item.get("material").is_null()) said.name = item.text("material");
+    const double thickness = item.number_or_null("thickness").value_or(0);
+    const auto differs = [&](const WrittenMaterial& found) {
+      return found.name != said.name || static_cast<double>(found.thickness) * kStep != thickness;
+    };
+    for (const WrittenPart& part : written_.parts)
+      if (differs(part.material))
+        claims_.findings.push_back(
+            fmt::format("{} is not that of the part \"{}\"", item.name("material"), excerpt(part.id)));
+    for (const WrittenStock& stock : written_.stocks)
+      if (differs(stock.material))
+        claims_.findings.push_back(
+            fmt::format("{} is not that of the stock \"{}\"", item.name("material"), excerpt(stock.id)));
+  }
+
+  void compare_status(bool complete) {
+    if (const char* status = complete ? "complete" : "incomplete"; status_ != status)
+      claims_.findings.push_back(fmt::format("status is {} and is to be {}", excerpt(status_), status));
+  }
+
+  /// Returns the number of pieces that are to be told.
+  std::int64_t compare_unplaced(ReportFields& of) {
     std::vector<Hands> wanted(written_.parts.size());
     for (std::size_t p = 0; p < wanted.size(); ++p) wanted[p].either = written_.parts[p].demand;
     for (const WrittenKit& kit : written_.kits) add(kit, kit.demand, wanted);
     const std::vector<Hands> there = placed_hands();
     std::map<std::string, std::int64_t> told;
-    fields_.each("unplaced", [&](Json item, const std::string& path) {
+    of.each("unplaced", [&](Json item, const std::string& path) {
       ReportFields fields(item, path, complaint_);
       if (!complaint_.empty()) return;
       const std::string part = fields.text("part");
@@ -334,19 +427,21 @@ class LayoutReport {
       (void)fields.text("reason");
       fields.refuse_others();
     });
-    if (const char* status = told.empty() ? "complete" : "incomplete"; status_ != status)
-      claims_.findings.push_back(fmt::format("status is {} and is to be {}", excerpt(status_), status));
+    std::int64_t all = 0;
     for (std::size_t p = 0; p < wanted.size(); ++p) {
       const std::int64_t count = missing(wanted[p], there[p]);
+      all += count;
       const auto found = told.find(written_.parts[p].id);
-      if (const std::int64_t said = found == told.end() ? 0 : found->second; said != count)
-        claims_.findings.push_back(
-            fmt::format("unplaced says {} of \"{}\" and is to say {}", said, written_.parts[p].id, count));
+      const std::int64_t said = found == told.end() ? 0 : found->second;
+      if (said != count || (found != told.end() && count == 0))
+        claims_.findings.push_back(fmt::format("{} says {} of \"{}\" and is to say {}", of.name("unplaced"),
+                                               said, written_.parts[p].id, count));
       if (found != told.end()) told.erase(found);
     }
     for (const auto& [part, count] : told)
       claims_.findings.push_back(
-          fmt::format("unplaced names a part \"{}\", which is not there", excerpt(part)));
+          fmt::format("{} names a part \"{}\", which is not there", of.name("unplaced"), excerpt(part)));
+    return all;
   }
 
   Finding read_violation(Json item, const std::string& path) {
@@ -418,6 +513,8 @@ Result<ClaimReport> verify_layout_report(const Document& report, const std::vect
   switch (kind) {
     case Kind::nest_report:
       return rechecked.nest();
+    case Kind::order_report:
+      return rechecked.order();
     case Kind::show_report:
       return rechecked.show();
     default:

@@ -40,7 +40,8 @@ bool same_part(const WrittenPart& a, const WrittenPart& b) {
          same_outline(a.outline, b.outline) && a.quality == b.quality && a.may_mirror == b.may_mirror &&
          a.grain == b.grain && a.tolerated_severity == b.tolerated_severity && a.priority == b.priority &&
          a.demand == b.demand && a.gap == b.gap && a.border_gap == b.border_gap &&
-         a.defect_gap == b.defect_gap;
+         a.defect_gap == b.defect_gap && a.material == b.material && a.customer == b.customer &&
+         a.due == b.due && a.label == b.label;
 }
 
 bool same_features(const std::vector<WrittenStockFeature>& a, const std::vector<WrittenStockFeature>& b) {
@@ -52,8 +53,8 @@ bool same_features(const std::vector<WrittenStockFeature>& a, const std::vector<
 
 bool same_stock(const WrittenStock& a, const WrittenStock& b) {
   return a.id == b.id && a.kind == b.kind && a.count == b.count && a.cost == b.cost && a.open == b.open &&
-         a.grain == b.grain && same_outline(a.outline, b.outline) && same_features(a.defects, b.defects) &&
-         same_features(a.zones, b.zones);
+         a.grain == b.grain && a.material == b.material && same_outline(a.outline, b.outline) &&
+         same_features(a.defects, b.defects) && same_features(a.zones, b.zones);
 }
 
 bool same_place(const WrittenPiece& a, const WrittenPiece& b) {

@@ -261,14 +261,52 @@ WrittenMark read_mark(Json item, const std::string& path, std::string& complaint
   return mark;
 }
 
+WrittenMaterial read_material(Members& members) {
+  WrittenMaterial material;
+  if (members.has("material")) material.name = members.text("material");
+  if (members.has("thickness"))
+    material.thickness =
+        members.steps("thickness", limits::kShortestSide, limits::kLargestOutline, ToStep::nearest);
+  return material;
+}
+
+/// Says whether the calendar has a day that is written so: year, month and day with dashes between.
+bool is_in_calendar(std::string_view day) {
+  if (day.size() != 10 || day[4] != '-' || day[7] != '-') return false;
+  std::array<int, 8> digits{};
+  std::size_t count = 0;
+  for (const char c : day) {
+    if (c == '-') continue;
+    if (c < '0' || c > '9' || count == digits.size()) return false;
+    digits[count++] = c - '0';
+  }
+  if (count != digits.size()) return false;
+  const int year = ((digits[0] * 10 + digits[1]) * 10 + digits[2]) * 10 + digits[3];
+  const int month = digits[4] * 10 + digits[5], date = digits[6] * 10 + digits[7];
+  if (month < 1 || month > 12) return false;
+  const bool leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+  constexpr std::array<int, 12> kDays{31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  return date >= 1 && date <= kDays[static_cast<std::size_t>(month - 1)] + (month == 2 && leap ? 1 : 0);
+}
+
 WrittenPart read_part(Json item, const std::string& path, std::string& complaint, const Gaps& rules) {
   Members members(item, path, complaint,
-                  {"id", "name", "outline", "quality", "areas", "marks", "rotations", "mirror", "grain",
-                   "tolerated_severity", "priority", "demand", "gap", "border_gap", "defect_gap"});
+                  {"id",       "name",      "material", "thickness",  "customer",
+                   "due",      "label",     "outline",  "quality",    "areas",
+                   "marks",    "rotations", "mirror",   "grain",      "tolerated_severity",
+                   "priority", "demand",    "gap",      "border_gap", "defect_gap"});
   WrittenPart part;
   if (!complaint.empty()) return part;
   part.id = members.id();
   members.optional_text("name");
+  part.material = read_material(members);
+  if (members.has("customer")) part.customer = members.text("customer");
+  if (members.has("due")) {
+    part.due = members.text("due");
+    if (!is_in_calendar(part.due))
+      members.complain(fmt::format("field {} is no day as in 2026-12-01", members.name("due")));
+  }
+  if (members.has("label")) part.label = members.text("label");
   part.outline = read_outline(members.get("outline"), members.name("outline"), complaint, ChordSide::outside);
   part.quality = read_quality(members);
   members.each("areas", [&](Json value, const std::string& at) {
@@ -334,12 +372,13 @@ std::vector<WrittenStockFeature> read_features(Members& stock, std::string_view 
 
 WrittenStock read_stock(Json item, const std::string& path, std::string& complaint) {
   Members members(item, path, complaint,
-                  {"id", "name", "kind", "count", "cost", "outline", "height", "length", "grain_deg",
-                   "defects", "zones"});
+                  {"id", "name", "material", "thickness", "kind", "count", "cost", "outline", "height",
+                   "length", "grain_deg", "defects", "zones"});
   WrittenStock stock;
   if (!complaint.empty()) return stock;
   stock.id = members.id();
   members.optional_text("name");
+  stock.material = read_material(members);
   stock.kind = members.text("kind");
   const std::string& kind = stock.kind;
   if (kind != "strip" && kind != "sheet" && kind != "hide")

@@ -47,8 +47,17 @@ struct WrittenMark {
   friend bool operator==(const WrittenMark&, const WrittenMark&) = default;
 };
 
+/// The material of stock, or of a part. No rule asks for it.
+struct WrittenMaterial {
+  std::string name;
+  std::int64_t thickness = 0;  ///< 0: not said
+  friend bool operator==(const WrittenMaterial&, const WrittenMaterial&) = default;
+};
+
 struct WrittenPart {
   std::string id;
+  WrittenMaterial material;
+  std::string customer, due, label;
   WrittenOutline outline;
   int quality = 0;
   std::vector<WrittenArea> areas;
@@ -71,6 +80,7 @@ struct WrittenStockFeature {
 
 struct WrittenStock {
   std::string id, kind;
+  WrittenMaterial material;
   std::int64_t count = 1;
   double cost = 1;
   /// True for a strip without a length; its outline is as long as any.

@@ -25,6 +25,8 @@ export interface FeatureChange {
 export interface Stock {
   id: string;
   name?: string;
+  material?: string;
+  thickness?: number;
   kind: 'strip' | 'sheet' | 'hide';
   count?: number;
   height?: number;
@@ -47,6 +49,11 @@ export interface Mark {
 export interface Part {
   id: string;
   name?: string;
+  material?: string;
+  thickness?: number;
+  customer?: string;
+  due?: string;
+  label?: string;
   outline: Outline;
   quality?: number | 'best';
   areas?: { quality: number | 'best'; outline: Outline }[];
