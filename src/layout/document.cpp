@@ -1,7 +1,7 @@
 #include "lekalo/layout/document.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <cmath>
 
 namespace lekalo::layout {
@@ -26,9 +26,11 @@ bool is_day(std::string_view text) {
       value = 10 * value + static_cast<unsigned>(digit - '0');
     return value;
   };
-  return std::chrono::year_month_day(std::chrono::year(static_cast<int>(number(0, 4))),
-                                     std::chrono::month(number(5, 2)), std::chrono::day(number(8, 2)))
-      .ok();
+  const unsigned year = number(0, 4), month = number(5, 2), day = number(8, 2);
+  constexpr std::array<unsigned, 13> kDays{0, 31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  if (month < 1 || month > 12) return false;
+  const bool leap = month == 2 && year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+  return day >= 1 && day <= kDays[month] + (leap ? 1U : 0U);
 }
 
 geom::GridRegion placed_outline(const Part& part, const Placement& placement) {
