@@ -41,14 +41,17 @@ def layout():
         part = {"id": f"part-{i}", "outline": rectangle(40 + 0.1 * i, 20 + i), "mirror": True}
         if name:
             part["name"] = name
+        part.update({"material": "фанера", "thickness": 18})
         parts.append(part)
+    parts[0].update({"customer": "Иванов", "due": "2026-12-01", "label": "A-117"})
     ids = [1, 2, 3, 7, 10, 42, 99, 100, 101, 1234, 5000, 12345, 99999, 123456, 123457]
     for i, number in enumerate(ids):
         placements.append({"id": number, "part": f"part-{i % len(NAMES)}", "stock": "плита" if i % 3 else "rest",
                            "copy": i % 2 if i % 3 else 0, "rotation_deg": 90 * (i % 4), "mirrored": i % 5 == 0,
                            "x": 60 + 60 * (i % 5), "y": 60 + 60 * (i // 5)})
-    stocks = [{"id": "плита", "kind": "sheet", "count": 3, "outline": rectangle(600, 400)},
-              {"id": "rest", "kind": "sheet", "outline": rectangle(380, 300)}]
+    of = {"material": "фанера", "thickness": 18}
+    stocks = [{"id": "плита", "kind": "sheet", "count": 3, "outline": rectangle(600, 400), **of},
+              {"id": "rest", "kind": "sheet", "outline": rectangle(380, 300), **of}]
     return {"format": "lekalo-layout/1", "units": "mm", "name": "Шкаф 12/7", "stocks": stocks, "parts": parts,
             "placements": placements}
 
@@ -168,7 +171,8 @@ def main():
 
         pages = check_roll(folder, "layout.json", labels, (62, 29), 203)
         texts = [" ".join(word for _, word in words) for _, words in pages]
-        for text in ("Полка", "Шкаф 12/7", "плита #2", "40 x 20 mm", "mirrored", "Remnant", "part-0"):
+        for text in ("Полка", "Шкаф 12/7", "плита #2", "40 x 20 mm", "mirrored", "Remnant", "part-0",
+                     "фанера, 18 mm", "A-117, Иванов, due 2026-12-01, part-0, "):
             assert any(text in page for page in texts), f"\"{text}\" is on no label"
         pages = check_roll(folder, "layout.json", labels, (54, 17), 203)
         long = next(text for words in pages for text in [" ".join(word for _, word in words[1])] if "Боковина" in text)

@@ -83,11 +83,14 @@ class LabelWriter {
   [[nodiscard]] LayoutLabel of_piece(const Placement& placement) const {
     ask(16);
     const layout::Part& part = document_.parts[placement.part];
-    const std::string size = label_size(bounds(part.outline.polygon), Rounding::nearest);
+    const layout::Material& material =
+        part.material.is_said() ? part.material : document_.stocks[placement.stock].material;
     return {fmt::format("{}", placement.id),
             sheet_words({placement.stock, placement.copy}),
-            fields({part.name.empty() ? part.id : part.name}, {size},
-                   {part.name.empty() ? "" : part.id, placement.mirrored ? "mirrored" : "", labels_.name}),
+            fields({part.name.empty() ? part.id : part.name},
+                   {label_size(bounds(part.outline.polygon), Rounding::nearest)}, material,
+                   {part.purpose.label, part.purpose.customer, due_words(part.purpose.due),
+                    part.name.empty() ? "" : part.id, placement.mirrored ? "mirrored" : "", labels_.name}),
             fmt::format("{}/{}", labels_.code, placement.id),
             &placement,
             {}};
@@ -97,24 +100,31 @@ class LabelWriter {
   [[nodiscard]] LayoutLabel of_remnant(const layout::SheetUse& use, std::size_t number) const {
     return {fmt::format("R{}", number),
             sheet_words(use.sheet),
-            fields({"Remnant"}, {label_size(use.remnant, Rounding::down)}, {labels_.name}),
+            fields({"Remnant"}, {label_size(use.remnant, Rounding::down)},
+                   document_.stocks[use.sheet.stock].material, {labels_.name}),
             fmt::format("{}/R{}", labels_.code, number),
             nullptr,
             use.remnant};
   }
 
-  /// The lines below the number: what it is, what is to be measured of it, and where it belongs. Names may be
-  /// shortened, so that sizes do not stand beside them.
+  /// The lines below the number: what it is, what is to be measured of it, what it is of, and where it
+  /// belongs. Names may be shortened, so that sizes do not stand beside them.
   using FieldWords = std::vector<std::string>;
   static std::vector<std::string> fields(const FieldWords& what, const FieldWords& measures,
-                                         const FieldWords& where) {
+                                         const layout::Material& material, const FieldWords& where) {
     std::vector<std::string> all;
-    for (FieldWords words : {what, measures, where}) {
+    for (FieldWords words : {what, measures, material_words(material), where}) {
       std::erase(words, "");
       if (!words.empty()) all.push_back(joined_text(words, ", "));
     }
     return all;
   }
+
+  static FieldWords material_words(const layout::Material& material) {
+    const double mm = geom::kGridStep * static_cast<double>(material.thickness);
+    return {material.name, material.thickness == 0 ? "" : fmt::format("{:.6g}\u00A0mm", mm)};
+  }
+  static std::string due_words(const std::string& day) { return day.empty() ? "" : "due " + day; }
 
   [[nodiscard]] std::string sheet_words(layout::Sheet sheet) const {
     const layout::Stock& stock = document_.stocks[sheet.stock];
