@@ -24,9 +24,9 @@ struct LayoutLabels {
 /// The labels as PDF: sheets by stock and copy, the pieces of each by number, then its remnant. A label has
 /// the number of the piece in pictures and exports (the placement's id), the sheet, the name, the size of the
 /// part as drawn, material and purpose of the part where they are said, the outline as it lies on the sheet,
-/// the layout's name, and the QR code. What does not fit is shortened with an ellipsis. Same input, same bytes
-/// on a machine with the same libraries and fonts.
-/// Cost: O(points of all pieces), and some 2 ms a label.
+/// the layout's name, and the QR code. What does not fit is shortened with an ellipsis. Same input, same
+/// bytes on a machine with the same libraries and fonts. Cost: O(points of all pieces), and some 2 ms a
+/// label.
 ///
 /// Fails with ErrorCode::bad_input where nothing is placed, with ErrorCode::usage where labels of this paper
 /// are too small for what is printed on them, naming the least size; with ErrorCode::environment where the
