@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include "lekalo/io/formats/order_table.hpp"
@@ -25,12 +26,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   std::size_t last = 1;
   for (const io::OrderRow& row : order->rows) {
-    require(row.line > last && !row.file.empty());
+    constexpr std::string_view kPlace = "fuzz.csv: line ";
+    require(row.said_in.starts_with(kPlace) && !row.file.empty());
+    const std::size_t line = std::stoul(row.said_in.substr(kPlace.size()));
+    require(line > last && (!order->is_bill || !row.assembly.empty()));
     require(row.quantity >= 1 && row.quantity <= 1'000'000'000);
     if (row.rotations)  // none is any
       for (const layout::AngleRange& range : *row.rotations) require(std::isfinite(range.from));
     require(!row.grain || std::isfinite(row.grain->degrees));
-    last = row.line;
+    last = line;
   }
   return 0;
 }

@@ -206,6 +206,25 @@ TEST(CliExport, AProcessOfAFileWritesWhatItsWordsWrite) {
       << told.err;
 }
 
+TEST(CliExport, AProcessForAnotherMaterialThanThatOfTheSheetIsTold) {
+  const TemporaryFolder folder;
+  Json layout = plates();
+  write_bytes(folder / "shop.json", shop().dump());
+  const auto said = [&](const Json& material, const Json& thickness) {
+    layout["stocks"][0]["material"] = material, layout["stocks"][0]["thickness"] = thickness;
+    write_bytes(folder / "plates.json", layout.dump());
+    const Ran ran =
+        run(folder.path(), Words{"export", "plates.json", "--sheet", "s#1", "-o", "cut.nc"} + kSteel);
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    return ran.err;
+  };
+  EXPECT_EQ(said("steel", 2).find("warning"), std::string::npos);
+  EXPECT_NE(said("birch", 2).find("warning: s is of birch, 2 mm, and the process is for steel, 2 mm\n"),
+            std::string::npos);
+  EXPECT_NE(said("steel", 2.5).find("warning: s is of steel, 2.5 mm, and the process is for steel, 2 mm\n"),
+            std::string::npos);
+}
+
 TEST(CliExport, HolesThatAreCutSlowerAreSaidAndConfirmed) {
   const TemporaryFolder folder;
   write_bytes(folder / "plates.json", plates().dump());

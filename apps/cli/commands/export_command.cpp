@@ -2,13 +2,17 @@
 
 #include <fmt/core.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <set>
 
 #include "layout_input.hpp"
 #include "lekalo/disk/files.hpp"
+#include "lekalo/geom/grid.hpp"
 #include "lekalo/io/layout/process_file.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "lekalo/jobs/export.hpp"
+#include "lekalo/jobs/material.hpp"
 #include "outputs.hpp"
 #include "summary.hpp"
 
@@ -59,6 +63,23 @@ Result<TakenProcess> take_process(const ProcessSource& source) {
                                   file.name, process.material, process.thickness_mm, process.kind)};
 }
 
+/// Tells the sheets in use that are of another material than the process is for.
+std::string other_materials(const layout::Document& document, const ProcessSource& process) {
+  std::set<std::uint32_t> used;
+  for (const layout::Placement& placement : document.placements) used.insert(placement.stock);
+  std::string text;
+  for (const std::uint32_t i : used) {
+    const layout::Stock& stock = document.stocks[i];
+    const bool other_name = !stock.material.name.empty() && stock.material.name != process.material,
+               other_thickness = stock.material.thickness != 0 &&
+                                 stock.material.thickness != geom::grid_from_mm(process.thickness_mm);
+    if (other_name || other_thickness)
+      text += fmt::format("warning: {} is of {}, and the process is for {}, {} mm\n", stock.id,
+                          jobs::words_of(stock.material), process.material, process.thickness_mm);
+  }
+  return text;
+}
+
 }  // namespace
 
 Result<int> run_export(const ExportOptions& o) {
@@ -72,6 +93,7 @@ Result<int> run_export(const ExportOptions& o) {
   LEKALO_TRY(const jobs::Layout input,
              read_layout_input(o.source, {{"--output", o.output}},
                                {{"--processes", o.process ? o.process->path : ""}}));
+  if (o.process) said += other_materials(input.document, *o.process);
   LEKALO_TRY(const io::Exported made, jobs::export_layout(input, form));
   if (o.form.form == jobs::LayoutForm::placements && o.form.instance_name.empty() &&
       input.instance_name.empty())
