@@ -182,7 +182,9 @@ TEST_F(CliVerifyClaims, ExportsAreTheLayout) {
 
 TEST_F(CliVerifyClaims, EveryUntouchedResultOfTheExamplesIsConfirmed) {
   std::vector<fs::path> orders{fs::path(cases::source_dir()) / "examples/layouts/shoes.json"};
-  for (const auto& entry : fs::directory_iterator(kOrders)) orders.push_back(entry.path());
+  // Tables of orders are no layouts.
+  for (const auto& entry : fs::directory_iterator(kOrders))
+    if (entry.path().extension() == ".json") orders.push_back(entry.path());
   for (const fs::path& order : orders) {
     SCOPED_TRACE(order.string());
     // Exit status 1 says that not everything found room.

@@ -389,7 +389,9 @@ TEST(VerifyClaims, EveryFigureOfAReportOfAnOrderIsMadeAnew) {
         lie.how != std::string("deleted") &&
         (begins(lie, {"/seed", "/work", "/version", "/warnings", "/layouts/0/unplaced/0/reason"}) ||
          lie.path.ends_with("/work"));
-    const bool names_a_file = lie.path.ends_with("/path") || lie.path.ends_with("/sha256");
+    // The bytes come in one order here, whatever the names of the files are.
+    const bool names_a_file = lie.path.ends_with("/path") || lie.path.ends_with("/sha256") ||
+                              (begins(lie, {"/outputs"}) && lie.how == std::string("exchanged"));
     const bool is_rounding = lie.how == std::string("last place") && lie.path.ends_with("density");
     if (changes_information || (names_a_file && lie.how != std::string("deleted")) || is_rounding ||
         begins(lie, {"/inputs"}))
