@@ -178,6 +178,13 @@ def main():
         long = next(text for words in pages for text in [" ".join(word for _, word in words[1])] if "Боковина" in text)
         assert "…" in long and "4711" in long, long
 
+        # A layout that is called by its material says it once.
+        with open(os.path.join(folder, "called.json"), "w", encoding="utf-8") as file:
+            json.dump(dict(document, name="фанера, 18 mm"), file, ensure_ascii=False)
+        export(folder, "called.json")
+        called = [" ".join(word for _, word in words) for _, words in words_of(folder, "labels.pdf")]
+        assert any("фанера, 18 mm" in page for page in called) and all(page.count("фанера") < 2 for page in called), called
+
         refused = run(folder, LEKALO, "export", "layout.json", "--format", "labels", "--label-size", "10x10")
         assert refused.returncode == 2, refused
         least = tuple(float(n) for n in re.search(r"need ([\d.]+) x ([\d.]+) mm", refused.stderr).groups())

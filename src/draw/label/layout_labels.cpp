@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -113,8 +114,15 @@ class LabelWriter {
   static std::vector<std::string> fields(const FieldWords& what, const FieldWords& measures,
                                          const layout::Material& material, const FieldWords& where) {
     std::vector<std::string> all;
-    for (FieldWords words : {what, measures, material_words(material), where}) {
+    FieldWords named = material_words(material);
+    std::erase(named, "");
+    // Layouts of an order of several materials are called by theirs, which is said once.
+    std::string as_name = joined_text(named, ", ");
+    for (std::size_t at = 0; (at = as_name.find("\u00A0", at)) != std::string::npos;)
+      as_name.replace(at, std::string_view("\u00A0").size(), " ");
+    for (FieldWords words : {what, measures, named, where}) {
       std::erase(words, "");
+      std::erase(words, as_name);
       if (!words.empty()) all.push_back(joined_text(words, ", "));
     }
     return all;
