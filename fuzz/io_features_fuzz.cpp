@@ -3,21 +3,17 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
 #include "lekalo/io/formats/outline_file.hpp"
 #include "lekalo/io/locate/feature_file.hpp"
+#include "require.hpp"
 #include "verify/locate/feature_file.hpp"
 
 namespace {
 
 using namespace lekalo;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 void check_sentence(const Error& error) {
   require(error.code == ErrorCode::bad_input && !error.message.empty());

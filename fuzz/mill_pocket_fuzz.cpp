@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,12 +15,9 @@
 #include "lekalo/mill/ramps.hpp"
 #include "lekalo/mill/relief.hpp"
 #include "lekalo/verify/simulate.hpp"
+#include "require.hpp"
 
 namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 /// Passes ahead of stretches that are said to be hot, and ramps in them, whether they are or not: none may
 /// leave the pocket.

@@ -9,16 +9,13 @@
 #include <string>
 
 #include "lekalo/nc/rewrite.hpp"
+#include "require.hpp"
 #include "support/rs274_reader.hpp"
 #include "verify/pocket/nc_moves.hpp"
 
 namespace {
 
 using rs274::Real;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 bool near(Real a, Real b) { return std::abs(a - b) <= 1e-6L * (1 + std::abs(a)); }
 

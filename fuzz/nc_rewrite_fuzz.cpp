@@ -9,15 +9,12 @@
 
 #include "lekalo/nc/rewrite.hpp"
 #include "nc/unfold.hpp"
+#include "require.hpp"
 #include "support/rs274_reader.hpp"
 
 namespace {
 
 using namespace lekalo::nc;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 std::ptrdiff_t lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 

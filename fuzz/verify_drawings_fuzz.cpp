@@ -2,10 +2,10 @@
 // byte. Each gives numbers that are in order, or one sentence, and the same ones again.
 
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
+#include "require.hpp"
 #include "verify/drawn/drawn_file.hpp"
 #include "verify/origin/drawing.hpp"
 #include "verify/origin/scan_points.hpp"
@@ -17,10 +17,6 @@ namespace {
 
 using namespace lekalo;
 using namespace lekalo::verify;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 void check_sentence(const Error& error) {
   require(error.code == ErrorCode::bad_input && !error.message.empty() && error.message.size() < 2000);

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
+#include "require.hpp"
 #include "verify/locate/document.hpp"
 #include "verify/locate/feature_file.hpp"
 #include "verify/read/contour.hpp"
@@ -20,10 +20,6 @@ namespace {
 
 using namespace lekalo;
 using namespace lekalo::verify;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 void check_sentence(const Error& error) {
   require(error.code == ErrorCode::bad_input && !error.message.empty() && error.message.size() < 2000);

@@ -13,6 +13,7 @@
 #include "lekalo/jobs/bill.hpp"
 #include "lekalo/jobs/material.hpp"
 #include "lekalo/jobs/order_words.hpp"
+#include "lekalo/layout/material_words.hpp"
 
 namespace lekalo::cli {
 namespace {
@@ -143,7 +144,7 @@ Result<void> several_need_files(const std::vector<jobs::MaterialLayout>& layouts
   if (layouts.size() == 1 || !output.empty()) return {};
   std::string materials;
   for (const jobs::MaterialLayout& one : layouts)
-    materials += (materials.empty() ? "" : "; ") + jobs::words_of(one.material);
+    materials += (materials.empty() ? "" : "; ") + layout::words_of(one.material);
   return failure(
       ErrorCode::usage,
       fmt::format("the order is of {} materials ({}), and each gets a layout of its own; say --output "

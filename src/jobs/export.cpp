@@ -2,13 +2,18 @@
 
 #include <fmt/core.h>
 
+#include <cstdint>
+#include <set>
 #include <utility>
 
 #include "lekalo/draw/label/layout_labels.hpp"
+#include "lekalo/geom/grid.hpp"
+#include "lekalo/io/layout/process_file.hpp"
 #include "lekalo/io/text/sha256.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "lekalo/jobs/show.hpp"
 #include "lekalo/layout/completeness.hpp"
+#include "lekalo/layout/material_words.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -55,6 +60,45 @@ Result<std::string> labels_of(const Layout& layout, const ExportOptions& options
   return made;
 }
 
+/// Tells the stocks in use that are of another material than the process is for.
+void tell_other_materials(const layout::Document& document, const io::CutProcess& process,
+                          std::vector<std::string>& notes) {
+  std::set<std::uint32_t> used;
+  for (const layout::Placement& placement : document.placements) used.insert(placement.stock);
+  for (const std::uint32_t i : used) {
+    const layout::Stock& stock = document.stocks[i];
+    const layout::Material& of = stock.material;
+    const bool other_name = !of.name.empty() && of.name != process.material,
+               other_thickness =
+                   of.thickness != 0 && of.thickness != geom::grid_from_mm(process.thickness_mm);
+    if (other_name || other_thickness)
+      notes.push_back(fmt::format("stock {} is of {}, and the process is for {}, {} mm", stock.id,
+                                  words_of(of), process.material, process.thickness_mm));
+  }
+}
+
+Result<io::Exported> machine_files(const Layout& layout, const ExportOptions& options) {
+  io::ExportRequest request = options.machine;
+  std::vector<std::string> notes;
+  if (const auto& choice = options.process) {
+    LEKALO_TRY(const io::ProcessFile file,
+               io::read_processes(choice->file.bytes, io::as_utf8(choice->file.name)));
+    std::string kind;
+    for (const auto& [name, value] : choice->words)
+      if (name == "process") kind = value;
+    LEKALO_TRY(const std::size_t index, io::find_process(file, choice->material, choice->thickness_mm, kind));
+    const io::CutProcess& process = file.processes[index];
+    LEKALO_TRY(request, io::process_request(process, choice->words, choice->prefix));
+    notes.push_back(fmt::format("the process is entry {} of {}: {}, {} mm ({})", index + 1, file.name,
+                                process.material, process.thickness_mm, process.kind));
+    tell_other_materials(layout.document, process, notes);
+  }
+  Result<io::Exported> made = io::export_layout(layout.document, title_of(layout, options), request);
+  if (!made) return fault_of(layout, made.error());
+  made->notes.insert(made->notes.begin(), notes.begin(), notes.end());
+  return made;
+}
+
 }  // namespace
 
 Result<io::Exported> export_layout(const Layout& layout, const ExportOptions& options) {
@@ -70,10 +114,7 @@ Result<io::Exported> export_layout(const Layout& layout, const ExportOptions& op
     case LayoutForm::labels:
       return labels_of(layout, options).map(alone);
     case LayoutForm::machine:
-      Result<io::Exported> made =
-          io::export_layout(layout.document, title_of(layout, options), options.machine);
-      if (!made) return fault_of(layout, made.error());
-      return made;
+      return machine_files(layout, options);
   }
   return alone(layout_bytes(layout));
 }

@@ -1,28 +1,18 @@
 #include "lekalo/jobs/material.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string_view>
 
-#include "lekalo/geom/grid.hpp"
 #include "lekalo/layout/job.hpp"
+#include "lekalo/layout/material_words.hpp"
 
 namespace lekalo::jobs {
 namespace {
 
-using layout::Material;
-
-/// Millimetres with as many of four decimals as are needed: a step is less than half of the last.
-std::string thickness_text(std::int64_t steps) {
-  std::string text = fmt::format("{:.4f}", geom::mm_from_grid(steps));
-  text.resize(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
+using layout::Material, layout::thickness_text;
 
 bool stands_in_names(char c) {
   const bool letter =
@@ -76,13 +66,6 @@ void share(const std::vector<Material*>& materials, Value Material::*of) {
 }
 
 }  // namespace
-
-std::string words_of(const Material& material) {
-  std::string words = material.name;
-  if (material.thickness != 0)
-    words += fmt::format("{}{} mm", words.empty() ? "" : ", ", thickness_text(material.thickness));
-  return words.empty() ? "no material" : words;
-}
 
 std::string order_word_of(const Material& material) {
   return material.name + (material.thickness != 0 ? ":" + thickness_text(material.thickness) : "");

@@ -18,6 +18,7 @@
 #include "lekalo/io/text/words.hpp"
 #include "lekalo/jobs/material.hpp"
 #include "lekalo/layout/job.hpp"
+#include "lekalo/layout/material_words.hpp"
 
 namespace lekalo::jobs {
 namespace {

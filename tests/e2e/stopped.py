@@ -276,7 +276,8 @@ def main():
             print(trouble, flush=True)
         lines = [line for line in LINES if re.search(only, line)]
         signals = [(lines[k % len(lines)], None) for k in range(cases if not only else max(len(lines), min(cases, 20)))]
-        for line, after in signals + [(line, moment) for line, moment in FOUND if re.search(only, line)]:
+        signals += [(line, moment) for line, moment in FOUND if re.search(only, line)]
+        for line, after in signals:
             for name in contents(folder):
                 if name.startswith("o."):
                     os.remove(os.path.join(folder, name))
@@ -292,7 +293,7 @@ def main():
             if trouble:
                 failures += 1
                 print(f"lekalo {line}, Ctrl-C after {after:.3f} s of processor time: {trouble}", flush=True)
-    print(f"{cases + len(FOUND)} signals, the latest end after {most:.2f} s of processor time")
+    print(f"{len(signals)} signals, the latest end after {most:.2f} s of processor time")
     return 1 if failures else 0
 
 

@@ -15,6 +15,7 @@
 #include "lekalo/jobs/material.hpp"
 #include "lekalo/jobs/nest.hpp"
 #include "lekalo/jobs/order_report.hpp"
+#include "lekalo/layout/material_words.hpp"
 #include "order_input.hpp"
 #include "outputs.hpp"
 #include "summary.hpp"
@@ -100,7 +101,7 @@ Result<jobs::Nested> nest_watched(const jobs::MaterialLayout& given, const NestO
     };
   if (!output.empty())
     options.while_checked = [&](std::string_view bytes) { return files.add(output, bytes); };
-  ProgressLine line(given.file_word.empty() ? "nesting" : "nesting " + jobs::words_of(given.material));
+  ProgressLine line(given.file_word.empty() ? "nesting" : "nesting " + layout::words_of(given.material));
   RunControl control;
   control.stop = StopRequests::flag();
   control.work_limit = o.work;
@@ -164,7 +165,7 @@ std::string text_of(const std::vector<jobs::NestedMaterial>& all, double seconds
   for (const jobs::NestedMaterial& one : all) {
     text += notes(one.given.layout.notices);
     figures.push_back(jobs::figures_of(one.nested));
-    if (all.size() > 1) text += text_of(jobs::words_of(one.given.material), figures.back());
+    if (all.size() > 1) text += text_of(layout::words_of(one.given.material), figures.back());
     text += text_of(one);
     if (all.size() > 1) text += fmt::format("  work {}\n", one.nested.work);
     work += one.nested.work;

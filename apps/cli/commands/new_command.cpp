@@ -5,6 +5,7 @@
 #include "layout_input.hpp"
 #include "lekalo/disk/files.hpp"
 #include "lekalo/jobs/material.hpp"
+#include "lekalo/layout/material_words.hpp"
 #include "order_input.hpp"
 #include "outputs.hpp"
 #include "summary.hpp"
@@ -26,7 +27,7 @@ Result<int> run_new(const NewOptions& o) {
       continue;
     }
     LEKALO_CHECK(files.add(path, bytes));
-    if (layouts.size() > 1) said += jobs::words_of(one.material) + ": ";
+    if (layouts.size() > 1) said += layout::words_of(one.material) + ": ";
     said += fmt::format("{} on {}\nWritten: {}\n", counted(document.parts.size(), "part"),
                         counted(document.stocks.size(), "stock"), path);
   }

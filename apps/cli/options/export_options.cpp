@@ -50,8 +50,9 @@ Result<void> no_words(const std::vector<io::ExportWord>& given, const std::strin
 }
 
 /// The process that the words ask for; nothing where they do not name a file.
-Result<std::optional<ProcessSource>> to_process(const ExportWords& w, std::vector<io::ExportWord> given) {
-  ProcessSource process{w.processes, w.material, 0, {}, std::move(given)};
+Result<std::optional<jobs::ProcessChoice>> to_process(const ExportWords& w,
+                                                      std::vector<io::ExportWord> given) {
+  jobs::ProcessChoice process{{w.processes, {}}, w.material, 0, std::move(given), "--"};
   WordReader reader;
   for (const auto& [option, word] :
        {std::pair{"--processes", &w.processes}, {"--material", &w.material}, {"--thickness", &w.thickness}}) {
@@ -68,9 +69,7 @@ Result<std::optional<ProcessSource>> to_process(const ExportWords& w, std::vecto
   reader.number("--thickness", w.thickness, 0.001, 1000.0, "a thickness from 0.001 to 1000 mm",
                 process.thickness_mm);
   if (!reader.complaint().empty()) return failure(ErrorCode::usage, reader.complaint());
-  if (w.processes.empty()) return std::optional<ProcessSource>();
-  for (const io::ExportWord& word : process.words)
-    if (word.first == "process") process.kind = word.second;
+  if (w.processes.empty()) return std::optional<jobs::ProcessChoice>();
   return std::optional(std::move(process));
 }
 
@@ -81,10 +80,10 @@ Result<Command> to_export(const ExportWords& w) {
   if (!w.format.empty()) reader.choice("--format", w.format, kExportFormats, form.form);
   if (!reader.complaint().empty()) return failure(ErrorCode::usage, reader.complaint());
   const std::vector<io::ExportWord> machine = given_of(w.machine), labels = given_of(w.labels);
-  LEKALO_TRY(std::optional<ProcessSource> process, to_process(w, machine));
+  LEKALO_TRY(form.process, to_process(w, machine));
   if (form.form == jobs::LayoutForm::machine) {
     // The file of processes, which is not read yet, may have what is missing on the line.
-    if (!process) {
+    if (!form.process) {
       LEKALO_TRY(form.machine, io::read_export_words(*io::export_form(w.format), machine, "--"));
     }
   } else {
@@ -96,7 +95,7 @@ Result<Command> to_export(const ExportWords& w) {
     LEKALO_CHECK(no_words(labels, w.format));
   }
   return to_layout_source(w.layout).map([&](LayoutSource&& source) {
-    return Command(ExportOptions{std::move(source), w.output, std::move(form), std::move(process)});
+    return Command(ExportOptions{std::move(source), w.output, std::move(form)});
   });
 }
 

@@ -134,19 +134,10 @@ struct ShowOptions {
   bool json = false;
 };
 
-/// A process of a file, and the words that stand beside it.
-struct ProcessSource {
-  std::string path, material;
-  double thickness_mm = 0;
-  std::string kind;  ///< may be empty
-  std::vector<io::ExportWord> words;
-};
-
 struct ExportOptions {
   LayoutSource source;
   std::string output;  ///< empty: stdout
-  jobs::ExportOptions form;
-  std::optional<ProcessSource> process;  ///< says what form.machine is to be
+  jobs::ExportOptions form;  ///< a file of processes is named there, and not read yet
 };
 
 struct EditOptions {

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "lekalo/base/error.hpp"
 #include "lekalo/io/layout/layout_export.hpp"
+#include "lekalo/jobs/file.hpp"
 #include "lekalo/jobs/label_words.hpp"
 #include "lekalo/jobs/layout.hpp"
 
@@ -18,6 +21,16 @@ enum class LayoutForm {
   machine      ///< DXF, SVG, HPGL or G-code, as ExportOptions::machine says
 };
 
+/// A process of a file by which a layout is to be cut, and words that stand beside it.
+struct ProcessChoice {
+  File file;  ///< io::read_processes
+  std::string material;
+  double thickness_mm = 0;
+  /// They replace what the process says. `process` among them chooses between several of one material.
+  std::vector<io::ExportWord> words;
+  std::string prefix;  ///< before the names of words in sentences: "--" or ""
+};
+
 struct ExportOptions {
   LayoutForm form = LayoutForm::layout;
   /// The title of pictures and machine files; when it is empty, the document's name or that of its file.
@@ -25,14 +38,18 @@ struct ExportOptions {
   /// The name that placements give the file of their items; when it is empty, the layout's.
   std::string instance_name;
   io::ExportRequest machine;  ///< for LayoutForm::machine
-  LabelOptions labels{};      ///< for LayoutForm::labels
+  /// G-code by this process, in place of `machine`. A note names its entry, and another each stock in use
+  /// that is of another material by the layout.
+  std::optional<ProcessChoice> process{};
+  LabelOptions labels{};  ///< for LayoutForm::labels
 };
 
 /// The layout in another form, whatever rules it breaks: one file, but for HPGL and G-code one for each
 /// sheet. Cost: that of the form's writer; pictures are drawn with what the engine's check finds.
 ///
-/// Fails as io::write_placements, io::export_layout, layout_picture and draw::labels_pdf do; sentences begin
-/// with the name of the layout's file where it has one.
+/// Fails as io::write_placements, io::export_layout, layout_picture and draw::labels_pdf do, with sentences
+/// that begin with the name of the layout's file where it has one; and as io::read_processes,
+/// io::find_process and io::process_request.
 [[nodiscard]] Result<io::Exported> export_layout(const Layout& layout, const ExportOptions& options);
 
 }  // namespace lekalo::jobs

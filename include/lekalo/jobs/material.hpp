@@ -7,9 +7,6 @@
 
 namespace lekalo::jobs {
 
-/// A material for people: "steel, 2 mm", "steel", "2 mm" or "no material".
-[[nodiscard]] std::string words_of(const layout::Material& material);
-
 /// A material as an order says it behind "@": "steel:2".
 [[nodiscard]] std::string order_word_of(const layout::Material& material);
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,6 +19,7 @@
 #include "lekalo/base/joined_text.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/grid_region.hpp"
+#include "lekalo/layout/material_words.hpp"
 #include "qr_code.hpp"
 
 namespace lekalo::draw {
@@ -113,25 +113,20 @@ class LabelWriter {
   using FieldWords = std::vector<std::string>;
   static std::vector<std::string> fields(const FieldWords& what, const FieldWords& measures,
                                          const layout::Material& material, const FieldWords& where) {
+    const std::string of = material.is_said() ? words_of(material) : "";
+    // A number stays on one line with its unit.
+    std::string shown = of;
+    if (shown.ends_with(" mm")) shown.replace(shown.size() - 3, 1, "\u00A0");
     std::vector<std::string> all;
-    FieldWords named = material_words(material);
-    std::erase(named, "");
-    // Layouts of an order of several materials are called by theirs, which is said once.
-    std::string as_name = joined_text(named, ", ");
-    for (std::size_t at = 0; (at = as_name.find("\u00A0", at)) != std::string::npos;)
-      as_name.replace(at, std::string_view("\u00A0").size(), " ");
-    for (FieldWords words : {what, measures, named, where}) {
+    for (FieldWords words : {what, measures, FieldWords{shown}, where}) {
       std::erase(words, "");
-      std::erase(words, as_name);
+      // Layouts of an order of several materials are called by theirs, which is said once.
+      std::erase(words, of);
       if (!words.empty()) all.push_back(joined_text(words, ", "));
     }
     return all;
   }
 
-  static FieldWords material_words(const layout::Material& material) {
-    const double mm = geom::kGridStep * static_cast<double>(material.thickness);
-    return {material.name, material.thickness == 0 ? "" : fmt::format("{:.6g}\u00A0mm", mm)};
-  }
   static std::string due_words(const std::string& day) { return day.empty() ? "" : "due " + day; }
 
   [[nodiscard]] std::string sheet_words(layout::Sheet sheet) const {

@@ -158,6 +158,7 @@ class MovedWay {
     if (!here || !there) return {};
     const FlatVector &a = *here, &b = *there;
     const double sine = a[0] * b[1] - a[1] * b[0];
+    if (1 + a[0] * b[0] + a[1] * b[1] < kSharpest) return {};
     const auto next = std::ranges::upper_bound(shifts, k, {}, &WayShift::piece);
     if (std::abs(sine) < kCorner || next == shifts.begin() || next == shifts.end()) return {};
     const auto across = [](const FlatVector& left, const WayShift& shift) {
