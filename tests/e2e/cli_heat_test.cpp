@@ -142,7 +142,7 @@ TEST(CliHeat, ACorrectedProgramIsWrittenWhereTheIntervalsSupportIt) {
             0);
   Words words = with(kUsual, {"--cutting-force", "700", "--force-exponent", "0.25", "--cooling", "20",
                               "--corrected", "c.ngc", "-o", "h.json"});
-  words[5] = "60x50x12";
+  words[5] = "60x50x12", words[15] = "3";
   const Ran wide = run(folder.path(), with(words, {"--share", "0.1..0.5"}));
   EXPECT_EQ(wide.status, 1);
   EXPECT_NE(wide.err.find("no corrected program is written"), std::string::npos) << wide.err;

@@ -303,7 +303,7 @@ TEST(JobsHeat, AnOutlineOfABlockIsTheBlock) {
   ASSERT_EQ(found.walls.size(), usual().walls.size());
   for (std::size_t i = 0; i < found.walls.size(); ++i)
     // Displacements are solved to a part of the load alone.
-    EXPECT_NEAR(found.walls[i].error_um, usual().walls[i].error_um, 5e-3 * found.errors.largest());
+    EXPECT_NEAR(found.walls[i].error_um, usual().walls[i].error_um, 1e-2 * found.errors.largest());
   EXPECT_NEAR(found.book.lost, usual().book.lost, 1e-4 * usual().book.lost);
 }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "heat_border.hpp"
@@ -120,6 +121,8 @@ class Follower {
     for (const auto& visits : found_.visits) run.moved_um.emplace_back(visits.size());
     run.stress_at = middle_of(0);
     MeasuredRises rises(job_.measured);
+    // How far the places of the next step's visits are moved when it begins.
+    std::vector<Place> before;
     for (std::size_t n = 0; n < spans_.size(); ++n) {
       ask();
       if (progress) progress({n, static_cast<double>(n) / static_cast<double>(spans_.size())});
@@ -133,7 +136,9 @@ class Follower {
       run.warmest_k = std::max(run.warmest_k, *std::ranges::max_element(temperatures));
       rises.take(body, temperatures, span.begin, span.end);
       if (recorder != nullptr) recorder->step(body, temperatures, span.end);
-      if (span.walls.empty()) continue;
+      std::span<const Span::Beside> next;
+      if (n + 1 < spans_.size()) next = spans_[n + 1].walls;
+      if (span.walls.empty() && next.empty()) continue;
       expansion.follow(body);
       LEKALO_CHECK(expansion.solve(temperatures, kSolved));
       const std::vector<double> stress = expansion.mises();
@@ -142,15 +147,21 @@ class Follower {
       if (*most > run.stress_mpa)
         run.stress_mpa = *most, run.stress_seconds = span.end,
         run.stress_at = middle_of(static_cast<std::size_t>(most - stress.begin()));
-      for (const auto& [i, visit, at] : span.walls) {
+      before.resize(span.walls.size());
+      for (std::size_t k = 0; k < span.walls.size(); ++k) {
+        const auto& [i, visit, at] = span.walls[k];
         const WallPoint& w = found_.walls[i];
-        const Place moved = expansion.moved({w.x, w.y, w.z});
+        const Place moved =
+            between(before[k], moved_at(expansion, w), (at - span.begin) / (span.end - span.begin));
         run.moved_um[i][visit] = {kMicrometres * moved.x, kMicrometres * moved.y};
         // The tool cuts at its place whatever is there, and what it cuts comes from that place less the
         // displacement. The visit counts that goes deepest into the cold workpiece.
         const double error = -kMicrometres * (moved.x * w.outward[0] + moved.y * w.outward[1]);
         if (error > run.errors_um[i]) run.errors_um[i] = error, run.decided[i] = at;
       }
+      before.clear();
+      for (const Span::Beside& beside : next)
+        before.push_back(moved_at(expansion, found_.walls[beside.place]));
     }
     run.rises_k = rises.found();
     run.work = expansion.work();
@@ -172,6 +183,13 @@ class Follower {
     const heat::Grid& grid = found_.grid;
     const std::size_t row = cell / grid.count[0];
     return grid.middle(cell % grid.count[0], row % grid.count[1], row / grid.count[1]);
+  }
+
+  static Place moved_at(const heat::Expansion& expansion, const WallPoint& w) {
+    return expansion.moved({w.x, w.y, w.z});
+  }
+  static Place between(Place a, Place b, double t) {
+    return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};
   }
 
   /// Goes on without the program, in steps that grow, until little of the heat is left. Between them what is
