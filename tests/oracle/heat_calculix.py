@@ -8,8 +8,7 @@ anew: hexahedra whose borders are the pocket's walls and levels and that grow ou
 CHANGE) once the tool has been over their middles, heat that enters nodes about the rim, films on what is open, one
 implicit step of the heat for each stretch of the path, and the displacement by elements with incompatible modes. The
 error of a place is what its displacement was when the tool was beside it, the largest of all such times. Each has to
-agree to 10 % or 1 um. The shallow pocket is solved on a second, finer mesh with half of the time step, and both meshes
-have to agree as well.
+agree to 10 % or 1 um. The shallow pocket is solved on a second, finer mesh, and both meshes have to agree as well.
 
 Without LEKALO_FULL only some places of the shallow pocket are solved, on its coarse mesh. --table prints the figures as
 Markdown.
@@ -449,7 +448,7 @@ def compared(title, finer, words, folder, full):
     source, result = followed(case, words, folder)
     if not full:  # two heights of each fifth place: fewer displacements
         result["walls"] = [w for i, w in enumerate(result["walls"]) if i % 10 < 2]
-    oracle = Oracle(case, source, result, case["mesh"] * finer, case["step"] * (finer if finer == 1 else 0.5))
+    oracle = Oracle(case, source, result, case["mesh"] * finer, case["step"])
     theirs = oracle.errors(words.ccx, folder)
     ours = [w["error_um"] for w in result["walls"]]
     bad = [i for i in range(len(ours)) if not abs(ours[i] - theirs[i]) <= allowed(theirs[i])]

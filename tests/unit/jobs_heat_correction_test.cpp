@@ -9,42 +9,21 @@
 #include <cmath>
 #include <string>
 
-#include "lekalo/jobs/heat_result.hpp"
 #include "lekalo/jobs/pocket.hpp"
-#include "lekalo/verify/claims.hpp"
-#include "support/json.hpp"
+#include "support/heat_programs.hpp"
 
 namespace lekalo::jobs::jobs_heat_correction_test {
 namespace {
 
-using cases::Json;
+using cases::heated_program;
+using cases::kHeatedPocket;
 using heat::Property;
 
-const std::string kPocket =
-    R"({"units":"mm","outer":[{"line":{"from":[0,0],"to":[40,0]}},{"line":{"from":[40,0],"to":[40,30]}},)"
-    R"({"line":{"from":[40,30],"to":[0,30]}},{"line":{"from":[0,30],"to":[0,0]}}]})";
 /// A round pocket with a round island.
 const std::string kRing =
     R"({"units":"mm","outer":[{"arc":{"from":[20,0],"to":[20,0],"centre":[0,0],"ccw":true}}],)"
     R"("islands":[[{"arc":{"from":[10,0],"to":[-10,0],"centre":[0,0],"ccw":true}},)"
     R"({"arc":{"from":[-10,0],"to":[10,0],"centre":[0,0],"ccw":true}}]]})";
-
-/// Clears the pocket but for `stock`, and takes that off the walls in one pass, level by level.
-std::string rectangle_program(double stock, const std::string& levels) {
-  std::string program = "G21 G90 G17 G54 G94\nM3 S8000\n";
-  for (const char level : levels) {
-    const double a = 3 + stock;
-    program += "G0 X6 Y6 Z5\nG1 Z-" + std::string(1, level) + " F200\n";
-    for (double y = 6; y < 25; y += 4)
-      program += fmt::format("G1 X{:g} Y{:g} F900\nG1 X{:g}\nG1 Y{:g}\n", a, y, 40 - a, y + 2);
-    program +=
-        fmt::format("G1 X{0:g} Y{0:g}\nG1 X{1:g}\nG1 Y{2:g}\nG1 X{0:g}\nG1 Y{0:g}\n", a, 40 - a, 30 - a);
-    program +=
-        "G1 X8 Y10\nG1 X20 Y4\nG3 X21 Y3 I1 J0\nG1 X37 Y3\nG1 Y27\nG1 X3\nG1 Y3\nG1 X21\nG3 X22 Y4 I0 "
-        "J1\nG0 Z5\n";
-  }
-  return program + "M5\nM2\n";
-}
 
 /// In the manner of FreeCAD: helices down, circles outwards and inwards, and one about each wall.
 std::string ring_program() {
@@ -119,14 +98,14 @@ void expect_better(const Made& made) {
 }
 
 TEST(JobsHeatCorrection, TheFinishingPassesOfARectangleAreMoved) {
-  const Made made = made_of(job_of(rectangle_program(0.3, "24"), kPocket, 0.3, 3));
+  const Made made = made_of(job_of(heated_program(0.3, "24"), kHeatedPocket, 0.3, 3));
   EXPECT_GT(made.found.errors.largest(), 2);
   expect_better(made);
 }
 
 // Places stand where the tool turns a corner: both walls count there, and neither's displacement alone.
 TEST(JobsHeatCorrection, CornersAreLeftNoWorseThanTheRest) {
-  const Made made = made_of(job_of(rectangle_program(0.3, "4"), kPocket, 0.3, 2));
+  const Made made = made_of(job_of(heated_program(0.3, "4"), kHeatedPocket, 0.3, 2));
   EXPECT_GT(made.found.errors.largest(), 5);
   EXPECT_LT(made.correction.after.largest(), 0.5);
 }
@@ -146,23 +125,23 @@ TEST(JobsHeatCorrection, WallsAndIslandsAreMovedToOppositeSides) {
 // Their way along the walls ends where it began, and takes next to nothing there.
 TEST(JobsHeatCorrection, ThePassesOfAPocketOfOursAreMoved) {
   PocketJob pocketing;
-  pocketing.pocket = {"pocket.json", kPocket};
+  pocketing.pocket = {"pocket.json", kHeatedPocket};
   pocketing.options.path.tool_diameter = 6;
   pocketing.options.path.depth = 4, pocketing.options.path.step_down = 2;
   const Result<Pocketed> made = pocket(pocketing);
   ASSERT_TRUE(made) << made.error().message;
-  expect_better(made_of(job_of(made->program, kPocket, 0.3, 3)));
+  expect_better(made_of(job_of(made->program, kHeatedPocket, 0.3, 3)));
 }
 
 TEST(JobsHeatCorrection, WithoutHeatTheProgramIsItsOwn) {
-  const HeatJob job = job_of(rectangle_program(0.3, "4"), kPocket, 0);
+  const HeatJob job = job_of(heated_program(0.3, "4"), kHeatedPocket, 0);
   const Made made = made_of(job);
   EXPECT_EQ(made.correction.program, job.source.program.bytes);
   EXPECT_EQ(made.correction.after.largest(), 0);
 }
 
 TEST(JobsHeatCorrection, WhereTheIntervalsDoNotSupportItThereIsNoProgram) {
-  HeatJob job = job_of(rectangle_program(0.3, "24"), kPocket, 0.3);
+  HeatJob job = job_of(heated_program(0.3, "24"), kHeatedPocket, 0.3);
   job.material.values[static_cast<std::size_t>(Property::share)] = {0.05, 0.55};
   const Made made = made_of(job);
   EXPECT_EQ(made.correction.program, "");
@@ -171,87 +150,26 @@ TEST(JobsHeatCorrection, WhereTheIntervalsDoNotSupportItThereIsNoProgram) {
 }
 
 TEST(JobsHeatCorrection, WhatCannotBeMovedIsToldInOneSentence) {
-  const HeatJob coarse = job_of(rectangle_program(2, "4"), kPocket, 0.3);
+  const HeatJob coarse = job_of(heated_program(2, "4"), kHeatedPocket, 0.3);
   EXPECT_NE(
       complaint_of(coarse).find("part.ngc: no finishing pass to move: its passes along the walls take "),
       std::string::npos)
       << complaint_of(coarse);
   EXPECT_EQ(complaint_of(coarse, {2.5}), "");
-  const HeatJob thin = job_of(rectangle_program(0.002, "4"), kPocket, 0.3);
+  const HeatJob thin = job_of(heated_program(0.002, "4"), kHeatedPocket, 0.3);
   EXPECT_NE(complaint_of(thin, {0.01}).find("leave more stock for it"), std::string::npos)
       << complaint_of(thin, {0.01});
-  HeatJob steps = job_of(rectangle_program(0.3, "4"), kPocket, 0.3);
+  HeatJob steps = job_of(heated_program(0.3, "4"), kHeatedPocket, 0.3);
   steps.source.program.bytes.insert(steps.source.program.bytes.find("G1 X37 Y3"), "G91 G1 X0 Y0\nG90\n");
   EXPECT_NE(complaint_of(steps).find("a motion under G91 belongs to the path"), std::string::npos)
       << complaint_of(steps);
 }
 
 TEST(JobsHeatCorrection, ThreadsChangeNoByte) {
-  HeatJob job = job_of(rectangle_program(0.3, "4"), kPocket, 0.3);
+  HeatJob job = job_of(heated_program(0.3, "4"), kHeatedPocket, 0.3);
   const Made two = made_of(job);
   job.threads = 1;
   EXPECT_EQ(made_of(job).correction.program, two.correction.program);
-}
-
-TEST(JobsHeatCorrection, TheCheckerRebuildsWhatTheWrittenProgramLeavesAndFindsLies) {
-  HeatResultJob job;
-  job.heat = job_of(rectangle_program(0.3, "4"), kPocket, 0.3);
-  job.correction = CorrectionWish{}, job.corrected_as = "corrected.ngc";
-  const auto made = heat_result(job);
-  ASSERT_TRUE(made) << made.error().message;
-  ASSERT_TRUE(made->correction.has_value());
-  ASSERT_EQ(made->correction->why_not, "");
-  const Json honest = Json::parse(made->json);
-  const auto found = [&](const Json& document, const std::string& program) {
-    const auto report = verify::verify_heat_report({"r.json", document.dump()},
-                                                   {{"part.ngc", job.heat.source.program.bytes},
-                                                    {"pocket.json", job.heat.source.pocket.bytes},
-                                                    {"corrected.ngc", program}});
-    if (!report) return report.error().message;
-    return report->findings.empty() ? std::string() : report->findings.front();
-  };
-  const std::string& program = made->correction->program;
-  EXPECT_EQ(found(honest, program), "");
-  EXPECT_NE(found(honest, job.heat.source.program.bytes), "") << "the program itself";
-  const auto lie = [&](auto change) {
-    Json document = honest;
-    change(document);
-    return found(document, program);
-  };
-  for (const char* key : {"least", "most", "mean", "largest"}) {
-    EXPECT_NE(lie([&](Json& d) {
-                d["after_correction_um"][key] = d["after_correction_um"][key].get<double>() + 0.01;
-              }),
-              "")
-        << key;
-    for (const int end : {0, 1})
-      EXPECT_NE(lie([&](Json& d) {
-                  Json& value = d["after_correction_um"]["intervals"][key][end];
-                  value = value.get<double>() - 0.01;
-                }),
-                "")
-          << key;
-  }
-  EXPECT_NE(lie([](Json& d) { d["correction"]["booked"]["seconds"] = 1; }), "");
-  EXPECT_NE(lie([](Json& d) { d["correction"]["walls"].erase(0); }).find("which the corrected program cuts"),
-            std::string::npos);
-  EXPECT_NE(
-      lie([](Json& d) { d["correction"]["walls"][0]["visits"].erase(0); }).find("when the tool is there"),
-      std::string::npos);
-  EXPECT_NE(lie([](Json& d) { d["correction"]["walls"][0]["visits"][0]["seconds"] = 1; }), "");
-  EXPECT_NE(lie([](Json& d) { d["correction"]["walls"][0]["visits"][0]["moved_um"][0] = 40; }), "");
-  EXPECT_NE(lie([](Json& d) { d["correction"] = Json(); }), "");
-  EXPECT_NE(lie([](Json& d) { d["after_correction_um"] = Json(); }), "");
-  // A program that goes 5 um further into one wall.
-  std::string deeper = program;
-  const auto report_of_deeper = [&] {
-    const std::size_t at = deeper.rfind("X37."), end = deeper.find(' ', at);
-    EXPECT_NE(at, std::string::npos);
-    deeper.replace(at, end - at,
-                   fmt::format("X{:.4f}", std::stod(deeper.substr(at + 1, end - at - 1)) + 0.005));
-    return found(honest, deeper);
-  };
-  EXPECT_NE(report_of_deeper(), "");
 }
 
 }  // namespace
