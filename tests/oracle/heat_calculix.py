@@ -29,6 +29,7 @@ import time
 
 WITHIN, WITHIN_UM = 0.10, 1.0
 AS_NEAR, ONE_VISIT = 0.03, 0.2  # mm, s: passes that are as near as each other, and that are one
+SHORT, BEFORE_A_VISIT = 0.1, 0.3  # s
 TOOL, TEETH, RPM = 6, 3, 8000
 ALIKE = 1e-9
 
@@ -46,14 +47,14 @@ def lanes():
 ALUMINIUM = ["--material", "6061-T6", "--share", "1", "--wear", "1.5", "--cooling", "100"]
 CASES = {
     "shallow": dict(stock=(60, 50, 16), pocket=(30, 20), islands=[], levels=[-4], feed=500,
-                    ways=[lanes(), ring((3, 3), (27, 17))], words=ALUMINIUM, mesh=2, step=0.3),
+                    ways=[lanes(), ring((3, 3), (27, 17))], words=ALUMINIUM, mesh=2, step=0.6),
     "island": dict(stock=(70, 60, 16), pocket=(44, 34), islands=[((16, 12), (28, 22))], levels=[-4], feed=600,
                    ways=[ring((3.5, 3.5), (40.5, 30.5)), ring((8, 6), (36, 28)), ring((12.5, 8.5), (31.5, 25.5)),
                          ring((3, 3), (41, 31)), ring((13, 9), (31, 25))],
                    words=["--material", "C45", "--share", "0.4", "--wear", "1.5", "--cooling", "200"], mesh=2,
-                   step=0.3),
+                   step=0.6),
     "deep": dict(stock=(60, 50, 20), pocket=(30, 20), islands=[], levels=[-4, -8, -12], feed=500,
-                 ways=[lanes(), ring((3, 3), (27, 17))], words=ALUMINIUM + ["--hold", "plate"], mesh=2, step=0.4),
+                 ways=[lanes(), ring((3, 3), (27, 17))], words=ALUMINIUM + ["--hold", "plate"], mesh=2, step=0.6),
 }
 
 
@@ -178,17 +179,21 @@ class Oracle:
         self.share, self.film = middle("share"), sum(result["film_w_m2k"]) / 2 * 1e-6
         self.held = result["holding"]["kind"] == "plate"
         self.places = [(w["at_mm"], w["outward"]) for w in result["walls"]]
+        self.visits = [self.visits_of(*place) for place in self.places]
         self.spans = self.divide(step)
         self.removed, self.active = self.bodies()
         self.lost = 0.0
-        self.visits = [self.visits_of(*place) for place in self.places]
 
     def divide(self, step):
-        """Times at which steps end, none of which cuts a piece of the path in two."""
-        ends = []
+        """Times at which steps end, none of which cuts a piece of the path in two. Where a place is visited, and shortly
+        before, they are short: what is a few millimetres from the tool follows it within a tenth of a second."""
+        ends, visits = [], sorted({t for visits in self.visits for t in visits})
         for p in self.source["pieces"]:
-            if p[0] + p[1] - (ends[-1] if ends else 0) >= step:
-                ends.append(p[0] + p[1])
+            begin, end = ends[-1] if ends else 0, p[0] + p[1]
+            soon = bisect.bisect_left(visits, begin)
+            is_near = soon < len(visits) and visits[soon] <= end + BEFORE_A_VISIT
+            if end - begin >= (SHORT if is_near else step):
+                ends.append(end)
         if not ends or self.source["seconds"] > ends[-1] + 1e-6:
             ends.append(self.source["seconds"])
         return ends
