@@ -51,8 +51,8 @@ class WallPlaces {
   [[nodiscard]] Cut cut(std::size_t height) const;
   /// The tool beside the station once, as deep as a height, by its lines and arcs and not by their chords.
   struct Visit {
-    double start = 0, end = 0;        ///< s
-    double distance = 0;              ///< mm
+    double start{}, end{};            ///< s
+    double distance{};                ///< mm
     std::array<double, 2> towards{};  ///< from its way to the station, of length 1
   };
   /// Returns the visits, in the order of time. \param slack  of the limit to which it is a visit, mm
