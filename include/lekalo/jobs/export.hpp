@@ -52,7 +52,7 @@ struct ExportOptions {
 /// io::find_process and io::process_request.
 [[nodiscard]] Result<io::Exported> export_layout(const Layout& layout, const ExportOptions& options);
 
-/// What LayoutForm::machine asks of io::export_layout: the request of the options, or that of their process
+/// The request of LayoutForm::machine to io::export_layout: that of the options, or that of their process
 /// with the notes on it. Fails as io::read_processes, io::find_process and io::process_request do.
 struct MachineRequest {
   io::ExportRequest request;

@@ -16,13 +16,14 @@
 
 namespace lekalo::jobs {
 
-/// What cutting layouts takes and costs. docs/design/quote.md has the rules; every amount is a whole number
-/// of the currency's last decimal.
+/// Quotes say what cutting layouts takes and costs. docs/design/quote.md has the rules; every amount is a
+/// whole number of the currency's last decimal.
 
 struct QuoteOptions {
   File rates;                     ///< io::read_rates
   std::optional<File> processes;  ///< io::read_processes
-  /// Of stock that does not say its own; with `processes` also which of them to take, else that of the stock.
+  /// The material of stock that does not say its own; with `processes` also which of them to take, else that
+  /// of the stock.
   std::string material;
   double thickness_mm = 0;            ///< 0: not said
   std::vector<io::ExportWord> words;  ///< of an export as G-code
@@ -30,7 +31,7 @@ struct QuoteOptions {
   std::string title;                  ///< of the printed quote; empty: the names of the layouts
 };
 
-/// What is paid for.
+/// The things that are paid for.
 enum class QuoteKind : std::uint8_t {
   machine,   ///< seconds of cutting, piercing and travel
   setup,     ///< seconds

@@ -76,7 +76,7 @@ struct CutLines {
 
 struct ProfileProgram {
   std::string text;  ///< ASCII, lines end with \n
-  /// Of each cut, in the order of the program; ranges do not overlap.
+  /// The lines of each cut, in the order of the program; ranges do not overlap.
   std::vector<CutLines> lines_of_cuts;
   /// A bound that is proved for the written numbers: no point of the kerf, leads included, lies deeper than
   /// this inside a part.

@@ -124,13 +124,13 @@ class QuotePages {
   }
 
   void sums() {
-    need(static_cast<double>(paper_.sums.size() + 1) * 5.4);
+    need(static_cast<double>(paper_.sums.size() + 1) * 6);
     y_ -= kQuoteGap - 2;
     const double x = kQuoteColumn.right() - kQuoteSums;
     for (const QuoteSum& sum : paper_.sums) {
       const bool last = &sum == &paper_.sums.back();
-      if (last || &sum == &paper_.sums.front()) sheet().rule(x, kQuoteColumn.right(), y_ + 1.2);
-      y_ += 5.4;
+      if (last || &sum == &paper_.sums.front()) sheet().rule(x, kQuoteColumn.right(), y_ + 1.8);
+      y_ += last ? 7 : 5.8;
       const TextStyle style{.size = last ? 3.8 : kReportBody, .bold = last, .kind = "sum"};
       sheet().text(x, y_, 0.6 * kQuoteSums, sum.words, style);
       TextStyle amount = style;

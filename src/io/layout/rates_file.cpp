@@ -271,7 +271,7 @@ class RatesReader {
         first_.emplace(std::tuple(made.material, made.thickness, made.sheet ? made.sheet->width_mm : 0,
                                   made.sheet ? made.sheet->height_mm : 0),
                        entry);
-    if (!is_new && !made.material.empty() && made.thickness > 0)
+    if (!is_new && !made.material.empty() && made.thickness > 0 && by_sheet == made.sheet.has_value())
       complain(fmt::format("{} is material {} already", described_rate(made), place->second));
     rates_.materials.push_back(std::move(made));
   }

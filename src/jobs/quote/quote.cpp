@@ -38,7 +38,7 @@ struct QuoteShare {
   [[nodiscard]] std::int64_t own() const noexcept { return time.cut + time.pierce; }
 };
 
-/// What is charged of a sheet's material, and at which rate.
+/// The part of a sheet's material that is charged, and its rate.
 struct QuoteCharge {
   const io::MaterialRate* rate = nullptr;
   std::int64_t quantity = 0;
@@ -72,7 +72,7 @@ class Quoter {
     return io::as_utf8(names);
   }
 
-  /// What the stock is of; the options say what it does not.
+  /// The material of stock; the options say what it does not.
   Result<layout::Material> material_of(const Layout& layout, const layout::Stock& stock) const {
     layout::Material material = stock.material;
     if (material.name.empty()) material.name = options_.material;

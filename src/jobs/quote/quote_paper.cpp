@@ -130,7 +130,7 @@ class QuotePrinter {
     return table;
   }
 
-  /// What the sum is made of, by kind and rate. Lines are rounded one by one, so that an amount here may be
+  /// The parts of the sum, by kind and rate. Lines are rounded one by one, so that an amount here may be
   /// other than quantity times rate.
   [[nodiscard]] draw::QuoteTable factors() const {
     draw::QuoteTable table{"What it is made of, before margin and tax",
@@ -165,8 +165,11 @@ class QuotePrinter {
   [[nodiscard]] std::vector<std::string> factor(const QuoteLine& line, const std::string& words) const {
     const QuoteUnit unit = unit_of(line.kind, line.by_sheet);
     const bool is_time = unit.per > 1;
-    std::string quantity = is_time ? clock_words(line.quantity)
-                                   : decimal_of(line.quantity, unit.decimals) + " " + shown_unit(unit.unit);
+    std::string quantity = clock_words(line.quantity);
+    if (unit.decimals == 0)
+      quantity = std::to_string(line.quantity);
+    else if (!is_time)
+      quantity = shown_quantity(line.quantity, unit.decimals) + " " + shown_unit(unit.unit);
     std::string rate = decimal_of(line.rate, 6);
     // As many decimals as it needs, and no fewer than amounts have.
     const std::size_t point = rate.find('.');
@@ -176,6 +179,12 @@ class QuotePrinter {
     return {io::as_utf8(words), quantity,
             fmt::format("{} {} / {}", rate, quote_.rates.currency, is_time ? "h" : shown_unit(unit.unit)),
             money(line.amount)};
+  }
+  /// A quantity with three decimals: the table has them all.
+  static std::string shown_quantity(std::int64_t quantity, int decimals) {
+    std::int64_t step = 1;
+    for (int i = 3; i < decimals; ++i) step *= 10;
+    return decimal_of((quantity + step / 2) / step, 3);
   }
   static std::string shown_unit(std::string_view unit) {
     return unit == "m2" ? "m\u00B2" : std::string(unit);

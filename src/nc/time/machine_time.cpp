@@ -44,7 +44,7 @@ class ProgramClock {
     return failure(ErrorCode::bad_input, fmt::format("{}:{}: {}", name_, line, reason));
   }
 
-  /// What a block says beside its modes.
+  /// The words of a block beside its modes.
   struct Said {
     std::optional<double> x, y, z, i, j, p;
     bool wait = false;

@@ -37,7 +37,7 @@ double deviation_square(double cosine, double acceleration, double deviation) {
   return acceleration * deviation * half / (1 - half);
 }
 
-/// What a motion may do by itself.
+/// The limits of a motion by itself.
 struct MotionLimits {
   double speed = 0, acceleration = 0;
 };

@@ -11,7 +11,7 @@
 
 namespace lekalo::verify {
 
-/// What a file of rates (docs/formats.md, "Rates") says of one material.
+/// The price of one material in a file of rates (docs/formats.md, "Rates").
 struct WrittenPrice {
   WrittenMaterial material;
   Fraction price, remnant_percent;

@@ -31,9 +31,8 @@ enum What : std::uint8_t { machine, setup, pierces, cut, material };
 constexpr std::array<std::string_view, 5> kWhats{"machine", "set-up", "pierces", "cut", "material"};
 
 Fraction of_wide(Wide value) {
-  const auto low = static_cast<unsigned long>(value & ~0UL);
-  const auto high = static_cast<long>(value >> 64);
-  return Fraction(Integer(high) * (Integer(1) << 64) + Integer(low));
+  const Wide low = value & ((Wide{1} << 62) - 1), high = value >> 62;
+  return Fraction((Integer(static_cast<long>(high)) << 62) + Integer(static_cast<long>(low)));
 }
 
 /// Half of twice an area in square steps, in mm^2.
@@ -43,11 +42,10 @@ Fraction square_mm(Wide twice_steps) {
   return area;
 }
 
-/// The value to the last of so many decimals, halves up.
+/// The value to the last of so many decimals, halves up. \pre value >= 0
 Fraction rounded(const Fraction& value, unsigned long decimals) {
   const Fraction scaled = 2 * value * power_of_ten(decimals) + 1;
-  Integer whole;
-  mpz_fdiv_q(whole.get_mpz_t(), scaled.get_num_mpz_t(), Integer(2 * scaled.get_den()).get_mpz_t());
+  const Integer whole = scaled.get_num() / (2 * scaled.get_den());
   Fraction result(whole, power_of_ten(decimals));
   result.canonicalize();
   return result;
@@ -266,8 +264,8 @@ class QuoteReport {
   [[nodiscard]] const WrittenPrice* price_of(const QuotedSheet& sheet, const WrittenStock& stock) const {
     constexpr double kSameSide = 0.5;  // mm
     const GridBox& box = stock.outline.box;
-    const auto [small, large] = std::minmax(static_cast<double>(box.high_x - box.low_x) * kStep,
-                                            static_cast<double>(box.high_y - box.low_y) * kStep);
+    const auto [small, large] = std::minmax({static_cast<double>(box.high_x - box.low_x) * kStep,
+                                             static_cast<double>(box.high_y - box.low_y) * kStep});
     const WrittenPrice* by_area = nullptr;
     for (const WrittenPrice& price : rates_.prices) {
       if (price.material != sheet.material) continue;
@@ -354,7 +352,7 @@ class QuoteReport {
     if (per != wanted_per)
       finding(fmt::format("{} is {} and is to be {}", item.name("per"), per, wanted_per));
     if (rate != rate_of(kind, sheet)) finding(fmt::format("{} is not that of the rates", item.name("rate")));
-    if (sgn(quantity) <= 0) finding(fmt::format("{} is not above 0", item.name("quantity")));
+    if (sgn(quantity) <= 0) return finding(fmt::format("{} is not above 0", item.name("quantity")));
     if (amount != rounded(Fraction(quantity * rate / static_cast<long>(wanted_per)), rates_.decimals))
       finding(fmt::format("{} is not quantity times rate, rounded half up", item.name("amount")));
     if (kind == pierces && quantity < sheet.pieces[part.part] * contours(part))

@@ -20,7 +20,7 @@ namespace lekalo::io {
 using Millionths = std::int64_t;
 inline constexpr Millionths kOneInMillionths = 1'000'000;
 
-/// What stock of one material costs.
+/// The price of stock of one material.
 struct MaterialRate {
   std::string material;
   std::int64_t thickness = 0;  ///< grid steps
@@ -28,7 +28,7 @@ struct MaterialRate {
   /// square metre.
   std::optional<PlaneSize> sheet;
   Millionths price = 0;
-  /// What a remnant is worth, of its share of the sheet's price; 0 to 100.
+  /// The worth of a remnant, of its share of the sheet's price; 0 to 100.
   Millionths remnant_percent = 0;
   /// A free rectangle is a remnant from this shorter side on; without a value there are none.
   std::optional<double> least_remnant_mm;
