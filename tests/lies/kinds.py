@@ -323,7 +323,7 @@ def of_layouts():
                inputs=["a.svg", "b.svg", "out-steel-2.json", "out-birch-9.json"])
     # The seconds are never rechecked, so that what is confirmed is incomplete.
     quoted = dict(made, **{"rates.json": json.dumps(RATES)})
-    nested = ["nest", "-o", "out.json", "--work", "1000", "--json", ">r.json"] + order
+    nested = ["nest", "-o", "out.json", "--work", "1000", "--gap", "1", "--json", ">r.json"] + order
     for more in ([], ["--gcode", "cut.nc"]):
         quote = ["quote", "r.json", "--rates", "rates.json", "--kerf", "0.2", "--feed", "3000", "--pierce", "0.2", "--json",
                  ">q.json"]

@@ -105,13 +105,21 @@ class Quoter {
     }
     if (!first) return std::optional(std::move(choice));
     if (choice.material.empty()) choice.material = first->name;
-    // Thicknesses of processes are compared exactly; the grid's is the nearest step to the one that was said.
-    if (choice.thickness_mm == 0) choice.thickness_mm = said_thickness(*first);
+    if (choice.thickness_mm == 0) {
+      LEKALO_TRY(choice.thickness_mm, thickness_of_process(*first));
+    }
     return std::optional(std::move(choice));
   }
 
-  static double said_thickness(const layout::Material& material) {
-    return std::round(geom::mm_from_grid(material.thickness) * 1e4) / 1e4;
+  /// The thickness as a process of the material says it, since processes are compared exactly and layouts on
+  /// their grid.
+  Result<double> thickness_of_process(const layout::Material& material) const {
+    LEKALO_TRY(const io::ProcessFile file,
+               io::read_processes(options_.processes->bytes, io::as_utf8(options_.processes->name)));
+    for (const io::CutProcess& process : file.processes)
+      if (geom::grid_from_mm(process.thickness_mm) == material.thickness) return process.thickness_mm;
+    constexpr double kShown = 1e4;
+    return std::round(geom::mm_from_grid(material.thickness) * kShown) / kShown;
   }
 
   Result<void> add_layout(std::size_t index) {
