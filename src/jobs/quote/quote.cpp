@@ -313,6 +313,7 @@ class Quoter {
       order.purpose = part.purpose;
       order.pieces += part.pieces, order.amount += part.amount;
     }
+    tell_rounding();
     const io::Rates& rates = quote_.rates;
     const auto percent = [&](std::int64_t amount, io::Millionths rate) {
       return money_of(amount, rates.decimals, rate, 100, rates.decimals);
@@ -321,6 +322,23 @@ class Quoter {
     LEKALO_TRY(quote_.tax, percent(quote_.subtotal + quote_.margin, rates.tax_percent));
     quote_.total = quote_.subtotal + quote_.margin + quote_.tax;
     return {};
+  }
+
+  /// Many lines of few units each may be rounded away; whoever sends the quote is to know.
+  void tell_rounding() {
+    constexpr double kTold = 0.01;
+    double unrounded = 0, unit = 1;
+    for (int i = 0; i < quote_.rates.decimals; ++i) unit *= 10;
+    for (const QuoteLine& line : quote_.lines) {
+      const QuoteUnit of = unit_of(line.kind, line.by_sheet);
+      unrounded += static_cast<double>(line.quantity) * static_cast<double>(line.rate) * unit /
+                   (std::pow(10.0, of.decimals + 6) * static_cast<double>(of.per));
+    }
+    const double off = static_cast<double>(quote_.subtotal) - unrounded;
+    if (std::abs(off) > kTold * unrounded)
+      quote_.notes.push_back(
+          fmt::format("rounding line by line makes the sum {:.1f} % {}; more \"decimals\" in {} are finer",
+                      100 * std::abs(off) / unrounded, off < 0 ? "smaller" : "larger", quote_.rates.name));
   }
 
   Result<void> price_lines(const QuoteShare& share) {
