@@ -13,6 +13,7 @@
 #include "commands/nest_command.hpp"
 #include "commands/new_command.hpp"
 #include "commands/pocket_command.hpp"
+#include "commands/quote_command.hpp"
 #include "commands/serve_command.hpp"
 #include "commands/show_command.hpp"
 #include "commands/simulate_command.hpp"
@@ -37,6 +38,7 @@ Result<int> run(const HeatOptions& options) { return run_heat(options); }
 Result<int> run(const CheckOptions& options) { return run_check(options); }
 Result<int> run(const ShowOptions& options) { return run_show(options); }
 Result<int> run(const ExportOptions& options) { return run_export(options); }
+Result<int> run(const QuoteOptions& options) { return run_quote(options); }
 Result<int> run(const EditOptions& options) { return run_edit(options); }
 Result<int> run(const NestOptions& options) { return run_nest(options); }
 Result<int> run(const NewOptions& options) { return run_new(options); }

@@ -70,6 +70,14 @@ Result<void> check_outputs(const std::vector<NamedPath>& outputs, const std::vec
   return {};
 }
 
+std::string path_of_sheet(const std::string& path, std::size_t sheet, std::size_t sheets) {
+  if (sheets == 1) return path;
+  const fs::path whole(path);
+  return (whole.parent_path() /
+          (whole.stem().string() + fmt::format("-{}", sheet + 1) + whole.extension().string()))
+      .string();
+}
+
 Result<void> print(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
     return failure(ErrorCode::environment, fmt::format("stdout: cannot write: {}", std::strerror(errno)));

@@ -20,6 +20,10 @@ struct NamedPath {
 [[nodiscard]] Result<void> check_outputs(const std::vector<NamedPath>& outputs,
                                          const std::vector<NamedPath>& inputs);
 
+/// The path of one of several sheets, which are counted from 0: "cut.nc" becomes "cut-2.nc" for the second. A
+/// sheet alone has the path itself.
+[[nodiscard]] std::string path_of_sheet(const std::string& path, std::size_t sheet, std::size_t sheets);
+
 /// Writes all of `text` to stdout and flushes; ErrorCode::environment when that fails.
 [[nodiscard]] Result<void> print(std::string_view text);
 

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "draw/paper/printed_number.hpp"
-#include "lekalo/base/double_of_text.hpp"
 #include "lekalo/geom/pose.hpp"
+#include "lekalo/io/text/csv_cell.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "report_words.hpp"
 
@@ -217,30 +217,6 @@ Result<Report> make_report(const io::LocateDocument& document, ReportShapes shap
 
 namespace {
 
-/// Quotes a field as RFC 4180 asks for.
-/// Marks text that a spreadsheet would run as a formula, so that it shows it instead: an apostrophe goes
-/// before it. Some take a semicolon or a tab for the end of a cell, so what follows one counts as a beginning
-/// too.
-std::string not_run(const std::string& text) {
-  if (double_of_text(text)) return text;
-  std::string safe;
-  bool begins = true;
-  for (const char c : text) {
-    if (begins && std::string_view("=+-@\t\r").find(c) != std::string_view::npos) safe += '\'';
-    safe += c;
-    begins = std::string_view(",;\t\r\n\"").find(c) != std::string_view::npos || (begins && c == ' ');
-  }
-  return safe;
-}
-
-std::string csv_field(const std::string& text) {
-  const std::string safe = not_run(text);
-  if (safe.find_first_of(",\"\r\n") == std::string::npos) return safe;
-  std::string quoted = "\"";
-  for (const char c : safe) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 std::uint32_t number_of(const std::vector<std::uint32_t>& numbers, std::size_t index) {
   return index < numbers.size() ? numbers[index] : static_cast<std::uint32_t>(index);
 }
@@ -258,7 +234,7 @@ std::string allowances_csv(const Report& report) {
   for_each_contour(
       report.shapes.part, [&](std::size_t piece, std::size_t contour, const geom::Contour& edges) {
         for (std::size_t k = 0; k < edges.size(); ++k, ++edge) {
-          const std::string name = csv_field(names[edge]);
+          const std::string name = io::csv_cell(names[edge]);
           for (const locate::OutlinePoint& p : report.edges[edge].samples) {
             text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", piece, contour,
                                 number_of(report.shapes.part_edge_numbers, edge), p.along, p.in_part.x,

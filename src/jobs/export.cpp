@@ -78,31 +78,16 @@ void tell_other_materials(const layout::Document& document, const io::CutProcess
 }
 
 Result<io::Exported> machine_files(const Layout& layout, const ExportOptions& options) {
-  io::ExportRequest request = options.machine;
-  std::vector<std::string> notes;
-  if (const auto& choice = options.process) {
-    LEKALO_TRY(const io::ProcessFile file,
-               io::read_processes(choice->file.bytes, io::as_utf8(choice->file.name)));
-    std::string kind;
-    for (const auto& [name, value] : choice->words)
-      if (name == "process") kind = value;
-    LEKALO_TRY(const std::size_t index, io::find_process(file, choice->material, choice->thickness_mm, kind));
-    const io::CutProcess& process = file.processes[index];
-    LEKALO_TRY(request, io::process_request(process, choice->words, choice->prefix));
-    notes.push_back(fmt::format("the process is entry {} of {}: {}, {} mm ({})", index + 1, file.name,
-                                process.material, process.thickness_mm, process.kind));
-    tell_other_materials(layout.document, process, notes);
-  }
-  Result<io::Exported> made = io::export_layout(layout.document, title_of(layout, options), request);
-  if (!made) return fault_of(layout, made.error());
-  made->notes.insert(made->notes.begin(), notes.begin(), notes.end());
+  LEKALO_TRY(const MachineRequest machine, machine_request(layout, options));
+  LEKALO_TRY(io::Exported made, export_machine(layout, options, machine.request));
+  made.notes.insert(made.notes.begin(), machine.notes.begin(), machine.notes.end());
   return made;
 }
 
 }  // namespace
 
 Result<io::Exported> export_layout(const Layout& layout, const ExportOptions& options) {
-  const auto alone = [](std::string&& bytes) { return io::Exported{{{"", std::move(bytes)}}, {}}; };
+  const auto alone = [](std::string&& bytes) { return io::Exported{{{"", std::move(bytes), {}}}, {}}; };
   switch (options.form) {
     case LayoutForm::layout:
       break;
@@ -117,6 +102,31 @@ Result<io::Exported> export_layout(const Layout& layout, const ExportOptions& op
       return machine_files(layout, options);
   }
   return alone(layout_bytes(layout));
+}
+
+Result<MachineRequest> machine_request(const Layout& layout, const ExportOptions& options) {
+  MachineRequest made{options.machine, {}};
+  if (const auto& choice = options.process) {
+    LEKALO_TRY(const io::ProcessFile file,
+               io::read_processes(choice->file.bytes, io::as_utf8(choice->file.name)));
+    std::string kind;
+    for (const auto& [name, value] : choice->words)
+      if (name == "process") kind = value;
+    LEKALO_TRY(const std::size_t index, io::find_process(file, choice->material, choice->thickness_mm, kind));
+    const io::CutProcess& process = file.processes[index];
+    LEKALO_TRY(made.request, io::process_request(process, choice->words, choice->prefix));
+    made.notes.push_back(fmt::format("the process is entry {} of {}: {}, {} mm ({})", index + 1, file.name,
+                                     process.material, process.thickness_mm, process.kind));
+    tell_other_materials(layout.document, process, made.notes);
+  }
+  return made;
+}
+
+Result<io::Exported> export_machine(const Layout& layout, const ExportOptions& options,
+                                    const io::ExportRequest& request) {
+  Result<io::Exported> made = io::export_layout(layout.document, title_of(layout, options), request);
+  if (!made) return fault_of(layout, made.error());
+  return made;
 }
 
 }  // namespace lekalo::jobs

@@ -55,6 +55,8 @@ class ClaimJudge {
         return reported(verify::verify_fit_report);
       case Kind::heat_report:
         return reported(verify::verify_heat_report);
+      case Kind::quote_report:
+        return reported(verify::verify_quote_report);
       case Kind::program:
         return beside_.layout && beside_.profile ? profile() : program();
       case Kind::dxf:

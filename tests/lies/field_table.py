@@ -21,7 +21,7 @@ import verify_lies
 TABLES = {"placement, solids": "Placements of solids:", "placement": "Placements:", "layout": "**Layouts.**",
           "report of an order": "**Reports of orders.**", "report of nest": "**Reports of nest and check.**", "report of check": "**Reports of nest and check.**",
           "report of pocket": "**Reports of simulate and pocket", "report of simulate": "**Reports of simulate and pocket",
-          "result of fit": "**Results of fit.**", "result of heat": "**Results of heat.**"}
+          "quote": "**Quotes.**", "result of fit": "**Results of fit.**", "result of heat": "**Results of heat.**"}
 
 
 def named(text):

@@ -31,6 +31,13 @@ SQUARE = '<svg xmlns="http://www.w3.org/2000/svg" width="30mm" height="30mm" vie
 ORDER = "file,quantity,material,thickness,customer,due,label\na.svg,1,steel,2,Orlova,2026-12-01,7\n" \
         "b.svg,2,birch,9,,,\nb.svg,1,steel,2,,2026-12-02,\n"
 SHEET = "steel 2 mm#1"
+RATES = {"format": "lekalo-rates/1", "currency": "EUR", "decimals": 2, "margin_percent": 12.5, "tax_percent": 19,
+         "machine": {"rapid_mm_per_min": 20000, "acceleration_mm_per_s2": [3000, 2500, 500], "junctions": "exact path",
+                     "settle_s": 0.01, "setup_s_once": 600, "setup_s_per_sheet": 120},
+         "rates": {"per_hour": 85, "setup_per_hour": 48, "per_pierce": 0.02, "per_m_cut": 0.14},
+         "materials": [{"material": "steel", "thickness_mm": 2, "per_m2": 31.5, "least_remnant_mm": 5},
+                       {"material": "birch", "thickness_mm": 9, "per_sheet": 7.75, "sheet_mm": [40, 40],
+                        "remnant_percent": 60, "least_remnant_mm": 5}]}
 PROGRAM = "G21 G90 G17 G54 F90\nT1 M6\nG0 X0. Y0.\nG43 H1 Z80.\nG1 Z40.\nG2 X10. Y0. I5. Z38.\nG91 G1 X2. Z-1.5\nG90\n" \
           "G98 G81 X1. Y2. Z-3. R42.\nX5.\nG80\nG0 Z80.\nM30\n"
 
@@ -314,6 +321,15 @@ def of_layouts():
     yield Kind("report of an order", [], [["nest", "-o", "out.json", "--work", "1000", "--json", ">r.json"] + order],
                "r.json", ["verify", "r.json"], lambda context: lambda change: None, base=1, written=made,
                inputs=["a.svg", "b.svg", "out-steel-2.json", "out-birch-9.json"])
+    # The seconds are never rechecked, so that what is confirmed is incomplete.
+    quoted = dict(made, **{"rates.json": json.dumps(RATES)})
+    nested = ["nest", "-o", "out.json", "--work", "1000", "--gap", "1", "--json", ">r.json"] + order
+    for more in ([], ["--gcode", "cut.nc"]):
+        quote = ["quote", "r.json", "--rates", "rates.json", "--kerf", "0.2", "--feed", "3000", "--pierce", "0.2", "--json",
+                 ">q.json"]
+        yield Kind("quote, with programs" if more else "quote", [], [nested, quote + more], "q.json", ["verify", "q.json"],
+                   lambda context: lambda change: None, base=1, written=quoted,
+                   inputs=["rates.json", "out-steel-2.json"] + ["cut-1.nc", "cut-2.nc"] * bool(more))
     yield Kind("report of nest", frames, [nest], "report.json", ["verify", "report.json"], truth.nest_report,
                inputs=["frames.json", "nested.json"])
     yield Kind("report of check", frames, [nest, ["check", "nested.json", "--json", ">c.json"]], "c.json",

@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <filesystem>
-
 #include "layout_input.hpp"
 #include "lekalo/disk/files.hpp"
 #include "lekalo/io/text/words.hpp"
@@ -14,21 +12,13 @@
 namespace lekalo::cli {
 namespace {
 
-/// "cut.nc" becomes "cut-2.nc" for the second of several sheets.
-std::string numbered(const std::string& path, std::size_t number) {
-  const std::filesystem::path whole(path);
-  return (whole.parent_path() /
-          (whole.stem().string() + fmt::format("-{}", number) + whole.extension().string()))
-      .string();
-}
-
 std::string processes_of(const ExportOptions& o) { return o.form.process ? o.form.process->file.name : ""; }
 
 /// Writes one file for each sheet, all or none of them, and returns the lines that say so.
 Result<std::string> write_sheets(const ExportOptions& o, const std::vector<io::ExportedFile>& sheets) {
   std::vector<NamedPath> paths;
   for (std::size_t i = 0; i < sheets.size(); ++i)
-    paths.push_back({"--output", sheets.size() == 1 ? o.output : numbered(o.output, i + 1)});
+    paths.push_back({"--output", path_of_sheet(o.output, i, sheets.size())});
   LEKALO_CHECK(check_outputs(
       paths,
       {{"the layout", o.source.path}, {"--instance", o.source.instance}, {"--processes", processes_of(o)}}));

@@ -20,6 +20,7 @@ using Typed = std::function<Result<Command>()>;
 [[nodiscard]] Typed add_check_form(Form& form);
 [[nodiscard]] Typed add_show_form(Form& form);
 [[nodiscard]] Typed add_export_form(Form& form);
+[[nodiscard]] Typed add_quote_form(Form& form);
 [[nodiscard]] Typed add_edit_form(Form& form);
 [[nodiscard]] Typed add_nest_form(Form& form);
 [[nodiscard]] Typed add_new_form(Form& form);

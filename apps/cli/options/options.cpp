@@ -34,6 +34,7 @@ constexpr CommandForm kForms[] = {
     {"check", "Say which rules a cutting layout breaks, exactly, and where", add_check_form},
     {"show", "Show a cutting layout: material used, parts, kits, picture", add_show_form},
     {"export", "Write a layout or a job of another program in another form", add_export_form},
+    {"quote", "Say what cutting layouts takes and costs: time, material, a quote to print", add_quote_form},
     {"edit", "Carry out a file of commands on a layout: move, slide, settle, ...", add_edit_form},
     {"nest", "Place parts on strips, sheets and hides, densely", add_nest_form},
     {"new", "Write the layout that an order of drawings and sheets describes, to be edited", add_new_form},
@@ -42,8 +43,8 @@ constexpr CommandForm kForms[] = {
 };
 
 /// The commands whose work is counted in steps.
-constexpr std::string_view kWorkInSteps[] = {"verify", "pocket", "simulate", "fit", "heat",
-                                             "check",  "show",   "export",   "edit"};
+constexpr std::string_view kWorkInSteps[] = {"verify", "pocket", "simulate", "fit",   "heat",
+                                             "check",  "show",   "export",   "quote", "edit"};
 bool counts_steps(std::string_view command) {
   return std::find(std::begin(kWorkInSteps), std::end(kWorkInSteps), command) != std::end(kWorkInSteps);
 }

@@ -18,6 +18,7 @@
 #include "lekalo/jobs/nest.hpp"
 #include "lekalo/jobs/order_words.hpp"
 #include "lekalo/jobs/pocket.hpp"
+#include "lekalo/jobs/quote.hpp"
 #include "lekalo/verify/claims.hpp"
 #include "lekalo/verify/simulate.hpp"
 
@@ -136,8 +137,17 @@ struct ShowOptions {
 
 struct ExportOptions {
   LayoutSource source;
-  std::string output;  ///< empty: stdout
+  std::string output;        ///< empty: stdout
   jobs::ExportOptions form;  ///< a file of processes is named there, and not read yet
+};
+
+/// Layouts, or reports of orders that name them, and what is asked of them. Of the job's files only the names
+/// are known.
+struct QuoteOptions {
+  std::vector<LayoutSource> sources;
+  jobs::QuoteOptions job;
+  std::string pdf, csv, programs;  ///< may be empty
+  bool json = false;
 };
 
 struct EditOptions {
@@ -181,8 +191,8 @@ struct PrintText {
 };
 
 using Command = std::variant<LocateOptions, VerifyOptions, PocketOptions, SimulateOptions, FitOptions,
-                             HeatOptions, CheckOptions, ShowOptions, ExportOptions, EditOptions, NestOptions,
-                             NewOptions, ServeOptions, StoreOptions, PrintText>;
+                             HeatOptions, CheckOptions, ShowOptions, ExportOptions, QuoteOptions, EditOptions,
+                             NestOptions, NewOptions, ServeOptions, StoreOptions, PrintText>;
 
 /// The steps of work (base/stop.hpp) after which a command that does not search gives up, so that no input
 /// takes for ever: docs/limits.md.

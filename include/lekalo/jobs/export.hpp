@@ -52,4 +52,15 @@ struct ExportOptions {
 /// io::find_process and io::process_request.
 [[nodiscard]] Result<io::Exported> export_layout(const Layout& layout, const ExportOptions& options);
 
+/// The request of LayoutForm::machine to io::export_layout: that of the options, or that of their process
+/// with the notes on it. Fails as io::read_processes, io::find_process and io::process_request do.
+struct MachineRequest {
+  io::ExportRequest request;
+  std::vector<std::string> notes;
+};
+[[nodiscard]] Result<MachineRequest> machine_request(const Layout& layout, const ExportOptions& options);
+/// The files of such a request, without its notes.
+[[nodiscard]] Result<io::Exported> export_machine(const Layout& layout, const ExportOptions& options,
+                                                  const io::ExportRequest& request);
+
 }  // namespace lekalo::jobs

@@ -68,8 +68,16 @@ struct ProfileOptions {
   std::vector<HoleCut> holes;
 };
 
+/// The lines of a program that cut one contour, its travel and its remark among them.
+struct CutLines {
+  std::uint64_t id = 0;             ///< of the placement
+  std::size_t first = 0, last = 0;  ///< from 1
+};
+
 struct ProfileProgram {
   std::string text;  ///< ASCII, lines end with \n
+  /// The lines of each cut, in the order of the program; ranges do not overlap.
+  std::vector<CutLines> lines_of_cuts;
   /// A bound that is proved for the written numbers: no point of the kerf, leads included, lies deeper than
   /// this inside a part.
   double deepest_mm = 0;

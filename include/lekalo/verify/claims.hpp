@@ -27,6 +27,7 @@ enum class Kind : std::uint8_t {
   simulate_report,
   fit_report,
   heat_report,
+  quote_report,
   verify_report,
   certificate,
   program,
@@ -116,6 +117,16 @@ struct NamedFile {
 /// \param files  the bytes of named_files(), in that order
 [[nodiscard]] Result<ClaimReport> verify_heat_report(const Document& report,
                                                      const std::vector<Document>& files);
+
+/// Rechecks a quote: that its sheets, parts, pieces, areas and remnants are those of its layouts, its rates
+/// those of its file; every amount from its quantity and its rate, with fractions; what material is charged
+/// and how it is shared out; all sums. Lengths and pierces are followed in the programs where these were
+/// written. Seconds are estimates of a model of the machine and named as unchecked; their sums hold.
+///
+/// Fails with bad_input for fields that are missing, not known or of a wrong form. Cost: O(bytes of all), and
+/// that of finding a remnant free. \param files  the bytes of named_files(), in that order
+[[nodiscard]] Result<ClaimReport> verify_quote_report(const Document& report,
+                                                      const std::vector<Document>& files);
 
 /// Judges a program for a pocket by itself: the tool leaves the pocket nowhere by more than 0.005 mm, meets
 /// material in no rapid motion, and leaves no place uncut that it can reach, wider than 0.02 mm. Errors and

@@ -100,14 +100,14 @@ Result<Exported> drawing(const std::vector<SheetShapes>& sheets, const ExportReq
     return failure(ErrorCode::bad_input, "there is nothing to write on the layers asked for");
   LEKALO_TRY(std::string text, dxf ? dxf_drawing(drawn.regions, drawn.extras, request.unit)
                                    : svg_drawing(drawn.regions, drawn.extras));
-  return Exported{{{sheets.size() == 1 ? sheets.front().name : "", std::move(text)}}, {}};
+  return Exported{{{sheets.size() == 1 ? sheets.front().name : "", std::move(text), {}}}, {}};
 }
 
 Result<Exported> plotted(const std::vector<SheetShapes>& sheets, const ExportRequest& request) {
   Exported made;
   for (const SheetShapes& sheet : sheets) {
     LEKALO_TRY(std::string text, detail::hpgl_text(sheet, request.only, request.chord_tolerance_mm));
-    made.files.push_back({sheet.name, std::move(text)});
+    made.files.push_back({sheet.name, std::move(text), {}});
   }
   made.notes.push_back(
       fmt::format("corners lie within {:.3f} mm of where they are (plotter units of {:g} mm), chords within "
@@ -151,7 +151,7 @@ Result<Exported> programmed(const std::vector<SheetShapes>& sheets, const std::s
           "; corners lie up to {:.3f} mm from the kerf and keep that much material, most in placement {}",
           p.left_over_mm, p.left_over_of);
     made.notes.push_back(std::move(said));
-    made.files.push_back({sheet.name, program->text});
+    made.files.push_back({sheet.name, p.text, p.lines_of_cuts});
   }
   return made;
 }

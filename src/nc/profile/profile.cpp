@@ -225,9 +225,11 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, co
     all.insert(all.end(), path.begin(), path.end());
     LEKALO_TRY(const double deepest_mm, proved_depth(parts, cut, all, proof, options));
     program.deepest_mm = std::max(program.deepest_mm, deepest_mm);
+    const std::size_t first_line = writer.line_count() + 1;
     writer.comment(fmt::format("placement {} {}", parts[cut.part].id,
                                cut.outline ? "outline" : fmt::format("hole {}", cut.hole + 1)));
     writer.cut(start.lead, path, on_terms.feed_mm_per_min);
+    program.lines_of_cuts.push_back({parts[cut.part].id, first_line, writer.line_count()});
     if (writer.size() > kLongestProgram)
       return failure(
           ErrorCode::bad_input,

@@ -20,6 +20,7 @@ class ProfileWriter {
            double feed_mm_per_min);
   [[nodiscard]] std::string finish();
   [[nodiscard]] std::size_t size() const noexcept { return out_.size(); }
+  [[nodiscard]] std::size_t line_count() const noexcept { return out_.line_count(); }
 
  private:
   void cut_by_beam(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path, double feed);

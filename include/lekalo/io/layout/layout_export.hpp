@@ -51,6 +51,7 @@ struct ExportedFile {
   /// Like `ExportRequest::sheet`; empty if the file holds all sheets.
   std::string sheet;
   std::string bytes;
+  std::vector<nc::CutLines> cuts;  ///< of G-code: which lines cut which placement
 };
 struct Exported {
   /// DXF and SVG give one file, HPGL and G-code one for each sheet.
