@@ -55,6 +55,8 @@ class ClaimJudge {
         return reported(verify::verify_fit_report);
       case Kind::heat_report:
         return reported(verify::verify_heat_report);
+      case Kind::stock_book:
+        return verify::verify_stock(document(result_));
       case Kind::program:
         return beside_.layout && beside_.profile ? profile() : program();
       case Kind::dxf:

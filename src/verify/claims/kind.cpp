@@ -33,7 +33,7 @@ Result<Kind> kind_of_json(const Document& document) {
                : Kind::unknown;
   const Json name = member(format, "name");
   if (!name.is_string()) return Kind::unknown;
-  constexpr std::array<std::pair<std::string_view, Kind>, 11> kFormats{
+  constexpr std::array<std::pair<std::string_view, Kind>, 12> kFormats{
       {{"lekalo-locate", Kind::placement},
        {"lekalo-nest", Kind::nest_report},
        {"lekalo-order", Kind::order_report},
@@ -44,6 +44,7 @@ Result<Kind> kind_of_json(const Document& document) {
        {"lekalo-fit", Kind::fit_report},
        {"lekalo-heat", Kind::heat_report},
        {"lekalo-verify", Kind::verify_report},
+       {"lekalo-stock", Kind::stock_book},
        {"lekalo-certificate", Kind::certificate}}};
   const std::string text = json_text(name);
   const auto* const known =
@@ -103,11 +104,11 @@ Result<Kind> kind_of(const Document& document) {
 }
 
 std::string_view name_of(Kind kind) noexcept {
-  constexpr std::array<std::string_view, 19> kNames{
+  constexpr std::array<std::string_view, 20> kNames{
       "a placement",          "a layout",          "placements on a strip", "a report of nest",
       "a report of an order", "a report of check", "a report of show",      "a report of pocket",
       "a report of simulate", "a result of fit",   "a result of heat",      "a report of verify",
-      "a certificate",        "an NC program",     "a DXF drawing",         "an SVG drawing",
+      "a stock",                    "a certificate",        "an NC program",     "a DXF drawing",         "an SVG drawing",
       "an HPGL plot",         "a picture",         "none of lekalo's files"};
   return kNames[static_cast<std::size_t>(kind)];
 }
