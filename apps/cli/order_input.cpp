@@ -35,8 +35,10 @@ class OrderReader {
       fault("no part is ordered; say --part FILE=N, a folder, a pattern in quotes, or --order TABLE",
             ErrorCode::usage);
     if (source_.terms.stocks.empty() && source_.stock.empty())
-      fault("there is no sheet to cut from; say --sheet 3000x1500, --sheet hide.dxf, --strip 1500 or --stock FILE",
-            ErrorCode::usage);
+      fault(
+          "there is no sheet to cut from; say --sheet 3000x1500, --sheet hide.dxf, --strip 1500 or --stock "
+          "FILE",
+          ErrorCode::usage);
     for (const PartWord& word : source_.parts) {
       io::OrderRow row;
       row.file = word.files;

@@ -14,6 +14,7 @@ namespace lekalo::cli {
 [[nodiscard]] std::string sums_text(const std::vector<jobs::StockSums>& sums);
 
 /// A line that says what is allocated to an order.
-[[nodiscard]] std::string allocated_text(const jobs::StockOrder& order, const std::vector<jobs::StockItem>& items);
+[[nodiscard]] std::string allocated_text(const jobs::StockOrder& order,
+                                         const std::vector<jobs::StockItem>& items);
 
 }  // namespace lekalo::cli

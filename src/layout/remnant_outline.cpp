@@ -41,7 +41,8 @@ Int128 least_area(const RemnantRule& rule) {
   return rule.area_mm2 > 0 ? rule.area_mm2 * kStepsPerMm2 : Int128{rule.width} * rule.height;
 }
 
-/// The width below which an arm of a remnant is of no use, steps: of an area, a quarter of the side of its square.
+/// The width below which an arm of a remnant is of no use, steps: of an area, a quarter of the side of its
+/// square.
 std::int64_t least_arm(const RemnantRule& rule) {
   if (rule.area_mm2 == 0) return std::min(rule.width, rule.height);
   return static_cast<std::int64_t>(std::sqrt(static_cast<double>(rule.area_mm2)) / 4 *
@@ -92,14 +93,15 @@ class StairSearch {
   }
 
  private:
-  /// The corner around the corners first to last of the front. The first may reach up to the top of the box, and the
-  /// last to its right.
+  /// The corner around the corners first to last of the front. The first may reach up to the top of the box,
+  /// and the last to its right.
   [[nodiscard]] GridPoint around(std::size_t first, std::size_t last, bool top, bool right) const {
     return {right && last + 1 == front_.size() ? within_.high.x : front_[last].x,
             top && first == 0 ? within_.high.y : front_[first].y};
   }
 
-  /// The stairs with the least sum of what is cut off and, for each corner within the box, the smallest remnant.
+  /// The stairs with the least sum of what is cut off and, for each corner within the box, the smallest
+  /// remnant.
   [[nodiscard]] std::pair<Int128, Stairs> fewest(bool top, bool right) const {
     const std::size_t n = front_.size();
     struct Best {
@@ -159,8 +161,8 @@ Result<GridRegion> cut_off(const GridBox& within, const Stairs& stairs, const Mi
   return geom::make_grid_region({std::move(loop)});
 }
 
-/// Returns a corner of a Boolean's result on the grid: the nearest point, or one beside it that lies in the sheet
-/// and not within what is cut off.
+/// Returns a corner of a Boolean's result on the grid: the nearest point, or one beside it that lies in the
+/// sheet and not within what is cut off.
 GridPoint corner_within(geom::Point p, const GridRegion& sheet, const GridRegion& off) {
   const GridPoint nearest{geom::grid_from_mm(p.x), geom::grid_from_mm(p.y)};
   const auto fine = [&](GridPoint at) {
@@ -200,7 +202,8 @@ Result<GridRegion> on_grid(const geom::Region& piece, const GridRegion& sheet, c
 /// A rectangle in the outline, of the size of the rule where one of that size is found.
 GridBox rectangle_within(const GridRegion& outline, const RemnantRule& rule) {
   const GridBox large = free_rectangle(outline, {}, geom::bounds(outline));
-  if (rule.area_mm2 > 0 || holds_either_way(large, rule) || outline.points.size() > kMostAligned) return large;
+  if (rule.area_mm2 > 0 || holds_either_way(large, rule) || outline.points.size() > kMostAligned)
+    return large;
   const std::array<std::pair<std::int64_t, std::int64_t>, 2> ways{
       {{rule.width, rule.height}, {rule.height, rule.width}}};
   for (const auto& [width, height] : ways)
@@ -231,12 +234,12 @@ class RemnantMaker {
   RemnantMaker(const GridRegion& sheet, std::vector<CutPart> parts, const RemnantRule& rule)
       : sheet_(sheet), parts_(std::move(parts)), rule_(rule) {}
 
-  Result<std::vector<Remnant>> make() const {
+  [[nodiscard]] std::vector<Remnant> make() const {
     std::vector<Remnant> best;
     Int128 most = 0;
     for (const bool along_y : {false, true})
       for (const bool along_x : {false, true}) {
-        LEKALO_TRY(std::vector<Remnant> remnants, from_corner({geom::bounds(sheet_), along_x, along_y}));
+        std::vector<Remnant> remnants = from_corner({geom::bounds(sheet_), along_x, along_y});
         Int128 area = 0;
         for (const Remnant& one : remnants) area += geom::twice_area(one.outline);
         if (area <= most) continue;
@@ -250,7 +253,7 @@ class RemnantMaker {
   }
 
  private:
-  Result<std::vector<Remnant>> from_corner(const Mirrored& mirrored) const {
+  [[nodiscard]] std::vector<Remnant> from_corner(const Mirrored& mirrored) const {
     const GridBox within = mirrored.within;
     std::vector<GridPoint> corners;
     for (const CutPart& part : parts_) {
@@ -258,13 +261,16 @@ class RemnantMaker {
       corners.push_back({std::min(corner.x, within.high.x), std::min(corner.y, within.high.y)});
     }
     const Stairs stairs = StairSearch(within, std::move(corners), rule_).best();
-    LEKALO_TRY(const GridRegion off, cut_off(within, stairs, mirrored));
-    LEKALO_TRY(const geom::BooleanResult rest,
-               geom::combine({geom::region_of_lines(sheet_)}, {geom::region_of_lines(off)},
-                             geom::BooleanOperation::subtract));
+    // Stairs of a few grid steps are no outline, and a Boolean may fail: then nothing is kept from this
+    // corner.
+    const Result<GridRegion> off = cut_off(within, stairs, mirrored);
+    if (!off) return {};
+    const auto rest = geom::combine({geom::region_of_lines(sheet_)}, {geom::region_of_lines(*off)},
+                                    geom::BooleanOperation::subtract);
+    if (!rest) return {};
     std::vector<Remnant> kept;
-    for (const geom::Region& piece : rest.regions) {
-      Result<GridRegion> outline = on_grid(piece, sheet_, off);
+    for (const geom::Region& piece : rest->regions) {
+      Result<GridRegion> outline = on_grid(piece, sheet_, *off);
       if (!outline || !is_proved(*outline, kept)) continue;
       Remnant remnant{*std::move(outline), {}};
       if (geom::twice_area(remnant.outline) < 2 * least_area(rule_)) continue;
@@ -277,7 +283,8 @@ class RemnantMaker {
   [[nodiscard]] bool is_proved(const GridRegion& outline, const std::vector<Remnant>& others) const {
     if (!phi::lies_within(sheet_, outline)) return false;
     for (const CutPart& part : parts_)
-      if (phi::interiors_meet(outline, part.outline) || phi::edges_nearer_than(outline, part.outline, part.gap))
+      if (phi::interiors_meet(outline, part.outline) ||
+          phi::edges_nearer_than(outline, part.outline, part.gap))
         return false;
     return std::none_of(others.begin(), others.end(),
                         [&](const Remnant& other) { return phi::interiors_meet(outline, other.outline); });
@@ -304,8 +311,8 @@ std::int64_t remnant_gap(const Document& document, const Part& part) noexcept {
   return std::max(part.gap.value_or(document.rules.gap), document.rules.kerf);
 }
 
-Result<std::vector<Remnant>> remnants_of(const Document& document, std::uint32_t stock, std::int64_t copy,
-                                         const RemnantRule& rule) {
+std::vector<Remnant> remnants_of(const Document& document, std::uint32_t stock, std::int64_t copy,
+                                 const RemnantRule& rule) {
   std::vector<CutPart> parts;
   for (const Placement& placement : document.placements)
     if (placement.stock == stock && placement.copy == copy) {

@@ -61,7 +61,7 @@ def is_clear(ring, box, gap):
     for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1]):
         dx = max(min(ax, bx) - box[2], box[0] - max(ax, bx), 0)
         dy = max(min(ay, by) - box[3], box[1] - max(ay, by), 0)
-        if (dx * dx + dy * dy) ** 0.5 < gap - 1e-9 or dx == dy == 0 and gap == 0:
+        if (dx * dx + dy * dy) ** 0.5 < gap - 1e-9:
             return False
     return not inside(ring, (box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
 

@@ -198,7 +198,8 @@ Result<std::string> allocate(const NestOptions& o, const std::vector<jobs::Neste
     if (one.nested.document.placements.empty()) continue;
     layouts.push_back({one.written_as.empty() ? "the layout" : one.written_as, one.nested.document});
   }
-  if (layouts.empty()) return fmt::format("order {}: nothing is placed, so nothing is allocated\n", o.allocate);
+  if (layouts.empty())
+    return fmt::format("order {}: nothing is placed, so nothing is allocated\n", o.allocate);
   LEKALO_TRY(StockFile file, StockFile::open(o.order->stock, StockOpening::find));
   LEKALO_TRY(const jobs::StockOrder order, file.allocate(o.allocate, layouts));
   LEKALO_TRY(const std::vector<jobs::StockItem> items, file.items());
@@ -219,6 +220,7 @@ Error given_back(const NestOptions& o, Error error) {
 struct NestRun {
   std::vector<jobs::NestedMaterial> all;
   std::string allocated;  ///< what is to be said of it
+  double seconds = 0;     ///< of processor time, without reading
   disk::AtomicFiles files;
 };
 
@@ -228,11 +230,14 @@ constexpr int kMostRuns = 3;
 Result<void> nest_once(const NestOptions& o, Clock::time_point begin, NestRun& run) {
   LEKALO_TRY(std::vector<jobs::MaterialLayout> layouts, read_input(o));
   if (!o.json) LEKALO_CHECK(several_need_files(layouts, o.output));
+  const double start = processor_seconds();
   LEKALO_TRY(run.all, nest_all(std::move(layouts), o, begin, run.files));
+  run.seconds = processor_seconds() - start;
   return {};
 }
 
-/// Nests and allocates. Other processes may take pieces from the same stock while this one nests: then it nests anew.
+/// Nests and allocates. Other processes may take pieces from the same stock while this one nests: then it
+/// nests anew.
 Result<void> nest_and_allocate(const NestOptions& o, Clock::time_point begin, std::optional<NestRun>& run) {
   NestOptions given = o;
   for (int runs = 1;; ++runs) {
@@ -244,7 +249,8 @@ Result<void> nest_and_allocate(const NestOptions& o, Clock::time_point begin, st
       run->allocated = *std::move(allocated);
       return {};
     }
-    if (allocated.error().code != ErrorCode::bad_input || runs == kMostRuns) return tl::unexpected(allocated.error());
+    if (allocated.error().code != ErrorCode::bad_input || runs == kMostRuns)
+      return tl::unexpected(allocated.error());
     LEKALO_TRY(const std::vector<std::int64_t> now, free_pieces(o.order->stock));
     if (now == before) return tl::unexpected(allocated.error());
     tell("note: another order took pieces of this layout meanwhile; it is nested anew on what is free\n");
@@ -256,14 +262,13 @@ Result<void> nest_and_allocate(const NestOptions& o, Clock::time_point begin, st
 
 Result<int> run_nest(const NestOptions& o) {
   const auto begin = Clock::now();
-  const double start = processor_seconds();
   std::optional<NestRun> run;
   if (o.allocate.empty())
     LEKALO_CHECK(nest_once(o, begin, run.emplace()));
   else
     LEKALO_CHECK(nest_and_allocate(o, begin, run));
   const std::vector<jobs::NestedMaterial>& all = run->all;
-  const double seconds = processor_seconds() - start;
+  const double seconds = run->seconds;
   const ToTheEnd to_the_end;
   if (const Result<void> written = run->files.commit(); !written)
     return tl::unexpected(run->allocated.empty() ? written.error() : given_back(o, written.error()));

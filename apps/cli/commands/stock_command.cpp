@@ -52,11 +52,19 @@ Result<int> add_pieces(const StockOptions& o) {
     faults += (faults.empty() ? "" : "; ") + some.error().message;
   }
   if (!faults.empty()) return failure(code, faults);
-  LEKALO_TRY(StockFile file, StockFile::open(o.file, pieces.empty() ? StockOpening::find : StockOpening::make));
+  // A file that would hold nothing is not made.
+  std::error_code unseen;
+  if (o.rule && !std::filesystem::exists(o.file, unseen) &&
+      std::none_of(pieces.begin(), pieces.end(),
+                   [&](const layout::Stock& piece) { return fits_rule(piece.outline.polygon, *o.rule); }))
+    return failure(ErrorCode::bad_input, fmt::format("{}: {}", o.file, jobs::rule_too_large(*o.rule)));
+  LEKALO_TRY(StockFile file,
+             StockFile::open(o.file, pieces.empty() ? StockOpening::find : StockOpening::make));
   LEKALO_TRY(const std::vector<StockItem> added, file.add(pieces, o.rule));
   std::string said;
   for (const StockItem& item : added) said += item_text(item);
-  if (o.rule) said += fmt::format("no remnant smaller than {} is kept from now on\n", jobs::words_of(*o.rule));
+  if (o.rule)
+    said += fmt::format("no remnant smaller than {} is kept from now on\n", jobs::words_of(*o.rule));
   tell(said);
   return kAllTrue;
 }
@@ -103,9 +111,11 @@ Result<int> cut(const StockOptions& o) {
   LEKALO_TRY(const std::vector<jobs::LayoutToCut> layouts, layouts_of(o));
   LEKALO_TRY(StockFile file, StockFile::open(o.file, StockOpening::find));
   LEKALO_TRY(const StockFile::Cut done, file.cut(o.order, layouts));
-  std::string said = fmt::format("order {}: cut from {}\n", done.order.id, counted(done.order.uses.size(), "piece"));
+  std::string said =
+      fmt::format("order {}: cut from {}\n", done.order.id, counted(done.order.uses.size(), "piece"));
   for (const StockItem& remnant : done.remnants) said += item_text(remnant);
-  if (done.remnants.empty()) said += fmt::format("no remnant is as large as {}\n", jobs::words_of(done.order.rule));
+  if (done.remnants.empty())
+    said += fmt::format("no remnant is as large as {}\n", jobs::words_of(done.order.rule));
   tell(said);
   return kAllTrue;
 }
@@ -123,10 +133,10 @@ Result<int> check(const StockOptions& o) {
   LEKALO_TRY(const jobs::StockBook book, file.book());
   LEKALO_TRY(const verify::ClaimReport report, jobs::check_book(book, o.file));
   for (const std::string& finding : report.findings) tell(fmt::format("{}: {}\n", o.file, finding));
-  LEKALO_CHECK(print(fmt::format("{}: {}, {}; {}\n", o.file, counted(book.items.size(), "piece"),
-                                 counted(book.orders.size(), "order"),
-                                 report.findings.empty() ? "everything was rechecked, and is true"
-                                                         : fmt::format("{} not true", report.findings.size()))));
+  LEKALO_CHECK(print(fmt::format(
+      "{}: {}, {}; {}\n", o.file, counted(book.items.size(), "piece"), counted(book.orders.size(), "order"),
+      report.findings.empty() ? "everything was rechecked, and is true"
+                              : fmt::format("{} not true", report.findings.size()))));
   return report.findings.empty() ? kAllTrue : kNotTrue;
 }
 

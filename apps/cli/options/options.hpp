@@ -138,7 +138,7 @@ struct ShowOptions {
 
 struct ExportOptions {
   LayoutSource source;
-  std::string output;  ///< empty: stdout
+  std::string output;        ///< empty: stdout
   jobs::ExportOptions form;  ///< a file of processes is named there, and not read yet
 };
 

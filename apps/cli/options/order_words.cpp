@@ -49,9 +49,10 @@ Result<std::optional<OrderSource>> to_order(const OrderWords& w, const LayoutWor
   }
   read.require(w.terms.builds.empty() || !w.table.empty(),
                "--build says what is built of a bill of materials, which --order TABLE names");
-  read.require(w.stock.empty() || (w.terms.sheets.empty() && w.terms.strips.empty()),
-               "--stock takes its sheets from the file: add others to it with lekalo stock add, and leave --sheet and "
-               "--strip out");
+  read.require(
+      w.stock.empty() || (w.terms.sheets.empty() && w.terms.strips.empty()),
+      "--stock takes its sheets from the file: add others to it with lekalo stock add, and leave --sheet and "
+      "--strip out");
   order.table = w.table;
   order.stock = w.stock;
   auto terms = jobs::read_order_words(w.terms, "--");

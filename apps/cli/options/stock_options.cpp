@@ -13,9 +13,9 @@ namespace lekalo::cli {
 namespace {
 
 constexpr std::array kStockActions{
-    Word<StockAction>{"add", StockAction::add},         Word<StockAction>{"list", StockAction::list},
+    Word<StockAction>{"add", StockAction::add},           Word<StockAction>{"list", StockAction::list},
     Word<StockAction>{"allocate", StockAction::allocate}, Word<StockAction>{"cut", StockAction::cut},
-    Word<StockAction>{"cancel", StockAction::cancel},   Word<StockAction>{"check", StockAction::check}};
+    Word<StockAction>{"cancel", StockAction::cancel},     Word<StockAction>{"check", StockAction::check}};
 
 /// As typed.
 struct StockWords {
@@ -32,9 +32,11 @@ bool wants_order(StockAction action) {
 void require_fitting(WordReader& read, const StockWords& w, StockAction action) {
   const bool adds = action == StockAction::add;
   read.require(adds || (w.sheets.empty() && w.cost.empty() && w.grain.empty() && w.rule.empty()),
-               fmt::format("--sheet, --cost, --grain and --remnant-min are for lekalo stock add, not for {}", w.action));
-  read.require(!adds || !w.sheets.empty() || !w.rule.empty(),
-               "nothing is added; say --sheet 3000x1500=5@steel:2, --sheet hide.dxf or --remnant-min 300x200");
+               fmt::format("--sheet, --cost, --grain and --remnant-min are for lekalo stock add, not for {}",
+                           w.action));
+  read.require(
+      !adds || !w.sheets.empty() || !w.rule.empty(),
+      "nothing is added; say --sheet 3000x1500=5@steel:2, --sheet hide.dxf or --remnant-min 300x200");
   read.require((!w.reading.json && w.reading.picture.empty()) || action == StockAction::list,
                fmt::format("--json and --picture are for lekalo stock list, not for {}", w.action));
   read.require(!wants_order(action) || !w.of.empty(),
@@ -42,15 +44,16 @@ void require_fitting(WordReader& read, const StockWords& w, StockAction action) 
   read.require(action != StockAction::allocate || w.of.size() > 1 || w.of.empty(),
                "the layout is missing: lekalo stock allocate FILE ORDER LAYOUT");
   const std::size_t most = !wants_order(action) ? 0 : action == StockAction::cancel ? 1 : w.of.size();
-  read.require(w.of.size() <= most,
-               fmt::format("lekalo stock {} does not take \"{}\"", w.action, w.of.empty() ? "" : w.of.back()));
+  read.require(w.of.size() <= most, fmt::format("lekalo stock {} does not take \"{}\"", w.action,
+                                                w.of.empty() ? "" : w.of.back()));
 }
 
 Result<Command> to_stock(const StockWords& w) {
   StockOptions o;
   WordReader read;
   read.choice("the action", w.action, kStockActions, o.action);
-  if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint() + " (see lekalo stock --help)");
+  if (!read.complaint().empty())
+    return failure(ErrorCode::usage, read.complaint() + " (see lekalo stock --help)");
   require_fitting(read, w, o.action);
   o.file = w.file;
   if (!w.of.empty()) o.order = w.of.front(), o.layouts.assign(w.of.begin() + 1, w.of.end());
@@ -61,15 +64,18 @@ Result<Command> to_stock(const StockWords& w) {
   if (terms) o.pieces = terms->stocks;
   if (!w.rule.empty()) {
     o.rule = jobs::remnant_rule_of(w.rule);
-    read.require(o.rule.has_value(), fmt::format("--remnant-min: \"{}\" is no size, as 300x200, and no area of whole "
-                                                 "square millimetres, as 60000mm2 or 0.06m2",
-                                                 w.rule));
+    read.require(o.rule.has_value(),
+                 fmt::format("--remnant-min: \"{}\" is no size, as 300x200, and no area of whole "
+                             "square millimetres, as 60000mm2 or 0.06m2",
+                             w.rule));
   }
   if (!w.cost.empty())
-    read.number("--cost", w.cost, 0.0, limits::kMostMoney, "a cost from 0 to 1,000,000,000,000", o.cost.emplace());
+    read.number("--cost", w.cost, 0.0, limits::kMostMoney, "a cost from 0 to 1,000,000,000,000",
+                o.cost.emplace());
   if (!w.grain.empty()) {
     o.grain = io::grain_of(w.grain);
-    read.require(o.grain.has_value(), fmt::format("--grain: \"{}\" is not x, y or a number of degrees", w.grain));
+    read.require(o.grain.has_value(),
+                 fmt::format("--grain: \"{}\" is not x, y or a number of degrees", w.grain));
   }
   const auto source = to_layout_source(w.reading);
   read.require(source.has_value(), source ? "" : source.error().message);
@@ -89,26 +95,33 @@ Typed add_stock_form(Form& form) {
   StockWords& w = *words;
   const OptionAdder add(form);
   add("action", w.action, list_of(kStockActions, "|"),
-      "Add pieces; list them; allocate what layouts use to an order; say that it was cut, or that it is not to be; "
+      "Add pieces; list them; allocate what layouts use to an order; say that it was cut, or that it is not "
+      "to be; "
       "check all")
       .required = true;
-  add("file", w.file, "FILE", "The stock file; lekalo stock add makes it where there is none").required = true;
+  add("file", w.file, "FILE", "The stock file; lekalo stock add makes it where there is none").required =
+      true;
   add("of", w.of, "ORDER [LAYOUT...]",
-      "allocate: the order's id and its layouts; cut: its id, and layouts that were changed since; cancel: its id");
+      "allocate: the order's id and its layouts; cut: its id, and layouts that were changed since; cancel: "
+      "its id");
   const OptionAdder adding(form, "Adding");
-  adding("--sheet", w.sheets, "WxH[=N][@MATERIAL:T]",
-         "N sheets of this size [1], of the outlines of a drawing, or of the stocks of a layout; again for more")
+  adding(
+      "--sheet", w.sheets, "WxH[=N][@MATERIAL:T]",
+      "N sheets of this size [1], of the outlines of a drawing, or of the stocks of a layout; again for more")
       .one_word_a_time = true;
   adding("--cost", w.cost, "COST", "What each of them cost [its area in m2]");
   adding("--grain", w.grain, "x|y|DEGREES", "The direction of the grain of these");
   adding("--remnant-min", w.rule, "WxH|AREA",
-         "Keep no remnant that holds no such rectangle, or has less area (60000mm2, 0.06m2), from now on [200x200]");
+         "Keep no remnant that holds no such rectangle, or has less area (60000mm2, 0.06m2), from now on "
+         "[200x200]");
   add_drawings_reading(form, w.reading);
   add_layout_outputs(form, w.reading);
   form.footer =
-      "lekalo nest --stock FILE --allocate ORDER takes from it, remnants first. Any number of programs may use\n"
+      "lekalo nest --stock FILE --allocate ORDER takes from it, remnants first. Any number of programs may "
+      "use\n"
       "the file at the same time, and no piece is given to two orders.\n"
-      "Exit codes: 0 done; 1 check: something is not true; 2 wrong command line; 3 bad input, as an order that\n"
+      "Exit codes: 0 done; 1 check: something is not true; 2 wrong command line; 3 bad input, as an order "
+      "that\n"
       "is not there; 5 the file cannot be written, or is in use for too long.";
   return [words] { return to_stock(*words); };
 }

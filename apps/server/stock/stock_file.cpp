@@ -35,8 +35,8 @@ constexpr std::int64_t kStockFormat = 1;
 constexpr const char* kWaiting = "PRAGMA busy_timeout=20000; PRAGMA synchronous=EXTRA";
 constexpr std::size_t kLongestOrder = 100;
 
-/// A piece is never changed: whether it is free follows from the one row that may use it. `item` is the key there, so
-/// SQLite itself refuses a second use.
+/// A piece is never changed: whether it is free follows from the one row that may use it. `item` is the key
+/// there, so SQLite itself refuses a second use.
 constexpr const char* kStockSchema = R"(
 CREATE TABLE stock (
   one INTEGER PRIMARY KEY CHECK (one = 1),
@@ -114,14 +114,15 @@ std::string digest_of_layout(const std::string& order, std::size_t number, std::
 }
 
 Error damaged_row(const std::string& what) {
-  return {ErrorCode::bad_input, fmt::format("{} is not as it was written; the file is damaged, take a copy of before",
-                                            what)};
+  return {ErrorCode::bad_input,
+          fmt::format("{} is not as it was written; the file is damaged, take a copy of before", what)};
 }
 
 /// Makes the file where there is none. Whoever may read the folder's other files may read it too.
 Result<void> make_stock_file(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file < 0) return failure(ErrorCode::environment, fmt::format("it cannot be made: {}", std::strerror(errno)));
+  if (file < 0)
+    return failure(ErrorCode::environment, fmt::format("it cannot be made: {}", std::strerror(errno)));
   ::close(file);
   return {};
 }
@@ -156,8 +157,9 @@ Result<void> is_stock_file(const Database& database) {
   if (application != kStockApplication)
     return failure(ErrorCode::bad_input, "it is no stock file, as lekalo stock add makes it");
   if (format != kStockFormat)
-    return failure(ErrorCode::bad_input,
-                   fmt::format("its format is {}, and this program knows {}; take a newer one", format, kStockFormat));
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format("its format is {}, and this program knows {}; take a newer one", format, kStockFormat));
   LEKALO_TRY(Statement check, database.prepare("PRAGMA quick_check(1)"));
   LEKALO_TRY(const bool row, check.step());
   if (const std::string said = row ? check.text(0) : ""; said != "ok")
@@ -168,9 +170,10 @@ Result<void> is_stock_file(const Database& database) {
 Result<std::string> fine_order(const std::string& order) {
   const auto kept = io::kept_text(order);
   if (!kept || kept->empty() || kept->size() > kLongestOrder)
-    return failure(ErrorCode::bad_input,
-                   fmt::format("\"{}\" is no id of an order: it has from 1 to {} bytes and no control characters",
-                               io::excerpt(order), kLongestOrder));
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format("\"{}\" is no id of an order: it has from 1 to {} bytes and no control characters",
+                    io::excerpt(order), kLongestOrder));
   return *kept;
 }
 
@@ -275,7 +278,8 @@ Result<StockBook> StockFile::read(Layouts layouts) const {
 }
 
 Result<std::vector<StockItem>> StockFile::read_items() const {
-  LEKALO_TRY(Statement rows, database_.prepare("SELECT id, origin, place, piece, digest FROM item ORDER BY id"));
+  LEKALO_TRY(Statement rows,
+             database_.prepare("SELECT id, origin, place, piece, digest FROM item ORDER BY id"));
   std::vector<StockItem> items;
   for (;;) {
     LEKALO_TRY(const bool row, rows.step());
@@ -285,7 +289,8 @@ Result<std::vector<StockItem>> StockFile::read_items() const {
     item.from = rows.integer(1);
     const std::string place = rows.text(2), piece = rows.text(3), name = "item " + std::to_string(item.id);
     const auto numbers = numbers_in<6>(place);
-    if (!numbers || rows.text(4) != digest_of_item(item, place, piece)) return tl::unexpected(damaged_row(name));
+    if (!numbers || rows.text(4) != digest_of_item(item, place, piece))
+      return tl::unexpected(damaged_row(name));
     const auto& n = *numbers;
     item.at = {n[0], n[1]};
     item.rectangle = {{n[2], n[3]}, {n[4], n[5]}};
@@ -318,8 +323,9 @@ Result<void> StockFile::read_uses(std::vector<StockOrder>& orders) const {
     LEKALO_TRY(const bool row, rows.step());
     if (!row) break;
     const std::string id = rows.text(0);
-    const auto order = std::lower_bound(orders.begin(), orders.end(), id,
-                                        [](const StockOrder& one, const std::string& text) { return one.id < text; });
+    const auto order =
+        std::lower_bound(orders.begin(), orders.end(), id,
+                         [](const StockOrder& one, const std::string& text) { return one.id < text; });
     if (order == orders.end() || order->id != id) return tl::unexpected(damaged_row("order " + id));
     order->uses.push_back(
         {static_cast<std::size_t>(rows.integer(1)), rows.text(2), rows.integer(3), rows.integer(4)});
@@ -342,7 +348,8 @@ Result<void> StockFile::read_layouts(StockOrder& order) const {
     if (!row) return {};
     std::string document = rows.text(0);
     if (rows.text(1) != digest_of_layout(order.id, order.layouts.size(), document))
-      return tl::unexpected(damaged_row(fmt::format("layout {} of order {}", order.layouts.size() + 1, order.id)));
+      return tl::unexpected(
+          damaged_row(fmt::format("layout {} of order {}", order.layouts.size() + 1, order.id)));
     order.layouts.push_back(std::move(document));
   }
 }
@@ -406,9 +413,9 @@ Result<StockOrder> StockFile::find(const StockBook& book, const std::string& ord
     const auto open = std::find_if(book.orders.begin(), book.orders.end(), [](const StockOrder& one) {
       return one.state == StockOrderState::allocated;
     });
-    return refused(fmt::format("there is no order {}{}", io::excerpt(order),
-                               open == book.orders.end() ? "; none is allocated"
-                                                         : "; one that is allocated is " + open->id));
+    return refused(fmt::format(
+        "there is no order {}{}", io::excerpt(order),
+        open == book.orders.end() ? "; none is allocated" : "; one that is allocated is " + open->id));
   }
   return *found;
 }
@@ -426,9 +433,9 @@ Result<std::vector<StockItem>> StockFile::add(const std::vector<layout::Stock>& 
     const auto fits = [&](const StockItem& item) {
       return item.state != StockState::cut && fits_rule(item.stock.outline.polygon, *rule);
     };
-    if (std::none_of(book.items.begin(), book.items.end(), fits) && std::none_of(added.begin(), added.end(), fits))
-      return refused(fmt::format("no piece in it is large enough for a remnant of {}, so none would ever come back",
-                                 jobs::words_of(*rule)));
+    if (std::none_of(book.items.begin(), book.items.end(), fits) &&
+        std::none_of(added.begin(), added.end(), fits))
+      return refused(jobs::rule_too_large(*rule));
     LEKALO_TRY(Statement update, database_.prepare("UPDATE stock SET rule = ?"));
     LEKALO_CHECK(update.bind(1, rule_text(*rule)).run());
     return added;
@@ -441,11 +448,12 @@ Result<StockOrder> StockFile::allocate(const std::string& order, const std::vect
     LEKALO_TRY(made.id, fine_order(order));
     for (const StockOrder& one : book.orders)
       if (one.id == made.id && one.state != StockOrderState::cancelled)
-        return refused(one.state == StockOrderState::cut
-                           ? fmt::format("order {} was cut already; give this one another id", one.id)
-                           : fmt::format("order {0} is allocated already; give this one another id, or give that back "
-                                         "with lekalo stock cancel {0}",
-                                         one.id));
+        return refused(
+            one.state == StockOrderState::cut
+                ? fmt::format("order {} was cut already; give this one another id", one.id)
+                : fmt::format("order {0} is allocated already; give this one another id, or give that back "
+                              "with lekalo stock cancel {0}",
+                              one.id));
     LEKALO_TRY(made.uses, jobs::uses_of(layouts, book.items, made.id));
     for (const LayoutToCut& layout : layouts) made.layouts.push_back(io::write_layout(layout.document));
     LEKALO_CHECK(put(made));
@@ -460,8 +468,9 @@ Result<StockFile::Cut> StockFile::cut(const std::string& order, const std::vecto
     StockOrder& found = done.order;
     if (found.state != StockOrderState::allocated)
       return refused(fmt::format("order {} {}", found.id,
-                                 found.state == StockOrderState::cut ? "was cut already"
-                                                                     : "was cancelled, so nothing is allocated to it"));
+                                 found.state == StockOrderState::cut
+                                     ? "was cut already"
+                                     : "was cancelled, so nothing is allocated to it"));
     std::vector<LayoutToCut> cut = layouts;
     if (cut.empty()) {
       LEKALO_CHECK(read_layouts(found));
@@ -475,7 +484,7 @@ Result<StockFile::Cut> StockFile::cut(const std::string& order, const std::vecto
     }
     found.state = StockOrderState::cut;
     found.rule = book.rule;
-    LEKALO_TRY(done.remnants, jobs::remnants_left(cut, found.uses, book.items, found.rule));
+    done.remnants = jobs::remnants_left(cut, found.uses, book.items, found.rule);
     for (StockItem& remnant : done.remnants) LEKALO_CHECK(put(remnant));
     LEKALO_CHECK(put(found));
     return done;
@@ -487,8 +496,9 @@ Result<StockOrder> StockFile::cancel(const std::string& order) {
     LEKALO_TRY(StockOrder found, find(book, order));
     if (found.state != StockOrderState::allocated)
       return refused(fmt::format("order {} {}", found.id,
-                                 found.state == StockOrderState::cut ? "was cut, and what was cut does not come back"
-                                                                     : "was cancelled already"));
+                                 found.state == StockOrderState::cut
+                                     ? "was cut, and what was cut does not come back"
+                                     : "was cancelled already"));
     StockOrder cancelled;
     cancelled.id = found.id;
     cancelled.state = StockOrderState::cancelled;

@@ -14,17 +14,18 @@ namespace lekalo::server {
 /// Says whether a stock file is made where there is none.
 enum class StockOpening : std::uint8_t { make, find };
 
-/// The stock of a shop in one SQLite file, which any number of processes may use at the same time: whatever changes
-/// it is one transaction with everything that it was decided by, so no piece is given to two orders, and a process
-/// that is killed at any moment leaves the state before or after. docs/design/stock.md says how.
+/// The stock of a shop in one SQLite file, which any number of processes may use at the same time: whatever
+/// changes it is one transaction with everything that it was decided by, so no piece is given to two orders,
+/// and a process that is killed at any moment leaves the state before or after. docs/design/stock.md says
+/// how.
 ///
 /// Functions fail with ErrorCode::environment where the disk or another process does not let them, and with
-/// ErrorCode::bad_input and one sentence for what cannot be, as an order that is not there; then nothing is changed.
-/// Each reads the whole file but its layouts: O(pieces and orders of all time).
+/// ErrorCode::bad_input and one sentence for what cannot be, as an order that is not there; then nothing is
+/// changed. Each reads the whole file but its layouts: O(pieces and orders of all time).
 class StockFile {
  public:
-  /// Fails with ErrorCode::bad_input where there is no file to be found, for another file than a stock file, and for
-  /// one that is damaged.
+  /// Fails with ErrorCode::bad_input where there is no file to be found, for another file than a stock file,
+  /// and for one that is damaged.
   [[nodiscard]] static Result<StockFile> open(const std::string& path, StockOpening opening);
 
   /// Returns everything in it. Fails with ErrorCode::bad_input for rows that do not fit their digests.
@@ -32,8 +33,8 @@ class StockFile {
   /// Returns the pieces, also those that are gone.
   [[nodiscard]] Result<std::vector<jobs::StockItem>> items();
 
-  /// Adds pieces, and changes the rule of the remnants to come. Fails for a rule that no piece there is large enough
-  /// for. Returns the pieces that came.
+  /// Adds pieces, and changes the rule of the remnants to come. Fails for a rule that no piece there is large
+  /// enough for. Returns the pieces that came.
   [[nodiscard]] Result<std::vector<jobs::StockItem>> add(const std::vector<layout::Stock>& pieces,
                                                          const std::optional<layout::RemnantRule>& rule);
   /// Allocates what layouts use (jobs::uses_of) to an order. Fails for an order that is allocated or was cut.

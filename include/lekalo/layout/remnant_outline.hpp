@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "lekalo/base/error.hpp"
 #include "lekalo/layout/document.hpp"
 
 namespace lekalo::layout {
@@ -22,7 +21,8 @@ struct RemnantRule {
 /// The rest of a sheet that is worth keeping.
 struct Remnant {
   geom::GridRegion outline;  ///< in the frame of the sheet
-  /// A rectangle in the outline, proved to lie in it; it has the size of the rule where that says one, or more.
+  /// A rectangle in the outline, proved to lie in it; it has the size of the rule where that says one, or
+  /// more.
   geom::GridBox rectangle;
 };
 
@@ -30,21 +30,21 @@ struct Remnant {
 [[nodiscard]] std::int64_t remnant_gap(const Document& document, const Part& part) noexcept;
 
 /// Returns what a sheet leaves when what lies on it was cut, largest first: the region beyond a stepped cut
-/// around the box of every part, each grown by its remnant_gap. The cut begins at that corner of the sheet from
-/// which it leaves most, and has at most four corners, each of which gains as much as the smallest remnant of
-/// the rule is worth. Arms narrower than the shorter side of the rule are left out.
+/// around the box of every part, each grown by its remnant_gap. The cut begins at that corner of the sheet
+/// from which it leaves most, and has at most four corners, each of which gains as much as the smallest
+/// remnant of the rule is worth. Arms narrower than the shorter side of the rule are left out.
 ///
 /// Proved of each one, exactly, on the grid: it lies in the sheet, is no nearer to a part than the part's
 /// remnant_gap, overlaps no other one, and satisfies the rule. What cannot be proved is not returned.
-/// docs/design/stock.md says how. Fails as geom::combine does. Cost: O(n^2) for the n parts of the sheet
+/// docs/design/stock.md says how. Cost: O(n^2) for the n parts of the sheet
 /// whose upper right corners no other part covers, and that of Booleans with a polygon of eleven corners.
 /// \pre a part lies on the copy; the stock is no strip
-[[nodiscard]] Result<std::vector<Remnant>> remnants_of(const Document& document, std::uint32_t stock,
-                                                       std::int64_t copy, const RemnantRule& rule);
+[[nodiscard]] std::vector<Remnant> remnants_of(const Document& document, std::uint32_t stock,
+                                               std::int64_t copy, const RemnantRule& rule);
 
-/// Returns the remnant as stock, moved so that the lower left corner of its box is (0, 0). It has the material and
-/// the grain of the sheet, its share of the cost by area, and the defects and zones that meet it, as polygons. The
-/// id is left empty.
+/// Returns the remnant as stock, moved so that the lower left corner of its box is (0, 0). It has the
+/// material and the grain of the sheet, its share of the cost by area, and the defects and zones that meet
+/// it, as polygons. The id is left empty.
 [[nodiscard]] Stock stock_of(const Stock& sheet, const Remnant& remnant);
 
 }  // namespace lekalo::layout

@@ -56,7 +56,8 @@ void write_rule(io::JsonWriter& json, const layout::RemnantRule& rule) {
 }
 
 void write_item(io::JsonWriter& json, const StockItem& item, const StockItem* from) {
-  json.begin_object().fields({{"id", name_of(item)}, {"state", name_of(item.state)}, {"order", said(item.order)}});
+  json.begin_object().fields(
+      {{"id", name_of(item)}, {"state", name_of(item.state)}, {"order", said(item.order)}});
   json.key("from");
   if (from != nullptr) {
     const geom::Point at = geom::mm_from_grid(item.at), low = geom::mm_from_grid(item.rectangle.low),
@@ -71,7 +72,8 @@ void write_item(io::JsonWriter& json, const StockItem& item, const StockItem* fr
   json.end();
 }
 
-void write_order(io::JsonWriter& json, const StockOrder& order, const std::map<std::int64_t, std::string>& names) {
+void write_order(io::JsonWriter& json, const StockOrder& order,
+                 const std::map<std::int64_t, std::string>& names) {
   json.begin_object().fields({{"id", order.id}, {"state", name_of(order.state)}});
   json.key("remnant_min");
   order.state == StockOrderState::cut ? write_rule(json, order.rule) : void(json.value(nullptr));
@@ -81,7 +83,8 @@ void write_order(io::JsonWriter& json, const StockOrder& order, const std::map<s
     for (const StockUse& use : order.uses)
       if (use.layout == i)
         json.object({{"stock", use.stock}, {"copy", use.copy}, {"item", names.at(use.item)}});
-    json.end().key("layout").raw() += std::string_view(order.layouts[i]).substr(0, order.layouts[i].find_last_not_of('\n') + 1);
+    json.end().key("layout").raw() +=
+        std::string_view(order.layouts[i]).substr(0, order.layouts[i].find_last_not_of('\n') + 1);
     json.end();
   }
   json.end().end();
@@ -107,8 +110,8 @@ std::vector<StockSums> sums_of(const StockBook& book) {
   }
   std::vector<StockSums> all;
   for (const WholeSums& one : whole)
-    all.push_back({one.material, mm2_of(one.added), mm2_of(one.free), mm2_of(one.allocated), mm2_of(one.parts),
-                   mm2_of(one.cut - one.parts - one.remnants)});
+    all.push_back({one.material, mm2_of(one.added), mm2_of(one.free), mm2_of(one.allocated),
+                   mm2_of(one.parts), mm2_of(one.cut - one.parts - one.remnants)});
   return all;
 }
 
@@ -120,7 +123,8 @@ std::string stock_book_json(const StockBook& book) {
   json.field("units", "mm").key("inputs").begin_list().end().key("remnant_min");
   write_rule(json, book.rule);
   json.key("items").begin_list();
-  for (const StockItem& item : book.items) write_item(json, item, item.from == 0 ? nullptr : items.at(item.from));
+  for (const StockItem& item : book.items)
+    write_item(json, item, item.from == 0 ? nullptr : items.at(item.from));
   json.end().key("orders").begin_list();
   for (const StockOrder& order : book.orders) write_order(json, order, names);
   json.end().key("sums").begin_list();
@@ -159,7 +163,8 @@ layout::Document rack_of(const StockBook& book) {
   }
   // Rows about twice as long as all of them are high.
   std::int64_t row_length = widest;
-  while (Int128{row_length} * row_length < 2 * area && row_length < geom::kGridLimit / 8) row_length += row_length / 8 + 1;
+  while (Int128{row_length} * row_length < 2 * area && row_length < geom::kGridLimit / 8)
+    row_length += row_length / 8 + 1;
   geom::GridPoint next{0, 0};
   std::int64_t row_height = 0, length = 0;
   for (const StockItem* item : items) {

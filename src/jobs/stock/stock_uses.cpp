@@ -29,7 +29,8 @@ bool serves(const Material& item, const Material& wanted) {
 }
 
 const StockItem* item_of(const std::vector<StockItem>& items, std::int64_t id) {
-  const auto found = std::find_if(items.begin(), items.end(), [id](const StockItem& one) { return one.id == id; });
+  const auto found =
+      std::find_if(items.begin(), items.end(), [id](const StockItem& one) { return one.id == id; });
   return found == items.end() ? nullptr : &*found;
 }
 
@@ -56,10 +57,12 @@ class UseFinder {
 
   void find_of(const LayoutToCut& layout, std::size_t number) {
     const layout::Document& document = layout.document;
-    if (document.placements.empty()) return fault(layout.name + ": nothing is placed, so there is nothing to cut");
+    if (document.placements.empty())
+      return fault(layout.name + ": nothing is placed, so there is nothing to cut");
     if (const std::size_t broken = layout::check(document).size(); broken > 0)
-      return fault(fmt::format("{}: it breaks {} {}, which lekalo check names; a layout that is cut breaks none",
-                               layout.name, broken, broken == 1 ? "rule" : "rules"));
+      return fault(
+          fmt::format("{}: it breaks {} {}, which lekalo check names; a layout that is cut breaks none",
+                      layout.name, broken, broken == 1 ? "rule" : "rules"));
     for (const auto& [stock, copies] : copies_in_use(document)) {
       const Stock& wanted = document.stocks[stock];
       std::size_t found = 0;
@@ -99,21 +102,23 @@ class UseFinder {
       if (!same_piece(item.stock, wanted)) continue;
       if (!serves(item.stock.material, wanted.material))
         other = other == nullptr ? &item : other;
-      else if (!is_free(item) && (gone == nullptr || name_of(item) == wanted.id || item.state == StockState::allocated))
+      else if (!is_free(item) &&
+               (gone == nullptr || name_of(item) == wanted.id || item.state == StockState::allocated))
         gone = &item;
     }
     if (gone != nullptr || found > 0) {
-      std::string sentence =
-          fmt::format("it needs {} of its stock {}, and {} {} free", needed, wanted.id, found, found == 1 ? "is" : "are");
+      std::string sentence = fmt::format("it needs {} of its stock {}, and {} {} free", needed, wanted.id,
+                                         found, found == 1 ? "is" : "are");
       if (gone != nullptr)
         sentence += fmt::format("; {} is {} order {}", name_of(*gone),
                                 gone->state == StockState::cut ? "cut for" : "allocated to", gone->order);
       return sentence;
     }
     if (other != nullptr)
-      return fmt::format("its stock {} is of {}, and the pieces of this outline are of another material: {} of {}",
-                         wanted.id, layout::words_of(wanted.material), name_of(*other),
-                         layout::words_of(other->stock.material));
+      return fmt::format(
+          "its stock {} is of {}, and the pieces of this outline are of another material: {} of {}",
+          wanted.id, layout::words_of(wanted.material), name_of(*other),
+          layout::words_of(other->stock.material));
     return fmt::format("its stock {} is no piece of this stock file; lekalo stock add adds it", wanted.id);
   }
 
@@ -126,8 +131,8 @@ class UseFinder {
 
 }  // namespace
 
-Result<std::vector<StockUse>> uses_of(const std::vector<LayoutToCut>& layouts, const std::vector<StockItem>& items,
-                                      const std::string& order) {
+Result<std::vector<StockUse>> uses_of(const std::vector<LayoutToCut>& layouts,
+                                      const std::vector<StockItem>& items, const std::string& order) {
   return UseFinder(items, order).find(layouts);
 }
 
@@ -150,8 +155,8 @@ std::vector<Stock> offered_stock(const std::vector<StockItem>& items) {
   for (const StockItem& item : items) {
     if (item.state != StockState::free || item.from != 0) continue;
     const auto alike = std::find_if(sheets.begin(), sheets.end(), [&](const Stock& one) {
-      return same_piece(one, item.stock) && one.material == item.stock.material && one.cost == item.stock.cost &&
-             one.grain_degrees == item.stock.grain_degrees;
+      return same_piece(one, item.stock) && one.material == item.stock.material &&
+             one.cost == item.stock.cost && one.grain_degrees == item.stock.grain_degrees;
     });
     if (alike != sheets.end()) {
       ++alike->count;
@@ -164,18 +169,16 @@ std::vector<Stock> offered_stock(const std::vector<StockItem>& items) {
   return remnants;
 }
 
-Result<std::vector<StockItem>> remnants_left(const std::vector<LayoutToCut>& layouts,
-                                             const std::vector<StockUse>& uses, const std::vector<StockItem>& items,
-                                             const layout::RemnantRule& rule) {
+std::vector<StockItem> remnants_left(const std::vector<LayoutToCut>& layouts,
+                                     const std::vector<StockUse>& uses, const std::vector<StockItem>& items,
+                                     const layout::RemnantRule& rule) {
   std::vector<StockItem> left;
   for (const StockUse& use : uses) {
     const layout::Document& document = layouts[use.layout].document;
     const auto stock = std::find_if(document.stocks.begin(), document.stocks.end(),
                                     [&](const Stock& one) { return one.id == use.stock; });
     const auto number = static_cast<std::uint32_t>(stock - document.stocks.begin());
-    LEKALO_TRY(const std::vector<layout::Remnant> remnants,
-               layout::remnants_of(document, number, use.copy, rule));
-    for (const layout::Remnant& remnant : remnants) {
+    for (const layout::Remnant& remnant : layout::remnants_of(document, number, use.copy, rule)) {
       StockItem item;
       item.from = use.item;
       item.at = geom::bounds(remnant.outline).low;

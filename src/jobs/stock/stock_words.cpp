@@ -25,7 +25,8 @@ std::optional<std::int64_t> whole_mm2(double mm2) {
   return static_cast<std::int64_t>(whole);
 }
 
-/// The stocks that a file holds: those of a layout, with how many of each there are, or the outlines of a drawing.
+/// The stocks that a file holds: those of a layout, with how many of each there are, or the outlines of a
+/// drawing.
 Result<std::vector<layout::Stock>> stocks_in(const File& file, const io::PartOptions& reading) {
   auto layout = io::read_any_layout(file.bytes, file.name, reading);
   if (layout && !layout->document.stocks.empty()) return std::move(layout->document.stocks);
@@ -46,7 +47,9 @@ std::string_view name_of(StockOrderState state) noexcept {
   return kNames[static_cast<std::size_t>(state)];
 }
 
-std::string name_of(const StockItem& item) { return fmt::format("{}{}", item.from == 0 ? 'S' : 'R', item.id); }
+std::string name_of(const StockItem& item) {
+  return fmt::format("{}{}", item.from == 0 ? 'S' : 'R', item.id);
+}
 
 layout::RemnantRule usual_remnant_rule() { return {200 * geom::kGridPerMm, 200 * geom::kGridPerMm, 0}; }
 
@@ -54,7 +57,8 @@ std::optional<layout::RemnantRule> remnant_rule_of(std::string_view word) {
   if (const auto size = io::size_of(word)) {
     const auto fine = [](double mm) { return limits::kShortestSide <= mm && mm <= limits::kLargestOutline; };
     if (!fine(size->width_mm) || !fine(size->height_mm)) return std::nullopt;
-    return layout::RemnantRule{geom::grid_from_mm_up(size->width_mm), geom::grid_from_mm_up(size->height_mm), 0};
+    return layout::RemnantRule{geom::grid_from_mm_up(size->width_mm), geom::grid_from_mm_up(size->height_mm),
+                               0};
   }
   if (!word.ends_with('2')) return std::nullopt;
   word.remove_suffix(1);
@@ -79,6 +83,11 @@ std::string words_of(const layout::RemnantRule& rule) {
   return fmt::format("{:g}x{:g} mm", geom::mm_from_grid(rule.width), geom::mm_from_grid(rule.height));
 }
 
+std::string rule_too_large(const layout::RemnantRule& rule) {
+  return fmt::format("no piece in it is large enough for a remnant of {}, so none would ever come back",
+                     words_of(rule));
+}
+
 Result<std::vector<layout::Stock>> added_stock(const StockWord& word, const std::optional<File>& file,
                                                const io::PartOptions& reading, std::optional<double> cost,
                                                std::optional<double> grain) {
@@ -93,13 +102,13 @@ Result<std::vector<layout::Stock>> added_stock(const StockWord& word, const std:
   for (layout::Stock& stock : kinds) {
     if (stock.kind == layout::StockKind::strip)
       return failure(ErrorCode::bad_input,
-                     fmt::format("{}: its stock {} is a strip; a stock file holds pieces with an outline", word.said,
-                                 stock.id));
+                     fmt::format("{}: its stock {} is a strip; a stock file holds pieces with an outline",
+                                 word.said, stock.id));
     const std::int64_t count = word.count.value_or(stock.count);
     if (count > kMostAdded - static_cast<std::int64_t>(all.size()))
       return failure(ErrorCode::bad_input,
-                     fmt::format("{}: {} pieces are more than the {} that are added at once", word.said, count,
-                                 kMostAdded));
+                     fmt::format("{}: {} pieces are more than the {} that are added at once", word.said,
+                                 count, kMostAdded));
     stock.count = 1;
     stock.name.clear();
     if (cost) stock.cost = *cost;

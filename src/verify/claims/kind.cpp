@@ -104,12 +104,26 @@ Result<Kind> kind_of(const Document& document) {
 }
 
 std::string_view name_of(Kind kind) noexcept {
-  constexpr std::array<std::string_view, 20> kNames{
-      "a placement",          "a layout",          "placements on a strip", "a report of nest",
-      "a report of an order", "a report of check", "a report of show",      "a report of pocket",
-      "a report of simulate", "a result of fit",   "a result of heat",      "a report of verify",
-      "a stock",                    "a certificate",        "an NC program",     "a DXF drawing",         "an SVG drawing",
-      "an HPGL plot",         "a picture",         "none of lekalo's files"};
+  constexpr std::array<std::string_view, 20> kNames{"a placement",
+                                                    "a layout",
+                                                    "placements on a strip",
+                                                    "a report of nest",
+                                                    "a report of an order",
+                                                    "a report of check",
+                                                    "a report of show",
+                                                    "a report of pocket",
+                                                    "a report of simulate",
+                                                    "a result of fit",
+                                                    "a result of heat",
+                                                    "a report of verify",
+                                                    "a stock",
+                                                    "a certificate",
+                                                    "an NC program",
+                                                    "a DXF drawing",
+                                                    "an SVG drawing",
+                                                    "an HPGL plot",
+                                                    "a picture",
+                                                    "none of lekalo's files"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 

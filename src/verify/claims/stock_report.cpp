@@ -166,11 +166,14 @@ class StockReport {
     for (std::size_t i = 0; i < items_.size(); ++i) {
       const WrittenStock& stock = stocks_[i];
       const std::string& id = items_[i].id;
-      if (stock.id != id || stock.count != 1 || stock.kind == "strip") find(id + ": its stock is another piece");
+      if (stock.id != id || stock.count != 1 || stock.kind == "strip")
+        find(id + ": its stock is another piece");
       if (stock.cost != items_[i].cost) find(id + ": its cost is not that of its stock");
       if (areas_[i] != mm2_of(twice_area_of(stock.outline)))
-        find(fmt::format("{}: area_mm2 is {} and is to be {}", id, areas_[i], mm2_of(twice_area_of(stock.outline))));
-      if (id.empty() || id[0] != (items_[i].from ? 'R' : 'S')) find(id + ": its id is not that of such an item");
+        find(fmt::format("{}: area_mm2 is {} and is to be {}", id, areas_[i],
+                         mm2_of(twice_area_of(stock.outline))));
+      if (id.empty() || id[0] != (items_[i].from ? 'R' : 'S'))
+        find(id + ": its id is not that of such an item");
     }
     return {};
   }
@@ -224,8 +227,8 @@ class StockReport {
       of.refuse_others();
       const auto found = parts.find({stock, copy});
       if (found == parts.end())
-        return find(fmt::format("order {}: nothing lies on {} #{}, which {} is said to be", excerpt(use.order),
-                                excerpt(stock), copy + 1, excerpt(item)));
+        return find(fmt::format("order {}: nothing lies on {} #{}, which {} is said to be",
+                                excerpt(use.order), excerpt(stock), copy + 1, excerpt(item)));
       ItemUse mine = use;
       mine.parts = std::move(found->second);
       parts.erase(found);
@@ -240,14 +243,17 @@ class StockReport {
 
   void use_item(const std::string& id, const WrittenLayout& layout, const std::string& stock, ItemUse use) {
     const auto number = numbers_.find(id);
-    if (number == numbers_.end()) return find(fmt::format("order {}: there is no item {}", use.order, excerpt(id)));
+    if (number == numbers_.end())
+      return find(fmt::format("order {}: there is no item {}", use.order, excerpt(id)));
     const auto drawn = std::find_if(layout.stocks.begin(), layout.stocks.end(),
                                     [&](const WrittenStock& one) { return one.id == stock; });
     const WrittenStock& item = stocks_[number->second];
-    const bool material = (item.material.name.empty() || item.material.name == drawn->material.name) &&
-                          (item.material.thickness == 0 || item.material.thickness == drawn->material.thickness);
+    const bool material =
+        (item.material.name.empty() || item.material.name == drawn->material.name) &&
+        (item.material.thickness == 0 || item.material.thickness == drawn->material.thickness);
     if (!material || loops_of(item.outline) != loops_of(drawn->outline) ||
-        !same_features_moved(item.defects, drawn->defects, {}) || !same_features_moved(item.zones, drawn->zones, {}))
+        !same_features_moved(item.defects, drawn->defects, {}) ||
+        !same_features_moved(item.zones, drawn->zones, {}))
       find(fmt::format("order {}: {} is not the stock {} of its layout", use.order, id, excerpt(stock)));
     if (const auto before = uses_.find(id); before != uses_.end())
       find(fmt::format("{} is used twice, by order {} and by order {}", id, before->second.order, use.order));
@@ -267,7 +273,8 @@ class StockReport {
     const WrittenItem& item = items_[i];
     const auto use = uses_.find(item.id);
     const std::string state = use == uses_.end() ? "free" : use->second.state;
-    if (item.state != state) find(fmt::format("{}: state is {} and is to be {}", item.id, excerpt(item.state), state));
+    if (item.state != state)
+      find(fmt::format("{}: state is {} and is to be {}", item.id, excerpt(item.state), state));
     if (item.order != (use == uses_.end() ? std::nullopt : std::optional(use->second.order)))
       find(item.id + ": order is not the one that uses it");
   }
@@ -281,10 +288,13 @@ class StockReport {
       return find(fmt::format("{}: it is a remnant of {}, which was not cut", item.id, excerpt(*item.from)));
     const WrittenStock &sheet = stocks_[number->second], &stock = stocks_[i];
     const GridOutline outline = moved_outline(stock.outline, item.at);
-    if (have_common_disc({&outline}, {&sheet.outline})) find(fmt::format("{}: it reaches beyond {}", item.id, *item.from));
+    if (have_common_disc({&outline}, {&sheet.outline}))
+      find(fmt::format("{}: it reaches beyond {}", item.id, *item.from));
     for (const PartOnItem& part : use->second.parts)
-      if (have_common_disc({&outline, &part.outline}, {}) || edges_nearer_than(outline, part.outline, part.gap)) {
-        find(fmt::format("{}: it is nearer than the gap to a part that was cut from {}", item.id, *item.from));
+      if (have_common_disc({&outline, &part.outline}, {}) ||
+          edges_nearer_than(outline, part.outline, part.gap)) {
+        find(
+            fmt::format("{}: it is nearer than the gap to a part that was cut from {}", item.id, *item.from));
         break;
       }
     compare_rule(item, stock, use->second.rule);
@@ -378,7 +388,8 @@ class StockReport {
   std::vector<WrittenStock> stocks_;  ///< by item
   std::map<std::string, std::size_t> numbers_;
   std::map<std::string, ItemUse> uses_;  ///< by the id of the item
-  std::map<std::string, std::vector<std::pair<std::string, GridOutline>>> remnants_;  ///< by that of their sheet
+  std::map<std::string, std::vector<std::pair<std::string, GridOutline>>>
+      remnants_;  ///< by that of their sheet
   std::size_t orders_ = 0;
 };
 

@@ -19,7 +19,7 @@
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo::server::serve_stock_test {
+namespace lekalo::server::stock_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,7 +134,8 @@ TEST_F(Stock, ACancelledOrderGivesBackAndMayComeAgain) {
   add({sheet("steel")});
   StockFile file = open();
   ASSERT_TRUE(file.allocate("A1", {squares_on(sheet("steel"))}));
-  EXPECT_TRUE(says(error_of(file.allocate("A2", {squares_on(sheet("steel"))})), "S1 is allocated to order A1"));
+  EXPECT_TRUE(
+      says(error_of(file.allocate("A2", {squares_on(sheet("steel"))})), "S1 is allocated to order A1"));
   ASSERT_TRUE(file.cancel("A1"));
   EXPECT_EQ(count(StockState::free), 1u);
   expect_true();
@@ -165,13 +166,15 @@ TEST_F(Stock, OnlyTheSamePieceOfAFittingMaterialServes) {
   plain.material = {};
   add({sheet("birch"), sheet("steel", 200), plain});
   StockFile file = open();
-  EXPECT_TRUE(says(error_of(file.allocate("A1", {squares_on(sheet("steel", 400))})), "no piece of this stock file"));
+  EXPECT_TRUE(
+      says(error_of(file.allocate("A1", {squares_on(sheet("steel", 400))})), "no piece of this stock file"));
   const auto order = file.allocate("A1", {squares_on(sheet("steel"))});
   ASSERT_TRUE(order) << error_of(order);
   EXPECT_EQ(order->uses[0].item, 3);
   EXPECT_TRUE(says(error_of(file.allocate("A2", {squares_on(sheet("oak"))})), "S3 is allocated to order A1"));
   run_sql("DELETE FROM item WHERE id = 3; DELETE FROM use; DELETE FROM layout; DELETE FROM job");
-  EXPECT_TRUE(says(error_of(file.allocate("A2", {squares_on(sheet("oak"))})), "of another material: S1 of birch, 2 mm"));
+  EXPECT_TRUE(says(error_of(file.allocate("A2", {squares_on(sheet("oak"))})),
+                   "of another material: S1 of birch, 2 mm"));
 }
 
 TEST_F(Stock, WhatIsNoLayoutToCutIsRefused) {
@@ -184,7 +187,8 @@ TEST_F(Stock, WhatIsNoLayoutToCutIsRefused) {
   broken.document.placements[0].at.x = 290 * mm;
   EXPECT_TRUE(says(error_of(file.allocate("A1", {broken})), "breaks 1 rule"));
   EXPECT_TRUE(says(error_of(file.allocate("", {squares_on(sheet("steel"))})), "is no id of an order"));
-  EXPECT_TRUE(says(error_of(file.allocate("A1", {squares_on(sheet("steel"), 2)})), "it needs 2 of its stock piece"));
+  EXPECT_TRUE(
+      says(error_of(file.allocate("A1", {squares_on(sheet("steel"), 2)})), "it needs 2 of its stock piece"));
   EXPECT_TRUE(says(error_of(file.cut("B7", {})), "there is no order B7"));
   EXPECT_TRUE(says(error_of(file.add({}, layout::RemnantRule{400 * mm, 100 * mm, 0})), "large enough"));
   EXPECT_EQ(count(StockState::free), 1u);
@@ -195,7 +199,8 @@ TEST_F(Stock, DamageIsSaid) {
   ASSERT_TRUE(open().allocate("A1", {squares_on(sheet("steel"))}));
   fs::copy_file(path_, folder_ / "good");
   const std::vector<std::pair<std::string, std::string>> damages{
-      {"UPDATE item SET piece = replace(piece, '300', '400') WHERE id = 2", "item 2 is not as it was written"},
+      {"UPDATE item SET piece = replace(piece, '300', '400') WHERE id = 2",
+       "item 2 is not as it was written"},
       {"UPDATE use SET item = 2", "order A1 is not as it was written"},
       {"DELETE FROM use", "order A1 is not as it was written"},
       {"UPDATE job SET state = 1", "order A1 is not as it was written"},
@@ -288,7 +293,8 @@ TEST_F(Stock, AProcessThatIsKilledAtAnyMomentLosesNothing) {
     // Whatever is allocated is so to the one order that was under way.
     for (const jobs::StockSums& sums : jobs::sums_of(now)) {
       EXPECT_GE(sums.lost, 0) << "kill " << kill_number;
-      EXPECT_NEAR(sums.added, sums.free + sums.allocated + sums.parts + sums.lost, 1e-6) << "kill " << kill_number;
+      EXPECT_NEAR(sums.added, sums.free + sums.allocated + sums.parts + sums.lost, 1e-6)
+          << "kill " << kill_number;
     }
     expect_true();
     if (items > 400) fs::remove(path_), items = orders = 0;  // checking a long history takes long
@@ -296,4 +302,4 @@ TEST_F(Stock, AProcessThatIsKilledAtAnyMomentLosesNothing) {
 }
 
 }  // namespace
-}  // namespace lekalo::server::serve_stock_test
+}  // namespace lekalo::server::stock_file_test

@@ -10,7 +10,7 @@
 #include "support/cases.hpp"
 #include "support/layout_cases.hpp"
 
-namespace lekalo::layout::layout_remnant_test {
+namespace lekalo::layout::stock_remnants_test {
 namespace {
 
 using cases::box_loop;
@@ -41,12 +41,12 @@ void lay(Document& document, std::vector<geom::GridPoint> loop) {
 }
 
 std::vector<Remnant> left_of(const Document& document, const RemnantRule& rule) {
-  return remnants_of(document, 0, 0, rule).value();
+  return remnants_of(document, 0, 0, rule);
 }
 
 constexpr RemnantRule kSmall{50 * mm, 50 * mm, 0};
 
-TEST(LayoutRemnant, BeyondAFullColumnOneStraightCutIsMade) {
+TEST(StockRemnants, BeyondAFullColumnOneStraightCutIsMade) {
   Document document = sheet_of_outline(box_loop(0, 0, 300, 100));
   document.rules.gap = 4 * mm;
   lay(document, box_loop(2, 2, 80, 98));
@@ -56,7 +56,7 @@ TEST(LayoutRemnant, BeyondAFullColumnOneStraightCutIsMade) {
   EXPECT_EQ(left[0].rectangle, geom::bounds(left[0].outline));
 }
 
-TEST(LayoutRemnant, AWideArmStaysAndANarrowOneGoes) {
+TEST(StockRemnants, AWideArmStaysAndANarrowOneGoes) {
   for (const double high : {40.0, 60.0}) {
     Document document = sheet_of_outline(box_loop(0, 0, 300, 100));
     lay(document, box_loop(0, 0, 80, high));
@@ -67,7 +67,7 @@ TEST(LayoutRemnant, AWideArmStaysAndANarrowOneGoes) {
   }
 }
 
-TEST(LayoutRemnant, TheCutBeginsAtTheCornerWhereThePartsLie) {
+TEST(StockRemnants, TheCutBeginsAtTheCornerWhereThePartsLie) {
   for (const auto& [x, y] : {std::pair(0.0, 0.0), {220.0, 0.0}, {0.0, 60.0}, {220.0, 60.0}}) {
     Document document = sheet_of_outline(box_loop(0, 0, 300, 120));
     lay(document, box_loop(x, y, x + 80, y + 60));
@@ -77,7 +77,7 @@ TEST(LayoutRemnant, TheCutBeginsAtTheCornerWhereThePartsLie) {
   }
 }
 
-TEST(LayoutRemnant, NothingIsKeptThatIsSmallerThanTheRule) {
+TEST(StockRemnants, NothingIsKeptThatIsSmallerThanTheRule) {
   Document document = sheet_of_outline(box_loop(0, 0, 300, 100));
   lay(document, box_loop(0, 0, 251, 100));
   EXPECT_TRUE(left_of(document, kSmall).empty());
@@ -87,7 +87,7 @@ TEST(LayoutRemnant, NothingIsKeptThatIsSmallerThanTheRule) {
   EXPECT_EQ(left_of(document, {0, 0, 4900}).size(), 1u);
 }
 
-TEST(LayoutRemnant, TheKerfCountsWhereTheGapIsSmallerAndThePartsOwnGapWhereItIsLarger) {
+TEST(StockRemnants, TheKerfCountsWhereTheGapIsSmallerAndThePartsOwnGapWhereItIsLarger) {
   Document document = sheet_of_outline(box_loop(0, 0, 300, 100));
   lay(document, box_loop(0, 0, 80, 100));
   document.rules = {1 * mm, 0, 0, 3 * mm};
@@ -96,7 +96,7 @@ TEST(LayoutRemnant, TheKerfCountsWhereTheGapIsSmallerAndThePartsOwnGapWhereItIsL
   EXPECT_EQ(geom::bounds(left_of(document, kSmall)[0].outline).low.x, 90 * mm);
 }
 
-TEST(LayoutRemnant, WhatIsWrongWithTheSheetGoesWithTheRemnantItLiesIn) {
+TEST(StockRemnants, WhatIsWrongWithTheSheetGoesWithTheRemnantItLiesIn) {
   Document document = sheet_of_outline(box_loop(0, 0, 300, 100));
   Stock& sheet = document.stocks[0];
   sheet.material = {"steel", 2 * mm};
@@ -165,7 +165,7 @@ void expect_laws(const Document& document, const std::vector<Remnant>& left, con
   }
 }
 
-TEST(LayoutRemnant, RandomOnesLieInTheirSheetClearOfPartsAndSoDoTheirs) {
+TEST(StockRemnants, RandomOnesLieInTheirSheetClearOfPartsAndSoDoTheirs) {
   std::size_t kept = 0, of_remnants = 0;
   for (std::size_t index = 0; index < cases::case_count(150); ++index) {
     const std::string name = "seed " + std::to_string(cases::seed()) + " index " + std::to_string(index);
@@ -191,4 +191,4 @@ TEST(LayoutRemnant, RandomOnesLieInTheirSheetClearOfPartsAndSoDoTheirs) {
 }
 
 }  // namespace
-}  // namespace lekalo::layout::layout_remnant_test
+}  // namespace lekalo::layout::stock_remnants_test

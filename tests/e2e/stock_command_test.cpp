@@ -1,5 +1,5 @@
-// `lekalo stock`, and `lekalo nest --stock`, as people use them: orders one after the other, at the same moment, killed,
-// and everything that is told in one sentence.
+// `lekalo stock`, and `lekalo nest --stock`, as people use them: orders one after the other, at the same
+// moment, killed, and everything that is told in one sentence.
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -10,7 +10,7 @@
 
 #include "cli_run.hpp"
 
-namespace lekalo::test::cli_stock_test {
+namespace lekalo::test::stock_command_test {
 namespace {
 
 std::string square_of(int side) {
@@ -33,8 +33,9 @@ class StockCommand : public testing::Test {
   [[nodiscard]] Ran lekalo(const Words& words) const { return run(folder_.path(), words); }
   [[nodiscard]] Ran stock(const Words& words) const { return lekalo(Words{"stock"} + words); }
   [[nodiscard]] static Words nest_words(const std::string& part, const std::string& order) {
-    return {"nest",         "--part", part + "@steel:2", "--stock",    "shop", "--gap", "5", "--work", "1000",
-            "--rotations", "0",      "--allocate",      order,        "-o",   order + ".json"};
+    return {"nest",         "--part", part + "@steel:2", "--stock", "shop",       "--gap", "5",
+            "--work",       "1000",   "--rotations",     "0",       "--allocate", order,   "-o",
+            order + ".json"};
   }
   [[nodiscard]] Ran nest(const std::string& part, const std::string& order) const {
     return lekalo(nest_words(part, order));
@@ -76,7 +77,8 @@ TEST_F(StockCommand, TheRemnantOfOneOrderIsCutForTheNext) {
 }
 
 TEST_F(StockCommand, NewTakesTheSameStockAndALayoutIsAllocatedByHand) {
-  const Ran made = lekalo({"new", "--part", "large.svg=2", "--stock", "shop", "--gap", "5", "-o", "job.json"});
+  const Ran made =
+      lekalo({"new", "--part", "large.svg=2", "--stock", "shop", "--gap", "5", "-o", "job.json"});
   ASSERT_EQ(made.status, 0) << made.err;
   ASSERT_EQ(lekalo({"nest", "job.json", "--work", "1000", "-o", "out.json"}).status, 0);
   const Ran allocated = stock({"allocate", "shop", "A1", "out.json"});
@@ -98,11 +100,13 @@ TEST_F(StockCommand, ALayoutThatWasCorrectedByHandIsTheOneThatIsCut) {
 }
 
 TEST_F(StockCommand, OutlinesWithDefectsAreStockToo) {
-  write_bytes(folder_ / "hide.json",
-              R"({"format": "lekalo-layout/1", "units": "mm", "stocks": [{"id": "h", "kind": "hide", "count": 2,
+  write_bytes(
+      folder_ / "hide.json",
+      R"({"format": "lekalo-layout/1", "units": "mm", "stocks": [{"id": "h", "kind": "hide", "count": 2,
  "outline": {"polygon": {"outer": [[0, 0], [900, 100], [700, 800], [100, 600]]}},
  "defects": [{"id": "hole", "severity": 2, "outline": {"polygon": {"outer": [[600, 500], [620, 500], [610, 520]]}}}]}]})");
-  const Ran added = stock({"add", "hides", "--sheet", "hide.json@leather:2", "--cost", "80", "--remnant-min", "0.01m2"});
+  const Ran added =
+      stock({"add", "hides", "--sheet", "hide.json@leather:2", "--cost", "80", "--remnant-min", "0.01m2"});
   ASSERT_EQ(added.status, 0) << added.err;
   Words words = nest_words("small.svg=2", "A1");
   words[2] = "small.svg=2@leather:2", words[4] = "hides";
@@ -117,7 +121,8 @@ TEST_F(StockCommand, OutlinesWithDefectsAreStockToo) {
 }
 
 TEST_F(StockCommand, TwoOrdersAtTheSameMomentGetOtherSheets) {
-  Program one(folder_.path(), nest_words("large.svg=2", "A1")), other(folder_.path(), nest_words("large.svg=2", "A2"));
+  Program one(folder_.path(), nest_words("large.svg=2", "A1")),
+      other(folder_.path(), nest_words("large.svg=2", "A2"));
   const Ran first = one.wait(), second = other.wait();
   EXPECT_EQ(first.status, 0) << first.err;
   EXPECT_EQ(second.status, 0) << second.err;
@@ -129,12 +134,14 @@ TEST_F(StockCommand, TwoOrdersAtTheSameMomentGetOtherSheets) {
 
 TEST_F(StockCommand, ForTheLastPieceOneOrderGetsItAndTheOtherOneSentence) {
   ASSERT_EQ(nest("large.svg=2", "A0").status, 0);
-  Program one(folder_.path(), nest_words("large.svg=2", "A1")), other(folder_.path(), nest_words("large.svg=2", "A2"));
+  Program one(folder_.path(), nest_words("large.svg=2", "A1")),
+      other(folder_.path(), nest_words("large.svg=2", "A2"));
   const Ran first = one.wait(), second = other.wait();
   const Ran& refused = first.status == 0 ? second : first;
   EXPECT_EQ((first.status == 0 ? first : second).status, 0);
   EXPECT_EQ(refused.status, 3) << refused.err;
-  EXPECT_TRUE(says(refused.err, "is allocated to order") || says(refused.err, "no piece in it is free")) << refused.err;
+  EXPECT_TRUE(says(refused.err, "is allocated to order") || says(refused.err, "no piece in it is free"))
+      << refused.err;
   EXPECT_EQ(fs::exists(folder_ / "A1.json") + fs::exists(folder_ / "A2.json"), 1);
   expect_true();
 }
@@ -195,7 +202,9 @@ TEST_F(StockCommand, BadInputGetsOneSentenceAndChangesNothing) {
       {{"stock", "list", "shop", "--cost", "5"}, 2, "are for lekalo stock add"},
       {{"nest", "--part", "small.svg@oak:9", "--stock", "shop"}, 3, "there is no sheet of oak, 9 mm"},
       {{"nest", "--part", "small.svg", "--stock", "shop", "--sheet", "9x9"}, 2, "--stock takes its sheets"},
-      {{"nest", "--part", "small.svg", "--sheet", "900x900", "--allocate", "A4"}, 2, "--allocate says for which"}};
+      {{"nest", "--part", "small.svg", "--sheet", "900x900", "--allocate", "A4"},
+       2,
+       "--allocate says for which"}};
   for (const Case& one : bad) {
     const Ran ran = lekalo(one.words);
     std::string line;
@@ -208,4 +217,4 @@ TEST_F(StockCommand, BadInputGetsOneSentenceAndChangesNothing) {
 }
 
 }  // namespace
-}  // namespace lekalo::test::cli_stock_test
+}  // namespace lekalo::test::stock_command_test
