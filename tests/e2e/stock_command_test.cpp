@@ -91,11 +91,12 @@ TEST_F(StockCommand, NewTakesTheSameStockAndALayoutIsAllocatedByHand) {
 
 TEST_F(StockCommand, ALayoutThatWasCorrectedByHandIsTheOneThatIsCut) {
   ASSERT_EQ(nest("small.svg", "A1").status, 0);
-  write_bytes(folder_ / "to", "move 1 to 400 200\n");
-  ASSERT_EQ(lekalo({"edit", "A1.json", "to", "-o", "moved.json"}).status, 0);
+  const double before = Json::parse(read_bytes(folder_ / "A1.json"))["placements"][0]["x"];
+  write_bytes(folder_ / "by", "lekalo-commands/1\nmove 1 by 400 0\n");
+  ASSERT_EQ(lekalo({"edit", "A1.json", "--commands", "by", "-o", "moved.json"}).status, 0);
   ASSERT_EQ(stock({"cut", "shop", "A1", "moved.json"}).status, 0);
   const Json all = book();
-  EXPECT_EQ(all["orders"][0]["layouts"][0]["layout"]["placements"][0]["x"], 400);
+  EXPECT_EQ(all["orders"][0]["layouts"][0]["layout"]["placements"][0]["x"], before + 400);
   expect_true();
 }
 
@@ -180,7 +181,7 @@ TEST_F(StockCommand, BadInputGetsOneSentenceAndChangesNothing) {
       {{"stock", "list", "text"}, 3, "no stock file"},
       {{"stock", "check", "broken"}, 3, "damaged"},
       {{"stock", "list", "."}, 3, "a plain file"},
-      {{"stock", "cut", "shop", "B9"}, 3, "there is no order B9"},
+      {{"stock", "cut", "shop", "B9"}, 3, "there is no order \"B9\""},
       {{"stock", "cancel", "shop", "A2"}, 3, "what was cut does not come back"},
       {{"stock", "cut", "shop", "A2"}, 3, "was cut already"},
       {{"stock", "allocate", "shop", "A1", "A1.json"}, 3, "order A1 is allocated already"},

@@ -170,10 +170,9 @@ Result<void> is_stock_file(const Database& database) {
 Result<std::string> fine_order(const std::string& order) {
   const auto kept = io::kept_text(order);
   if (!kept || kept->empty() || kept->size() > kLongestOrder)
-    return failure(
-        ErrorCode::bad_input,
-        fmt::format("\"{}\" is no id of an order: it has from 1 to {} bytes and no control characters",
-                    io::excerpt(order), kLongestOrder));
+    return failure(ErrorCode::bad_input,
+                   fmt::format("{} is no id of an order: it has from 1 to {} bytes and no control characters",
+                               io::excerpt(order), kLongestOrder));
   return *kept;
 }
 
