@@ -17,6 +17,7 @@
 #include "commands/serve_command.hpp"
 #include "commands/show_command.hpp"
 #include "commands/simulate_command.hpp"
+#include "commands/stock_command.hpp"
 #include "commands/store_command.hpp"
 #include "commands/verify_command.hpp"
 #include "interrupt.hpp"
@@ -44,6 +45,7 @@ Result<int> run(const NestOptions& options) { return run_nest(options); }
 Result<int> run(const NewOptions& options) { return run_new(options); }
 Result<int> run(const ServeOptions& options) { return run_serve(options); }
 Result<int> run(const StoreOptions& options) { return run_store(options); }
+Result<int> run(const StockOptions& options) { return run_stock(options); }
 Result<int> run(const PrintText& command) {
   return print(command.text).map([] { return 0; });
 }

@@ -14,6 +14,7 @@
 #include "lekalo/jobs/material.hpp"
 #include "lekalo/jobs/order_words.hpp"
 #include "lekalo/layout/material_words.hpp"
+#include "server/stock/stock_file.hpp"
 
 namespace lekalo::cli {
 namespace {
@@ -33,9 +34,11 @@ class OrderReader {
     if (source_.parts.empty() && source_.table.empty())
       fault("no part is ordered; say --part FILE=N, a folder, a pattern in quotes, or --order TABLE",
             ErrorCode::usage);
-    if (source_.terms.stocks.empty())
-      fault("there is no sheet to cut from; say --sheet 3000x1500, --sheet hide.dxf or --strip 1500",
-            ErrorCode::usage);
+    if (source_.terms.stocks.empty() && source_.stock.empty())
+      fault(
+          "there is no sheet to cut from; say --sheet 3000x1500, --sheet hide.dxf, --strip 1500 or --stock "
+          "FILE",
+          ErrorCode::usage);
     for (const PartWord& word : source_.parts) {
       io::OrderRow row;
       row.file = word.files;
@@ -45,6 +48,7 @@ class OrderReader {
     }
     if (!source_.table.empty()) add_table();
     for (const jobs::StockWord& word : source_.terms.stocks) add_stock(word);
+    if (!source_.stock.empty()) add_stored();
     if (!faults_.empty()) return failure(code_, faults_);
     LEKALO_CHECK(check_outputs(outputs_, inputs_));
     LEKALO_TRY(std::vector<jobs::MaterialLayout> layouts, jobs::open_orders(order_));
@@ -122,6 +126,16 @@ class OrderReader {
       stock.file = *std::move(read);
     }
     order_.stocks.push_back(std::move(stock));
+  }
+
+  void add_stored() {
+    const auto items = server::StockFile::open(source_.stock, server::StockOpening::find)
+                           .and_then([](server::StockFile file) { return file.items(); });
+    if (!items) return fault(items.error().message, items.error().code);
+    inputs_.push_back({"--stock", source_.stock});
+    order_.in_store = jobs::offered_stock(*items);
+    if (order_.in_store.empty())
+      fault(fmt::format("{}: no piece in it is free; lekalo stock add adds some", shown(source_.stock)));
   }
 
   const OrderSource& source_;

@@ -54,6 +54,8 @@ class OrderMaker {
       take(order_.parts[i], read_[i], materials_[i], *made_of(materials_[i]));
     for (std::size_t i = 0; i < order_.stocks.size(); ++i)
       take(order_.stocks[i], materials_[order_.parts.size() + i]);
+    for (std::size_t i = 0; i < order_.in_store.size(); ++i)
+      take_stored(order_.in_store[i], materials_[order_.parts.size() + order_.stocks.size() + i]);
     if (!order_.adds)
       for (const MadeOf& made : made_) stock_is_there(made);
     if (!order_.adds) rules();
@@ -66,7 +68,7 @@ class OrderMaker {
     if (order_.adds && (!order_.parts.empty() || !order_.stocks.empty())) return {};
     std::string missing;
     if (order_.parts.empty()) missing = "no part is ordered";
-    if (order_.stocks.empty())
+    if (order_.stocks.empty() && order_.in_store.empty())
       missing += std::string(missing.empty() ? "" : ", and ") + "there is no sheet to cut from";
     if (missing.empty()) return {};
     return failure(ErrorCode::usage, missing);
@@ -92,6 +94,7 @@ class OrderMaker {
   void tell_materials_apart() {
     for (const OrderedPart& part : order_.parts) materials_.push_back(part.material);
     for (const OrderedStock& stock : order_.stocks) materials_.push_back(stock.material);
+    for (const layout::Stock& stock : order_.in_store) materials_.push_back(stock.material);
     if (order_.adds) {
       made_.emplace_back();
       return;
@@ -182,9 +185,14 @@ class OrderMaker {
     }
   }
 
+  /// A stock file has material that no order needs, of which nothing is said.
+  void take_stored(const layout::Stock& stock, const layout::Material& material) {
+    if (MadeOf* const made = made_of(material); made != nullptr) add(stock, material, *made);
+  }
+
   void add(layout::Stock stock, const layout::Material& material, MadeOf& made) {
     stock.id = made.stock_ids.take(stock.id);
-    stock.grain_degrees = order_.grain_degrees;
+    if (!stock.grain_degrees) stock.grain_degrees = order_.grain_degrees;
     stock.material = material;
     made.of.layout.document.stocks.push_back(std::move(stock));
   }
@@ -196,7 +204,10 @@ class OrderMaker {
     for (auto one = begin; one != materials_.end(); ++one)
       if (std::find(begin, one, *one) == one) there += (there.empty() ? "" : "; ") + words_of(*one);
     const std::string way_out =
-        made.of.material.is_said()
+        made.of.material.is_said() && !order_.in_store.empty()
+            ? "add some to the stock file, as in lekalo stock add FILE --sheet 3000x1500@" +
+                  order_word_of(made.of.material)
+        : made.of.material.is_said()
             ? "say it behind a sheet, as in 3000x1500@" + order_word_of(made.of.material)
             : "say what it is of, in the columns material and thickness, or as in side.dxf@steel:2";
     fault(fmt::format("{}: there is no sheet of {}; {} (there are sheets of: {})", made.first_part,

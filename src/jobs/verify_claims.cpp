@@ -57,6 +57,8 @@ class ClaimJudge {
         return reported(verify::verify_heat_report);
       case Kind::quote_report:
         return reported(verify::verify_quote_report);
+      case Kind::stock_book:
+        return verify::verify_stock(document(result_));
       case Kind::program:
         return beside_.layout && beside_.profile ? profile() : program();
       case Kind::dxf:

@@ -21,7 +21,7 @@ import verify_lies
 TABLES = {"placement, solids": "Placements of solids:", "placement": "Placements:", "layout": "**Layouts.**",
           "report of an order": "**Reports of orders.**", "report of nest": "**Reports of nest and check.**", "report of check": "**Reports of nest and check.**",
           "report of pocket": "**Reports of simulate and pocket", "report of simulate": "**Reports of simulate and pocket",
-          "quote": "**Quotes.**", "result of fit": "**Results of fit.**", "result of heat": "**Results of heat.**"}
+          "quote": "**Quotes.**", "stock": "**Stocks.**", "result of fit": "**Results of fit.**", "result of heat": "**Results of heat.**"}
 
 
 def named(text):
@@ -65,7 +65,8 @@ def main(lekalo, source):
                     faults.append(f"{kind.name}: {path}/{key} is not named in docs/formats.md")
     for table, keys in written.items():
         nested = {"kind", "a", "b", "stock", "copy", "feature", "amount_mm", "at", "direction", "part", "count", "parts", "remnant",
-                  "length", "unplaced", "reason", "name", "marks", "material", "thickness", "customer", "due", "label", "finish_mm", "rounds", "visits", "moved_um"}
+                  "length", "unplaced", "reason", "name", "marks", "material", "thickness", "customer", "due", "label", "finish_mm", "rounds", "visits", "moved_um",
+                  "from", "rectangle", "cost"}
         for key in sorted(tables[table] - keys - nested - OPTIONAL):
             faults.append(f"{table} names {key}, which no result has")
     for fault in sorted(set(faults)):

@@ -11,6 +11,7 @@ import changes
 import demands
 import layouts
 import solids
+import stocks
 import truth
 
 BENT = ('<svg xmlns="http://www.w3.org/2000/svg" width="80mm" height="40mm" viewBox="0 0 80 40"><path d="M0 0H80V40H0Z"/>'
@@ -164,6 +165,7 @@ def kinds():
                truth.rewritten, form="text", report_of="r.json")
     yield from of_solids()
     yield from of_layouts()
+    yield from of_stocks()
     yield from of_pockets()
     yield from of_fits()
     yield from of_heat()
@@ -358,6 +360,20 @@ def of_layouts():
         yield Kind(f"export, {form.upper()}, another layout", frames, drawn, "nested.json", of_drawn,
                    layouts.export(within, ("steel 2 mm", 0) if sheet else None),
                    step=lambda value, way, _, step=step: value + way * step)
+
+
+def of_stocks():
+    """Two sheets and one of another material: an order that was cut, with its remnant, one that is allocated on it, and one
+    that was cancelled."""
+    nest = ["--stock", "shop", "--rotations", "0", "--gap", "3", "--kerf", "1", "--work", "1000"]
+    order = lambda part, name: ["nest", "--part", part + "@steel:2", "--allocate", name, "-o", name + ".json"] + nest
+    commands = [["stock", "add", "shop", "--sheet", "200x100=2@steel:2", "--sheet", "90x60@birch:9", "--cost", "7",
+                 "--remnant-min", "50x30"],
+                order("a.svg=3", "A1"), ["stock", "cut", "shop", "A1"], order("b.svg=2", "A2"), order("b.svg", "A3"),
+                ["stock", "cancel", "shop", "A3"], ["stock", "list", "shop", "--json", ">s.json"]]
+    yield Kind("stock", [], commands, "s.json", ["verify", "s.json"], stocks.oracle,
+               step=lambda value, way, _: value + way * 2 ** -20,
+               written={"a.svg": SQUARE, "b.svg": SQUARE.replace("30", "20")})
 
 
 def of_pockets():

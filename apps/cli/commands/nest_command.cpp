@@ -18,6 +18,8 @@
 #include "lekalo/layout/material_words.hpp"
 #include "order_input.hpp"
 #include "outputs.hpp"
+#include "server/stock/stock_file.hpp"
+#include "stock_words.hpp"
 #include "summary.hpp"
 
 namespace lekalo::cli {
@@ -176,18 +178,100 @@ std::string text_of(const std::vector<jobs::NestedMaterial>& all, double seconds
   return text + written;
 }
 
+using server::StockFile;
+using server::StockOpening;
+
+/// The ids of the pieces that are free.
+Result<std::vector<std::int64_t>> free_pieces(const std::string& stock) {
+  LEKALO_TRY(StockFile file, StockFile::open(stock, StockOpening::find));
+  LEKALO_TRY(const std::vector<jobs::StockItem> items, file.items());
+  std::vector<std::int64_t> free;
+  for (const jobs::StockItem& item : items)
+    if (item.state == jobs::StockState::free) free.push_back(item.id);
+  return free;
+}
+
+/// Allocates what the layouts use. Returns what is to be said of it.
+Result<std::string> allocate(const NestOptions& o, const std::vector<jobs::NestedMaterial>& all) {
+  std::vector<jobs::LayoutToCut> layouts;
+  for (const jobs::NestedMaterial& one : all) {
+    if (one.nested.document.placements.empty()) continue;
+    layouts.push_back({one.written_as.empty() ? "the layout" : one.written_as, one.nested.document});
+  }
+  if (layouts.empty())
+    return fmt::format("order {}: nothing is placed, so nothing is allocated\n", o.allocate);
+  LEKALO_TRY(StockFile file, StockFile::open(o.order->stock, StockOpening::find));
+  LEKALO_TRY(const jobs::StockOrder order, file.allocate(o.allocate, layouts));
+  LEKALO_TRY(const std::vector<jobs::StockItem> items, file.items());
+  return allocated_text(order, items);
+}
+
+/// Gives back what was allocated for files that could not be written.
+Error given_back(const NestOptions& o, Error error) {
+  const auto back = StockFile::open(o.order->stock, StockOpening::find).and_then([&](StockFile file) {
+    return file.cancel(o.allocate);
+  });
+  error.message += back ? fmt::format("; nothing is allocated to order {}", o.allocate)
+                        : fmt::format("; order {} stays allocated: {}", o.allocate, back.error().message);
+  return error;
+}
+
+/// One run of the nester over an order, with the files that are to appear.
+struct NestRun {
+  std::vector<jobs::NestedMaterial> all;
+  std::string allocated;  ///< what is to be said of it
+  double seconds = 0;     ///< of processor time, without reading
+  disk::AtomicFiles files;
+};
+
+/// A run that finds the pieces of its layouts gone is made anew as often as this, with what is free then.
+constexpr int kMostRuns = 3;
+
+Result<void> nest_once(const NestOptions& o, Clock::time_point begin, NestRun& run) {
+  LEKALO_TRY(std::vector<jobs::MaterialLayout> layouts, read_input(o));
+  if (!o.json) LEKALO_CHECK(several_need_files(layouts, o.output));
+  const double start = processor_seconds();
+  LEKALO_TRY(run.all, nest_all(std::move(layouts), o, begin, run.files));
+  run.seconds = processor_seconds() - start;
+  return {};
+}
+
+/// Nests and allocates. Other processes may take pieces from the same stock while this one nests: then it
+/// nests anew.
+Result<void> nest_and_allocate(const NestOptions& o, Clock::time_point begin, std::optional<NestRun>& run) {
+  NestOptions given = o;
+  for (int runs = 1;; ++runs) {
+    LEKALO_TRY(const std::vector<std::int64_t> before, free_pieces(o.order->stock));
+    LEKALO_CHECK(nest_once(given, begin, run.emplace()));
+    const ToTheEnd to_the_end;
+    Result<std::string> allocated = allocate(o, run->all);
+    if (allocated) {
+      run->allocated = *std::move(allocated);
+      return {};
+    }
+    if (allocated.error().code != ErrorCode::bad_input || runs == kMostRuns)
+      return tl::unexpected(allocated.error());
+    LEKALO_TRY(const std::vector<std::int64_t> now, free_pieces(o.order->stock));
+    if (now == before) return tl::unexpected(allocated.error());
+    tell("note: another order took pieces of this layout meanwhile; it is nested anew on what is free\n");
+    if (o.seconds) given.seconds = seconds_since(begin) + *o.seconds;
+  }
+}
+
 }  // namespace
 
 Result<int> run_nest(const NestOptions& o) {
   const auto begin = Clock::now();
-  LEKALO_TRY(std::vector<jobs::MaterialLayout> layouts, read_input(o));
-  if (!o.json) LEKALO_CHECK(several_need_files(layouts, o.output));
-  const double start = processor_seconds();
-  disk::AtomicFiles files;
-  LEKALO_TRY(const std::vector<jobs::NestedMaterial> all, nest_all(std::move(layouts), o, begin, files));
-  const double seconds = processor_seconds() - start;
+  std::optional<NestRun> run;
+  if (o.allocate.empty())
+    LEKALO_CHECK(nest_once(o, begin, run.emplace()));
+  else
+    LEKALO_CHECK(nest_and_allocate(o, begin, run));
+  const std::vector<jobs::NestedMaterial>& all = run->all;
+  const double seconds = run->seconds;
   const ToTheEnd to_the_end;
-  LEKALO_CHECK(files.commit());
+  if (const Result<void> written = run->files.commit(); !written)
+    return tl::unexpected(run->allocated.empty() ? written.error() : given_back(o, written.error()));
   const jobs::NestedMaterial& first = all.front();
   if (o.json && all.size() > 1)
     LEKALO_CHECK(print(jobs::order_json(all, o.search, seconds)));
@@ -196,7 +280,7 @@ Result<int> run_nest(const NestOptions& o) {
         print(jobs::nest_json(first.given.layout, o.search, first.nested, first.written_as, seconds)));
   else if (o.output.empty())
     LEKALO_CHECK(print(first.nested.bytes));
-  tell(text_of(all, seconds));
+  tell(text_of(all, seconds) + run->allocated);
   const bool complete = std::all_of(
       all.begin(), all.end(), [](const jobs::NestedMaterial& one) { return one.nested.unplaced.empty(); });
   return complete ? 0 : 1;

@@ -16,7 +16,7 @@ constexpr std::array kRemnants{Word<nest::Remnant>{"rectangle", nest::Remnant::r
 struct NestWords {
   LayoutWords layout;
   OrderWords order;
-  std::string output, stream, time, work, seed, threads, angles, pairs, remnant;
+  std::string output, stream, allocate, time, work, seed, threads, angles, pairs, remnant;
   bool from_scratch = false;
 };
 
@@ -32,6 +32,7 @@ Result<Command> to_nest(const NestWords& w) {
         "lekalo nest --part side.dxf=4 --sheet 3000x1500 (see lekalo nest --help)");
   o.output = w.output;
   o.stream = w.stream;
+  o.allocate = w.allocate;
   o.search.from_given = !w.from_scratch;
   o.picture = w.layout.picture;
   o.json = w.layout.json;
@@ -47,6 +48,8 @@ Result<Command> to_nest(const NestWords& w) {
     read.number("--pairs", w.pairs, 0.001, 1e6, "a distance from 0.001 to 1,000,000 mm",
                 o.search.pair_distance);
   read.choice("--remnant", w.remnant, kRemnants, o.search.remnant);
+  read.require(w.allocate.empty() || (o.order && !o.order->stock.empty()),
+               "--allocate says for which order pieces of a stock file are taken, which --stock FILE names");
   if (!w.time.empty() || w.work.empty()) {
     double seconds = 60;
     read.number("--time", w.time, 0.01, 1e6, "a number of seconds from 0.01 to 1,000,000", seconds);
@@ -66,6 +69,8 @@ Typed add_nest_form(Form& form) {
   const OptionAdder write(form);
   write("-o,--output", w.output, "FILE", "Write the layout to this file [stdout]");
   write("--stream", w.stream, "FILE", "Replace this file with every better layout as it is found");
+  write("--allocate", w.allocate, "ORDER",
+        "Of --stock: allocate what the layout uses to the order with this id");
   const OptionAdder add(form, "Search");
   add("--time", w.time, "SECONDS", "Stop after this time; the report's work repeats it [60 without --work]");
   add("--work", w.work, "N", "Stop after about N candidate places: same bytes on every machine");

@@ -26,5 +26,6 @@ using Typed = std::function<Result<Command>()>;
 [[nodiscard]] Typed add_new_form(Form& form);
 [[nodiscard]] Typed add_serve_form(Form& form);
 [[nodiscard]] Typed add_store_form(Form& form);
+[[nodiscard]] Typed add_stock_form(Form& form);
 
 }  // namespace lekalo::cli

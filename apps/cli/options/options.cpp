@@ -38,6 +38,7 @@ constexpr CommandForm kForms[] = {
     {"edit", "Carry out a file of commands on a layout: move, slide, settle, ...", add_edit_form},
     {"nest", "Place parts on strips, sheets and hides, densely", add_nest_form},
     {"new", "Write the layout that an order of drawings and sheets describes, to be edited", add_new_form},
+    {"stock", "Keep sheets and their remnants in a file, and give each to one order only", add_stock_form},
     {"serve", "Correct layouts in a browser, with a live exact check", add_serve_form},
     {"store", "Check, copy and put back the layouts of a server", add_store_form},
 };

@@ -19,6 +19,7 @@
 #include "lekalo/jobs/order_words.hpp"
 #include "lekalo/jobs/pocket.hpp"
 #include "lekalo/jobs/quote.hpp"
+#include "lekalo/jobs/stock.hpp"
 #include "lekalo/verify/claims.hpp"
 #include "lekalo/verify/simulate.hpp"
 
@@ -82,6 +83,7 @@ struct PartWord {
 struct OrderSource {
   std::vector<PartWord> parts;
   std::string table;  ///< a file of rows; may be empty
+  std::string stock;  ///< a stock file, whose free pieces are cut; may be empty
   jobs::OrderTerms terms;
   io::PartOptions reading;
 };
@@ -160,6 +162,7 @@ struct NestOptions {
   std::optional<OrderSource> order;  ///< instead of the source
   std::string output, picture;       ///< may be empty; output: stdout, unless the report goes there
   std::string stream;                ///< every better layout; may be empty
+  std::string allocate;              ///< the order to which the stock is allocated; empty: none
   jobs::NestOptions search;
   std::optional<double> seconds;
   std::uint64_t work = std::numeric_limits<std::uint64_t>::max();
@@ -185,6 +188,19 @@ struct StoreOptions {
   std::string file, output;  ///< output is empty for a check
 };
 
+enum class StockAction : std::uint8_t { add, list, allocate, cut, cancel, check };
+struct StockOptions {
+  StockAction action = StockAction::list;
+  std::string file, order;
+  std::vector<std::string> layouts;
+  std::vector<jobs::StockWord> pieces;
+  std::optional<layout::RemnantRule> rule;
+  std::optional<double> cost, grain;
+  io::PartOptions reading;
+  std::string picture;
+  bool json = false;
+};
+
 /// Text for stdout and nothing else to do: help, version, a completion script.
 struct PrintText {
   std::string text;
@@ -192,7 +208,7 @@ struct PrintText {
 
 using Command = std::variant<LocateOptions, VerifyOptions, PocketOptions, SimulateOptions, FitOptions,
                              HeatOptions, CheckOptions, ShowOptions, ExportOptions, QuoteOptions, EditOptions,
-                             NestOptions, NewOptions, ServeOptions, StoreOptions, PrintText>;
+                             NestOptions, NewOptions, ServeOptions, StoreOptions, StockOptions, PrintText>;
 
 /// The steps of work (base/stop.hpp) after which a command that does not search gives up, so that no input
 /// takes for ever: docs/limits.md.

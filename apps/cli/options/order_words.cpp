@@ -18,6 +18,8 @@ void add_order(Form& form, OrderWords& w) {
       .one_word_a_time = true;
   add("--strip", w.terms.strips, "H[@MATERIAL:T]", "A strip of this width, as long as needed")
       .one_word_a_time = true;
+  add("--stock", w.stock, "FILE",
+      "Instead of sheets: what is free in a stock file (lekalo stock), remnants first");
   add("--gap", w.terms.gap, "LENGTH", "Between finished parts [0]");
   add("--border", w.terms.border, "LENGTH", "Between parts and the border [0]");
   add("--kerf", w.terms.kerf, "LENGTH", "The width of the cut; a smaller gap is raised to it [0]");
@@ -28,7 +30,7 @@ void add_order(Form& form, OrderWords& w) {
 
 Result<std::optional<OrderSource>> to_order(const OrderWords& w, const LayoutWords& layout) {
   const bool asked = !(w.parts.empty() && w.terms.sheets.empty() && w.terms.strips.empty() &&
-                       w.table.empty() && w.terms.builds.empty());
+                       w.table.empty() && w.terms.builds.empty() && w.stock.empty());
   const bool rules = !(w.terms.gap.empty() && w.terms.border.empty() && w.terms.kerf.empty() &&
                        w.terms.rotations.empty() && w.terms.grain.empty() && !w.terms.may_mirror);
   WordReader read;
@@ -47,7 +49,12 @@ Result<std::optional<OrderSource>> to_order(const OrderWords& w, const LayoutWor
   }
   read.require(w.terms.builds.empty() || !w.table.empty(),
                "--build says what is built of a bill of materials, which --order TABLE names");
+  read.require(
+      w.stock.empty() || (w.terms.sheets.empty() && w.terms.strips.empty()),
+      "--stock takes its sheets from the file: add others to it with lekalo stock add, and leave --sheet and "
+      "--strip out");
   order.table = w.table;
+  order.stock = w.stock;
   auto terms = jobs::read_order_words(w.terms, "--");
   if (terms)
     order.terms = *std::move(terms);

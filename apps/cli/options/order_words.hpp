@@ -9,7 +9,7 @@ namespace lekalo::cli {
 /// The options that make a job of drawings; as typed.
 struct OrderWords {
   std::vector<std::string> parts;
-  std::string table;
+  std::string table, stock;
   jobs::OrderWords terms;
 };
 

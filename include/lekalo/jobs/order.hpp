@@ -47,6 +47,8 @@ struct OrderedStock {
 struct Order {
   std::vector<OrderedPart> parts;
   std::vector<OrderedStock> stocks;
+  /// Stock that is there (jobs/stock.hpp): its outline, count, cost, material and id stay as they are.
+  std::vector<layout::Stock> in_store;
   double gap_mm = 0;     ///< between finished parts
   double border_mm = 0;  ///< from finished parts to the border
   /// The width of the cut; a smaller gap is raised to it, with a notice.

@@ -29,6 +29,7 @@ enum class Kind : std::uint8_t {
   heat_report,
   quote_report,
   verify_report,
+  stock_book,
   certificate,
   program,
   dxf,
@@ -127,6 +128,16 @@ struct NamedFile {
 /// that of finding a remnant free. \param files  the bytes of named_files(), in that order
 [[nodiscard]] Result<ClaimReport> verify_quote_report(const Document& report,
                                                       const std::vector<Document>& files);
+/// Rechecks a stock ("lekalo-stock") from its bytes alone: each item is free, or used by one order that says
+/// so; each order breaks no rule of its layouts and is cut from items of their outlines; each remnant lies in
+/// the item that it is of, keeps the gap from all parts on it, overlaps no other remnant, satisfies the rule,
+/// and has the defects, zones, material and share of the cost; and the sums of areas are right. That a sheet
+/// was there, and what it cost, nobody can recheck.
+///
+/// Fails with bad_input for fields that are missing, not known or of a wrong form, and for layouts that
+/// cannot be read. Cost: that of verify_layout for each layout, and for each remnant that of its pairs with
+/// the parts.
+[[nodiscard]] Result<ClaimReport> verify_stock(const Document& stock);
 
 /// Judges a program for a pocket by itself: the tool leaves the pocket nowhere by more than 0.005 mm, meets
 /// material in no rapid motion, and leaves no place uncut that it can reach, wider than 0.02 mm. Errors and

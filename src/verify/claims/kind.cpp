@@ -45,6 +45,7 @@ Result<Kind> kind_of_json(const Document& document) {
        {"lekalo-heat", Kind::heat_report},
        {"lekalo-quote", Kind::quote_report},
        {"lekalo-verify", Kind::verify_report},
+       {"lekalo-stock", Kind::stock_book},
        {"lekalo-certificate", Kind::certificate}}};
   const std::string text = json_text(name);
   const auto* const known =
@@ -117,6 +118,7 @@ std::string_view name_of(Kind kind) noexcept {
                                                     "a result of heat",
                                                     "a quote",
                                                     "a report of verify",
+                                                     "a stock",
                                                     "a certificate",
                                                     "an NC program",
                                                     "a DXF drawing",

@@ -8,20 +8,6 @@
 namespace lekalo::verify {
 namespace {
 
-/// The loops in their order, each from its least point on: a file may begin and turn them otherwise.
-std::vector<GridLoop> loops_of(const GridOutline& outline) {
-  std::vector<GridLoop> loops;
-  bool open = false;
-  for (const GridEdge& edge : outline.edges) {
-    if (!open) loops.emplace_back();
-    loops.back().push_back(edge.from);
-    open = !(edge.to == loops.back().front());
-  }
-  for (GridLoop& loop : loops)
-    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
-  return loops;
-}
-
 bool same_outline(const WrittenOutline& a, const WrittenOutline& given) {
   if ((a.drawn == nullptr) != (given.drawn == nullptr)) return false;
   if (a.drawn != nullptr &&
@@ -76,6 +62,19 @@ void compare(const char* what, const std::vector<T>& a, const std::vector<T>& gi
 }
 
 }  // namespace
+
+std::vector<GridLoop> loops_of(const GridOutline& outline) {
+  std::vector<GridLoop> loops;
+  bool open = false;
+  for (const GridEdge& edge : outline.edges) {
+    if (!open) loops.emplace_back();
+    loops.back().push_back(edge.from);
+    open = !(edge.to == loops.back().front());
+  }
+  for (GridLoop& loop : loops)
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+  return loops;
+}
 
 std::vector<std::string> differences(const WrittenLayout& layout, const WrittenLayout& given) {
   std::vector<std::string> found;
