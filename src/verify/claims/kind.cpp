@@ -33,7 +33,7 @@ Result<Kind> kind_of_json(const Document& document) {
                : Kind::unknown;
   const Json name = member(format, "name");
   if (!name.is_string()) return Kind::unknown;
-  constexpr std::array<std::pair<std::string_view, Kind>, 12> kFormats{
+  constexpr std::array<std::pair<std::string_view, Kind>, 13> kFormats{
       {{"lekalo-locate", Kind::placement},
        {"lekalo-nest", Kind::nest_report},
        {"lekalo-order", Kind::order_report},
@@ -105,27 +105,13 @@ Result<Kind> kind_of(const Document& document) {
 }
 
 std::string_view name_of(Kind kind) noexcept {
-  constexpr std::array<std::string_view, 20> kNames{"a placement",
-                                                    "a layout",
-                                                    "placements on a strip",
-                                                    "a report of nest",
-                                                    "a report of an order",
-                                                    "a report of check",
-                                                    "a report of show",
-                                                    "a report of pocket",
-                                                    "a report of simulate",
-                                                    "a result of fit",
-                                                    "a result of heat",
-                                                    "a quote",
-                                                    "a report of verify",
-                                                     "a stock",
-                                                    "a certificate",
-                                                    "an NC program",
-                                                    "a DXF drawing",
-                                                    "an SVG drawing",
-                                                    "an HPGL plot",
-                                                    "a picture",
-                                                    "none of lekalo's files"};
+  constexpr std::array<std::string_view, 21> kNames{
+      "a placement",           "a layout",          "placements on a strip", "a report of nest",
+      "a report of an order",  "a report of check", "a report of show",      "a report of pocket",
+      "a report of simulate",  "a result of fit",   "a result of heat",      "a quote",
+      "a report of verify",    "a stock",           "a certificate",         "an NC program",
+      "a DXF drawing",         "an SVG drawing",    "an HPGL plot",          "a picture",
+      "none of lekalo's files"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
