@@ -27,6 +27,7 @@ struct HeatCorrection {
   WallErrors after;          ///< at the middles
   WallIntervals after_over;  ///< over film, force and share
   int rounds = 0;            ///< how often a program was written and followed
+  double still_um = 0;       ///< how far the last round would have moved a pass on
 };
 
 /// At every corner of the intervals a corrected program may go this far into the cold workpiece, um. Rounding
