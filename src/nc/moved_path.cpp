@@ -359,19 +359,26 @@ Result<std::string> move_path(std::string_view text, const std::string& name, wo
   return std::string(mark) + apply_edits(text, std::move(mover.edits));
 }
 
-Result<double> moved_path_rounding(std::string_view text, const std::string& name, words::Control control) {
+Result<MovedRounding> moved_path_rounding(std::string_view text, const std::string& name,
+                                          words::Control control) {
   // Either end of a line is half a step off along each axis. The centre of an arc is rounded, too: half way
   // between the ends of a quarter turn that is 1 - cos 45 degrees of it, less than 0.3.
   constexpr double kLine = std::numbers::sqrt2 / 2, kArc = 1.3 * kLine;
   text.remove_prefix(mark_of(text).size());
   LEKALO_TRY(const ReadPath read, read_path(text, name, control));
-  double most = 0;
+  const Dialect& post = post_of(control);
+  const bool drops = control == words::Control::fanuc || control == words::Control::haas;
+  MovedRounding rounding;
   for (const Motion& motion : read.interpretation.motions) {
-    const Grains step = quantum(motion.unit, moved_decimals(motion, post_of(control)));
-    const double part = motion.kind == MotionKind::line ? kLine : kArc;
-    most = std::max(most, part * static_cast<double>(step) / kGrainsPerMillimetre);
+    const int decimals = moved_decimals(motion, post), read_ones = post.decimals.of(motion.unit);
+    const auto step = [&](int places) {
+      return static_cast<double>(quantum(motion.unit, places)) / kGrainsPerMillimetre;
+    };
+    rounding.most =
+        std::max(rounding.most, (motion.kind == MotionKind::line ? kLine : kArc) * step(decimals));
+    if (drops && decimals > read_ones) rounding.dropped = std::max(rounding.dropped, step(read_ones));
   }
-  return most;
+  return rounding;
 }
 
 }  // namespace lekalo::nc

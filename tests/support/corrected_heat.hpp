@@ -59,8 +59,8 @@ inline CorrectedHeat corrected_heat(const jobs::HeatJob& job, const jobs::Correc
 /// decimals of the program make of it.
 inline void expect_better(const jobs::HeatJob& job, const jobs::HeatFound& found,
                           const jobs::HeatCorrection& made) {
-  const Result<double> rounding = nc::moved_path_rounding(job.source.program.bytes, job.source.program.name,
-                                                          job.source.machining.control);
+  const auto rounding = nc::moved_path_rounding(job.source.program.bytes, job.source.program.name,
+                                                job.source.machining.control);
   ASSERT_TRUE(rounding) << rounding.error().message;
   EXPECT_EQ(made.why_not, "");
   EXPECT_FALSE(made.program.empty());
@@ -70,7 +70,7 @@ inline void expect_better(const jobs::HeatJob& job, const jobs::HeatFound& found
   EXPECT_LE(made.after_over.largest.greatest, found.largest_um.greatest);
   EXPECT_GE(made.rounds, 1);
   EXPECT_LE(made.rounds, 3);
-  EXPECT_LE(made.still_um, 0.15 + 1000 * *rounding);
+  EXPECT_LE(made.still_um, 0.15 + 1000 * rounding->most);
 }
 
 /// The largest error of the walls whose material lies outside of a circle about the origin, and of those

@@ -68,6 +68,8 @@ std::string complaint_of(const HeatJob& job, const CorrectionWish& wish = {}) {
 HeatResultJob usual_job() {
   HeatResultJob job;
   job.heat = small_job(0.3, 0.9);
+  job.heat.material.values[static_cast<std::size_t>(Property::share)] = {0.87, 0.93};
+  job.heat.film = {15, 25};
   job.correction = CorrectionWish{}, job.corrected_as = "corrected.ngc";
   return job;
 }
@@ -81,6 +83,15 @@ TEST(JobsHeatCorrection, TheFinishingPassesOfARectangleAreMoved) {
   const auto [found, made] = cases::corrected_heat(job);
   EXPECT_GT(found.errors.largest(), 2);
   cases::expect_better(job, found, made);
+}
+
+TEST(JobsHeatCorrection, AtNoCornerOfTheIntervalsIsTooMuchCutAway) {
+  ASSERT_TRUE(*usual) << (*usual)->error().message;
+  const HeatResult& made = **usual;
+  EXPECT_EQ(made.found.cases.size(), 3U) << "films";
+  EXPECT_GT(made.found.largest_um.greatest, made.found.largest_um.least + 0.1);
+  EXPECT_GT(made.correction->after_over.most.greatest, made.correction->after.most);
+  cases::expect_better(usual_job().heat, made.found, *made.correction);
 }
 
 // Places stand where the tool turns a corner: both walls count there, and neither's displacement alone.

@@ -65,7 +65,8 @@ class WallsAfter {
 
   void summarise(HeatCorrection& made) const {
     constexpr double kFar = std::numeric_limits<double>::infinity();
-    made.after = summary_of(errors(now_.middle(), 1));
+    made.errors_um = errors(now_.middle(), 1);
+    made.after = summary_of(made.errors_um);
     heat::Interval* const over[] = {&made.after_over.least, &made.after_over.most, &made.after_over.mean,
                                     &made.after_over.largest};
     for (heat::Interval* interval : over) *interval = {kFar, -kFar};
@@ -236,8 +237,9 @@ Result<HeatCorrection> heat_correction(const HeatJob& job, const HeatFound& foun
   LEKALO_CHECK(check_finishing(job, stations, finish));
   const words::Control control = job.source.machining.control;
   const std::string &bytes = job.source.program.bytes, &name = job.source.program.name;
-  LEKALO_TRY(const double rounding_mm, nc::moved_path_rounding(bytes, name, control));
-  const double rounding = 1000 * rounding_mm;
+  LEKALO_TRY(const nc::MovedRounding decimals, nc::moved_path_rounding(bytes, name, control));
+  const double rounding = 1000 * decimals.most;
+  best.dropped_um = 1000 * decimals.dropped;
   HeatCorrection latest = best;
   const auto move_passes = [&](const HeatFound& now) {
     return move_on(stations, PassView(found, now), now, kMostOvercut - kKeptOff - rounding);
