@@ -86,7 +86,7 @@ TEST(JobsHeatCorrection, TheFinishingPassesOfARectangleAreMoved) {
 }
 
 TEST(JobsHeatCorrection, AtNoCornerOfTheIntervalsIsTooMuchCutAway) {
-  ASSERT_TRUE(*usual) << (*usual)->error().message;
+  ASSERT_TRUE(*usual) << usual->error().message;
   const HeatResult& made = **usual;
   EXPECT_EQ(made.found.cases.size(), 3U) << "films";
   EXPECT_GT(made.found.largest_um.greatest, made.found.largest_um.least + 0.1);
