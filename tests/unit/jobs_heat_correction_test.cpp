@@ -67,8 +67,8 @@ std::string complaint_of(const HeatJob& job, const CorrectionWish& wish = {}) {
 
 HeatResultJob usual_job() {
   HeatResultJob job;
-  job.heat = small_job(0.3, 0.9);
-  job.heat.material.values[static_cast<std::size_t>(Property::share)] = {0.87, 0.93};
+  job.heat = small_job(0.3, 0.45);
+  job.heat.material.values[static_cast<std::size_t>(Property::share)] = {0.43, 0.47};
   job.heat.film = {15, 25};
   job.correction = CorrectionWish{}, job.corrected_as = "corrected.ngc";
   return job;
@@ -82,7 +82,7 @@ TEST(JobsHeatCorrection, TheFinishingPassesOfARectangleAreMoved) {
       cases::heat_job(rectangle_program(kLarge, 0.3, "24"), pocket_of(kLarge), "60x50x12", 0.3, 3);
   const auto [found, made] = cases::corrected_heat(job);
   EXPECT_GT(found.errors.largest(), 2);
-  cases::expect_better(job, found, made);
+  cases::expect_better(found, made);
 }
 
 TEST(JobsHeatCorrection, AtNoCornerOfTheIntervalsIsTooMuchCutAway) {
@@ -91,15 +91,15 @@ TEST(JobsHeatCorrection, AtNoCornerOfTheIntervalsIsTooMuchCutAway) {
   EXPECT_EQ(made.found.cases.size(), 3U) << "films";
   EXPECT_GT(made.found.largest_um.greatest, made.found.largest_um.least + 0.1);
   EXPECT_GT(made.correction->after_over.most.greatest, made.correction->after.most);
-  cases::expect_better(usual_job().heat, made.found, *made.correction);
+  cases::expect_better(made.found, *made.correction);
 }
 
 // Places stand where the tool turns a corner: both walls count there, and neither's displacement alone.
 TEST(JobsHeatCorrection, CornersAreLeftNoWorseThanTheRest) {
   const HeatJob job =
-      cases::heat_job(rectangle_program(kSmall, 0.3, "4"), pocket_of(kSmall), "44x38x12", 0.9, 2);
+      cases::heat_job(rectangle_program(kSmall, 0.3, "4"), pocket_of(kSmall), "44x38x12", 0.5, 2);
   const auto [found, made] = cases::corrected_heat(job);
-  EXPECT_GT(found.errors.largest(), 5);
+  EXPECT_GT(found.errors.largest(), 3);
   EXPECT_LT(made.after.largest(), 0.5);
 }
 
@@ -111,24 +111,24 @@ TEST(JobsHeatCorrection, WithoutHeatTheProgramIsItsOwn) {
 }
 
 TEST(JobsHeatCorrection, WhereTheIntervalsDoNotSupportItThereIsNoProgram) {
-  HeatJob job = small_job(0.3, 0.5);
-  job.material.values[static_cast<std::size_t>(Property::share)] = {0.05, 0.95};
+  HeatJob job = small_job(0.3, 0.3);
+  job.material.values[static_cast<std::size_t>(Property::share)] = {0.05, 0.55};
   const auto [found, made] = cases::corrected_heat(job);
   EXPECT_EQ(made.program, "");
   EXPECT_NE(made.why_not.find("no corrected program is written"), std::string::npos) << made.why_not;
 }
 
 TEST(JobsHeatCorrection, WhatCannotBeMovedIsToldInOneSentence) {
-  const HeatJob coarse = small_job(2, 0.9);
+  const HeatJob coarse = small_job(2, 0.45);
   EXPECT_NE(
       complaint_of(coarse).find("part.ngc: no finishing pass to move: its passes along the walls take "),
       std::string::npos)
       << complaint_of(coarse);
   EXPECT_EQ(complaint_of(coarse, {2.5}), "");
-  const HeatJob thin = small_job(0.002, 0.9);
+  const HeatJob thin = small_job(0.002, 0.45);
   EXPECT_NE(complaint_of(thin, {0.01}).find("leave more stock for it"), std::string::npos)
       << complaint_of(thin, {0.01});
-  HeatJob steps = small_job(0.3, 0.9);
+  HeatJob steps = small_job(0.3, 0.45);
   steps.source.program.bytes.insert(steps.source.program.bytes.find("G1 X21 Y3"), "G91 G1 X0 Y0\nG90\n");
   EXPECT_NE(complaint_of(steps).find("a motion under G91 belongs to the path"), std::string::npos)
       << complaint_of(steps);

@@ -16,7 +16,7 @@
 namespace lekalo::jobs {
 namespace {
 
-/// Passes that are nearer than this to where they ought to be are left, um, besides rounding.
+/// Passes that are nearer than this to where they ought to be, or than rounding, are left, um.
 constexpr double kSettled = 0.15;
 constexpr int kMostRounds = 3;
 /// Passes keep this off the cold part, um, because the way between places of walls may miss some.
@@ -245,7 +245,7 @@ Result<HeatCorrection> heat_correction(const HeatJob& job, const HeatFound& foun
     return move_on(stations, PassView(found, now), now, kMostOvercut - kKeptOff - rounding);
   };
   double still = move_passes(found);
-  for (int round = 1; round <= kMostRounds && (round == 1 || still > kSettled + rounding); ++round) {
+  for (int round = 1; round <= kMostRounds && (round == 1 || still > std::max(kSettled, rounding)); ++round) {
     LEKALO_CHECK(check_stock(job, found, stations));
     HeatJob again = job;
     again.measured.clear();
