@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include "draw/paper/colour.hpp"
@@ -193,13 +192,15 @@ void draw_heat_displacement(const HeatScene& scene, const Rect& room, std::vecto
 
 void draw_heat_strips(const HeatScene& scene, const Rect& room, std::vector<Item>& items) {
   constexpr double kScale = 52, kZ = 10;
-  const double width = room.width - kScale - 6 - kZ, half = room.height / 2, x = room.x + kZ;
-  for (const auto& [columns, words, top] : {std::tuple{&scene.walls, &scene.strips[0], room.y},
-                                            {&scene.scaled, &scene.strips[1], room.y + half}}) {
-    layer_text(items, {x, top + 2.6}, *words, io::fitting_size(*words, kLayerText, width), Anchor::start,
-               kInk, true);
-    UnrolledWalls(*columns, scene.spacing, scene.height, scene.tool_diameter)
-        .draw({x, top + 4, width, half - 10}, scene.largest_um, items);
+  const double width = room.width - kScale - 6 - kZ, x = room.x + kZ,
+               high = room.height / static_cast<double>(scene.strips.size());
+  double top = room.y;
+  for (const auto& [words, walls] : scene.strips) {
+    layer_text(items, {x, top + 2.6}, words, io::fitting_size(words, kLayerText, width), Anchor::start, kInk,
+               true);
+    UnrolledWalls(walls, scene.spacing, scene.height, scene.tool_diameter)
+        .draw({x, top + 4, width, high - 10}, scene.largest_um, items);
+    top += high;
   }
   const double left = room.right() - kScale;
   layer_text(items, {left, room.y + 2.6}, "error of the wall when cold, um", kLayerText);

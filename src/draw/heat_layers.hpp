@@ -16,7 +16,9 @@ void draw_heat_layer(const HeatScene& scene, const HeatLayer& layer, const Rect&
 /// Draws stock and pocket where they are to be, dashed, and where they are at the end of the program, far
 /// exaggerated.
 void draw_heat_displacement(const HeatScene& scene, const Rect& room, std::vector<Item>& items);
-/// Draws the walls unrolled, before and after the best scaling, and the scale of the errors.
+/// The room that each of the strips takes on the page of maps, mm.
+inline constexpr double kHeatStripHigh = 27;
+/// Draws the strips of walls, unrolled, and the scale of their errors.
 void draw_heat_strips(const HeatScene& scene, const Rect& room, std::vector<Item>& items);
 
 }  // namespace lekalo::draw

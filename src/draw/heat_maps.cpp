@@ -10,15 +10,18 @@
 namespace lekalo::draw {
 namespace {
 
-constexpr Rect kMapsPage{0, 0, 280, 236};
+/// Without strips.
+constexpr Rect kMapsPage{0, 0, 280, 182};
 constexpr double kMapsMargin = 8, kMapsWide = 128, kMapsHigh = 76;
 
 Scene composed_maps(const HeatScene& heat) {
   Scene scene;
-  scene.width = kMapsPage.width, scene.height = kMapsPage.height;
+  const double strips = kHeatStripHigh * static_cast<double>(heat.strips.size());
+  const Rect page{0, 0, kMapsPage.width, kMapsPage.height + strips};
+  scene.width = page.width, scene.height = page.height;
   scene.title = "lekalo heat: " + heat.name;
   scene.description = heat.title[0];
-  scene.items.push_back(PathItem{{kMapsPage.ring()}, true, filled(kPaper), {"page", ""}});
+  scene.items.push_back(PathItem{{page.ring()}, true, filled(kPaper), {"page", ""}});
   const double room = kMapsPage.width - 2 * kMapsMargin;
   for (const auto& [words, y, size, bold] :
        {std::tuple{&heat.title[0], 10.0, 4.0, true}, {&heat.title[1], 16.0, 3.2, false}})
@@ -35,7 +38,7 @@ Scene composed_maps(const HeatScene& heat) {
   draw_heat_layer(heat, heat.at_end, {right, upper, kMapsWide, kMapsHigh}, scene.items);
   draw_heat_layer(heat, heat.stress, {left, lower, kMapsWide, kMapsHigh}, scene.items);
   draw_heat_displacement(heat, {right, lower, kMapsWide, kMapsHigh}, scene.items);
-  draw_heat_strips(heat, {left, lower + kMapsHigh + 3, room, 54}, scene.items);
+  draw_heat_strips(heat, {left, lower + kMapsHigh + 3, room, strips}, scene.items);
   return scene;
 }
 

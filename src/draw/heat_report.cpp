@@ -9,7 +9,7 @@
 namespace lekalo::draw {
 namespace {
 
-constexpr double kHeatReportStrips = 44, kHeatReportMost = 62, kHeatReportLeast = 40;
+constexpr double kHeatReportStrip = 22, kHeatReportMost = 62, kHeatReportLeast = 40;
 
 class HeatReportPage {
  public:
@@ -52,8 +52,9 @@ class HeatReportPage {
     draw_heat_layer(scene, scene.stress, {kReportLeft.x, y, width, map}, sheet.items());
     draw_heat_displacement(scene, {kReportRight.x, y, width, map}, sheet.items());
     y += map + 1;
-    draw_heat_strips(scene, {kReportFrame.x, y, kReportFrame.width, kHeatReportStrips}, sheet.items());
-    y += kHeatReportStrips + 1;
+    const double strips = kHeatReportStrip * static_cast<double>(scene.strips.size());
+    draw_heat_strips(scene, {kReportFrame.x, y, kReportFrame.width, strips}, sheet.items());
+    y += strips + 1;
     const double left = rows("Figures", report_.figures, kReportLeft, y, sheet),
                  right = rows("What the largest error hangs on, each by itself", report_.sensitivity,
                               kReportRight, y, sheet);

@@ -16,6 +16,12 @@ std::vector<TurnedPoint> whole(const Corrected& corrected) {
   return points;
 }
 
+/// A number as it is stated, with a point: a result says it, too, and the checker compares them.
+std::string exactly(double value) {
+  std::string text = fmt::format("{}", value);
+  return text.find('.') == std::string::npos ? text + ".0" : text;
+}
+
 const char* words_of(Surface surface) {
   return surface == Surface::outside ? "OUTSIDE OF THE HUB"
          : surface == Surface::bore  ? "BORE OF THE SHAFT"
@@ -50,6 +56,7 @@ std::string turning_program(const Corrected& corrected, const TurningWords& word
     return fmt::format("X{:.{}f}", scale * diameter, words.radius ? 5 : 4);
   };
   const auto z = [&](double place) { return fmt::format("Z{:.4f}", place - face); };
+  const std::string feed = "F" + exactly(words.feed_mm_per_min);
   std::string text = words.control == Lathe::fanuc ? "%\nO0001\n" : "";
   text += fmt::format("(LEKALO FIT - {})\n(Z0 IS THE RIGHT FACE, X IS A {})\n", words_of(corrected.surface),
                       words.radius ? "RADIUS" : "DIAMETER");
@@ -61,9 +68,9 @@ std::string turning_program(const Corrected& corrected, const TurningWords& word
   const double before = points.front().diameter, behind = points.back().diameter;
   text += fmt::format("G0 {}\nG0 {}\n", z(face + kLead), x(before + (on_seat ? away : 0)));
   if (on_seat)
-    text += fmt::format("G0 {}\nG1 {} F{:.1f}\n", z(points.front().z), x(before), words.feed_mm_per_min);
+    text += fmt::format("G0 {}\nG1 {} {}\n", z(points.front().z), x(before), feed);
   else
-    text += fmt::format("G1 {} F{:.1f}\n", z(face), words.feed_mm_per_min);
+    text += fmt::format("G1 {} {}\n", z(face), feed);
   for (std::size_t i = 1; i < points.size(); ++i)
     text += fmt::format("G1 {} {}\n", x(points[i].diameter), z(points[i].z));
   text += on_seat ? "G1 " + x(behind + away) + "\n"

@@ -39,6 +39,13 @@ Grains to_step(double millimetres, Grains step) {
   return steps_nearest(geom::DoubleDouble{millimetres * kGrainsPerMillimetre}, step) * step;
 }
 
+/// The decimals with which a moved motion is written: those that the control reads, and those that its own
+/// words have.
+int moved_decimals(const Motion& motion, const Dialect& post) {
+  return std::max({post.decimals.of(motion.unit), motion.x != nullptr ? motion.x->value.decimals : 0,
+                   motion.y != nullptr ? motion.y->value.decimals : 0});
+}
+
 /// The way of a motion as the program has it.
 class WayOfMotion {
  public:
@@ -112,9 +119,7 @@ class PathMover {
     if (motion.incremental) return refuse(block, "a motion under G91");
     if (motion.plane != 170) return refuse(block, "an arc of G18 or G19");
     if (motion.turns > 1) return refuse(block, "an arc of several turns");
-    const int decimals =
-        std::max({post_.decimals.of(motion.unit), motion.x != nullptr ? motion.x->value.decimals : 0,
-                  motion.y != nullptr ? motion.y->value.decimals : 0});
+    const int decimals = moved_decimals(motion, post_);
     const WayOfMotion way(motion);
     const std::vector<Knot> knots = knots_of(motion, way, nodes);
     const std::vector<WrittenEnd> ends = ends_of(motion, way, knots, quantum(motion.unit, decimals));
@@ -311,13 +316,13 @@ class PathMover {
   bool known_ = false;
 };
 
-}  // namespace
+/// A program whose path may be moved.
+struct ReadPath {
+  Program program;
+  Interpretation interpretation;
+};
 
-Result<std::string> move_path(std::string_view text, const std::string& name, words::Control control,
-                              const std::vector<MovedMotion>& motions) {
-  std::string_view mark;
-  if (text.starts_with(kByteOrderMark)) mark = text.substr(0, kByteOrderMark.size());
-  text.remove_prefix(mark.size());
+Result<ReadPath> read_path(std::string_view text, const std::string& name, words::Control control) {
   if (const auto foreign = foreign_program(text))
     return refusal(name, foreign->line,
                    fmt::format("{} is a word of {} controls, whose programs are not moved", foreign->word,
@@ -327,21 +332,53 @@ Result<std::string> move_path(std::string_view text, const std::string& name, wo
   if (!unfolded->uses.empty())
     return refusal(name, unfolded->uses.front().line,
                    "a program with subprograms, variables or expressions is not moved; write it out before");
-  const Program program = parse_program(text);
+  ReadPath read{parse_program(text), {}};
   const RewriteOptions options{.control = control};
-  std::vector<LineFault> faults = program.faults;
-  std::ranges::move(refused_words(program, control, options.allowed_m), std::back_inserter(faults));
+  std::vector<LineFault> faults = read.program.faults;
+  std::ranges::move(refused_words(read.program, control, options.allowed_m), std::back_inserter(faults));
   if (!faults.empty()) return refusal_of_all(name, std::move(faults));
-  LEKALO_TRY(const Interpretation interpretation, interpret(program, name, options, control));
-  PathMover mover(text, program, motions, post_of(control));
-  for (const Motion& motion : interpretation.motions)
+  LEKALO_TRY(read.interpretation, interpret(read.program, name, options, control));
+  return read;
+}
+
+/// Returns the byte order mark at the beginning of a program, or nothing.
+std::string_view mark_of(std::string_view text) {
+  return text.starts_with(kByteOrderMark) ? text.substr(0, kByteOrderMark.size()) : std::string_view();
+}
+
+}  // namespace
+
+Result<std::string> move_path(std::string_view text, const std::string& name, words::Control control,
+                              const std::vector<MovedMotion>& motions) {
+  const std::string_view mark = mark_of(text);
+  text.remove_prefix(mark.size());
+  LEKALO_TRY(const ReadPath read, read_path(text, name, control));
+  PathMover mover(text, read.program, motions, post_of(control));
+  for (const Motion& motion : read.interpretation.motions)
     if (!mover.follow(motion)) return refusal(name, mover.fault_line, mover.fault);
   return std::string(mark) + apply_edits(text, std::move(mover.edits));
 }
 
-double moved_path_rounding(words::Control control) noexcept {
-  // A place is rounded along two axes, and so is the centre of an arc.
-  return std::numbers::sqrt2 * std::pow(10.0, -post_of(control).decimals.millimetre);
+Result<MovedRounding> moved_path_rounding(std::string_view text, const std::string& name,
+                                          words::Control control) {
+  // Either end of a line is half a step off along each axis. The centre of an arc is rounded, too: half way
+  // between the ends of a quarter turn that is 1 - cos 45 degrees of it, less than 0.3.
+  constexpr double kLine = std::numbers::sqrt2 / 2, kArc = 1.3 * kLine;
+  text.remove_prefix(mark_of(text).size());
+  LEKALO_TRY(const ReadPath read, read_path(text, name, control));
+  const Dialect& post = post_of(control);
+  const bool drops = control == words::Control::fanuc || control == words::Control::haas;
+  MovedRounding rounding;
+  for (const Motion& motion : read.interpretation.motions) {
+    const int decimals = moved_decimals(motion, post), read_ones = post.decimals.of(motion.unit);
+    const auto step = [&](int places) {
+      return static_cast<double>(quantum(motion.unit, places)) / kGrainsPerMillimetre;
+    };
+    rounding.most =
+        std::max(rounding.most, (motion.kind == MotionKind::line ? kLine : kArc) * step(decimals));
+    if (drops && decimals > read_ones) rounding.dropped = std::max(rounding.dropped, step(read_ones));
+  }
+  return rounding;
 }
 
 }  // namespace lekalo::nc

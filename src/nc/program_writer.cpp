@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "lekalo/base/feed_decimals.hpp"
 #include "lekalo/nc/decimal.hpp"
 
 namespace lekalo::nc {
@@ -74,8 +75,9 @@ std::string ProgramWriter::pair(char first, char second, WrittenPoint counts) co
 }
 
 std::string ProgramWriter::feed(double mm_per_min, int inch_decimals) const {
-  return unit_ == LengthUnit::inch ? fmt::format(" F{:.{}f}", mm_per_min / kMillimetresPerInch, inch_decimals)
-                                   : fmt::format(" F{:.1f}", mm_per_min);
+  const bool inch = unit_ == LengthUnit::inch;
+  const double feed = inch ? mm_per_min / kMillimetresPerInch : mm_per_min;
+  return fmt::format(" F{:.{}f}", feed, feed_decimals(feed, inch ? inch_decimals : 1));
 }
 
 std::string comment_of(const Dialect& dialect, std::string_view words) {

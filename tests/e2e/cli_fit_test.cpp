@@ -66,14 +66,16 @@ TEST(CliFit, WhatIsElasticIsAsItWasAfterTakingApart) {
 TEST(CliFit, WritesTheTurnedProfile) {
   const TemporaryFolder folder;
   const Ran made =
-      run(folder.path(),
-          with({"fit", "--diameter", "18", "--interference", "0.04", "--cylindrical", "outside", "--profile",
-                "p.csv", "--picture", "p.svg", "--drawing", "p.dxf", "--program", "p.ngc", "-o", "fit.json"},
-               kSizes));
+      run(folder.path(), with({"fit", "--diameter", "18", "--interference", "0.04", "--cylindrical",
+                               "outside", "--profile", "p.csv", "--picture", "p.svg", "--drawing", "p.dxf",
+                               "--program", "p.ngc", "--feed", "50.25", "-o", "fit.json"},
+                              kSizes));
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_EQ(folder.files().size(), 5U);
   EXPECT_NE(read_bytes(folder / "p.svg").find("outside of the hub"), std::string::npos);
   EXPECT_NE(read_bytes(folder / "p.ngc").find("G18"), std::string::npos);
+  EXPECT_NE(read_bytes(folder / "p.ngc").find(" F50.25\n"), std::string::npos)
+      << read_bytes(folder / "p.ngc");
   EXPECT_EQ(run(folder.path(), {"verify", "fit.json"}).status, 1);
   write_bytes(folder / "p.ngc", read_bytes(folder / "p.ngc") + " ");
   EXPECT_EQ(run(folder.path(), {"verify", "fit.json"}).status, 4);
@@ -101,6 +103,9 @@ TEST(CliFit, WhatIsWrongIsSaidInOneSentence) {
         {{"--diameter", "18", "--interference", "0,0.04"}, 3, "has to be above 0"},
         {{"--fit", "18H8/z8", "--diameter", "18"}, 2, "say what is pressed"},
         {{"--fit", "18H8/z8", "--program", "p.ngc"}, 2, "need --cylindrical"},
+        {{"--fit", "18H8/z8", "--cylindrical", "outside", "--program", "p.ngc", "--spindle", "900.5"},
+         2,
+         "--spindle"},
         {{"--fit", "18H8/z8", "--cylindrical", "hub"}, 2, "is not outside, bore or seat"},
         {{"--fit", "18H8/z8", "--cylindrical", "bore"}, 3, "has no bore"},
         {{"--fit", "18H8/z8", "--friction", "0.2,0.1"}, 2, "the least comes first"},

@@ -149,8 +149,9 @@ TEST(CliHeat, ACorrectedProgramIsWrittenWhereTheIntervalsSupportIt) {
   EXPECT_FALSE(std::filesystem::exists(folder / "c.ngc"));
   EXPECT_TRUE(Json::parse(read_bytes(folder / "h.json"))["after_correction_um"].is_null());
 
-  const Ran made = run(folder.path(), with(words, {"--share", "0.3"}));
+  const Ran made = run(folder.path(), with(words, {"--share", "0.3", "--maps", "m.svg"}));
   ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_NE(read_bytes(folder / "m.svg").find("finishing passes moved: "), std::string::npos);
   const Json result = Json::parse(read_bytes(folder / "h.json"));
   EXPECT_LT(result["after_correction_um"]["largest"].get<double>(),
             0.2 * result["wall_error_um"]["largest"].get<double>());

@@ -71,10 +71,34 @@ TEST(NcMovedPath, WhatIsNotMovedIsRefusedWithItsLine) {
 }
 
 TEST(NcMovedPath, WordsAreRoundedToTheDecimalsOfTheControl) {
-  const double most = moved_path_rounding(Control::linuxcnc);
-  EXPECT_EQ(most, std::sqrt(2.0) * 1e-4);
   EXPECT_NE(move(kHead + "G1 X10 F900\nM2\n", {{4, {{1, -2, {0.00012345, 0}}}}}).find("X10.0001 "),
             std::string::npos);
+}
+
+TEST(NcMovedPath, RoundingIsThatOfTheUnitAndOfTheDecimalsThatAreWritten) {
+  const auto rounding = [](const std::string& program, Control control) {
+    const Result<MovedRounding> found = moved_path_rounding(program, "p.ngc", control);
+    return found ? found->most : -1;
+  };
+  const double half = std::sqrt(2.0) / 2, arc = 1.3 * half;
+  EXPECT_DOUBLE_EQ(rounding(kHead, Control::linuxcnc), half * 1e-4);
+  EXPECT_DOUBLE_EQ(rounding(kHead, Control::fanuc), half * 1e-3);
+  EXPECT_DOUBLE_EQ(rounding(kHead + "G2 X0. Y10. I0. J5.\n", Control::haas), arc * 1e-3);
+  const std::string inches = "G20 G90 G17 G94 G54\nG0 X0. Y0. Z5.\nG1 Z-2. F200.\n";
+  EXPECT_DOUBLE_EQ(rounding(inches, Control::grbl), half * 25.4e-5);
+  EXPECT_DOUBLE_EQ(rounding(inches, Control::fanuc), half * 25.4e-4);
+  // Words of its own have more decimals, of which some controls drop the last.
+  const std::string finely = "G20 G90 G17 G94 G54\nG1 X0.00000 Y0.0 F9.\n";
+  EXPECT_DOUBLE_EQ(rounding(finely, Control::fanuc), half * 25.4e-5);
+  EXPECT_DOUBLE_EQ(moved_path_rounding(finely, "p.ngc", Control::haas)->dropped, 25.4e-4);
+  EXPECT_EQ(moved_path_rounding(inches, "p.ngc", Control::haas)->dropped, 0);
+  EXPECT_EQ(moved_path_rounding(finely, "p.ngc", Control::linuxcnc)->dropped, 0);
+  EXPECT_FALSE(moved_path_rounding("#1=3\nG1 X#1\n", "p.ngc", Control::linuxcnc));
+  // What is written is no further off.
+  const Result<std::string> moved =
+      move_path(inches + "G1 X1. F9.\n", "p.ngc", Control::fanuc, {{4, {{1, -2, {0.0013, 0}}}}});
+  ASSERT_TRUE(moved);
+  EXPECT_NE(moved->find("X1.0001 Y0.0000"), std::string::npos) << *moved;
 }
 
 }  // namespace

@@ -69,7 +69,9 @@ void read_turning(WordReader& read, const FitWords& w, jobs::FitJob& job) {
                fmt::format("--control: \"{}\" is not linuxcnc or fanuc", w.control));
   job.turning.radius = w.radius;
   read.number("--feed", w.feed, 0.1, 1e5, "a feed from 0.1 to 100000 mm/min", job.turning.feed_mm_per_min);
-  read.number("--spindle", w.spindle, 1.0, 1e5, "a speed from 1 to 100000 1/min", job.turning.spindle_rpm);
+  unsigned spindle = 0;
+  read.number("--spindle", w.spindle, 1U, 100000U, "a whole number from 1 to 100000 1/min", spindle);
+  if (spindle > 0) job.turning.spindle_rpm = spindle;
 }
 
 Result<Command> to_fit(const FitWords& w) {

@@ -35,6 +35,12 @@ struct HeatMoment {
   std::vector<std::uint8_t> from_above, from_front;
 };
 
+/// The walls of a pocket with their errors, and words about them.
+struct HeatStrip {
+  std::string words;  ///< UTF-8
+  std::vector<HeatColumn> walls;
+};
+
 /// Temperatures, stress, displacement and errors of walls, at the middles of all intervals.
 struct HeatScene {
   std::string name;  ///< of the program, UTF-8
@@ -46,13 +52,14 @@ struct HeatScene {
   HeatLayer warmest, at_end, stress;
   /// Displacement of the corners of places at the upper face at the end of the program, um, x first.
   std::vector<geom::Point> moved_um;
-  double moved_most_um = 0;               ///< the longest in the plane
-  std::array<double, 2> lifted_um{};      ///< the least and the greatest along Z
-  std::vector<HeatColumn> walls, scaled;  ///< errors as they are, and what the best scaling leaves
-  std::array<std::string, 2> strips;      ///< words about both
-  double spacing = 0, height = 0;         ///< of places along a wall, and up it, mm
-  double tool_diameter = 0;               ///< mm
-  double largest_um = 0;                  ///< what the colours of errors reach to; above 0
+  double moved_most_um = 0;           ///< the longest in the plane
+  std::array<double, 2> lifted_um{};  ///< the least and the greatest along Z
+  /// The walls as they are, what the best scaling leaves, and what moved finishing passes leave where they
+  /// are moved.
+  std::vector<HeatStrip> strips;
+  double spacing = 0, height = 0;  ///< of places along a wall, and up it, mm
+  double tool_diameter = 0;        ///< mm
+  double largest_um = 0;           ///< what the colours of errors reach to; above 0
 
   /// For the page.
   double low_z = 0, high_z = 0;               ///< of the stock
@@ -63,9 +70,9 @@ struct HeatScene {
   double seconds = 0;  ///< of the program
 };
 
-/// One page (280 x 236 mm): from above the largest temperature, that at the end, the largest stress, and the
-/// displacement, exaggerated by a stated number; below, the walls unrolled before and after the best scaling.
-/// Same input, same bytes (on a machine with the same libraries and fonts).
+/// One page (280 x 236 mm, 27 mm more with a third strip): from above the largest temperature, that at the
+/// end, the largest stress, and the displacement, exaggerated by a stated number; below, the strips of walls,
+/// unrolled. Same input, same bytes (on a machine with the same libraries and fonts).
 [[nodiscard]] std::string heat_maps_svg(const HeatScene& scene);
 /// \param width_px  100 to 20000, else ErrorCode::usage; ErrorCode::environment when the drawing library
 /// fails
@@ -89,8 +96,8 @@ struct HeatReport {
   std::string made;  ///< how, for the foot of the page
 };
 
-/// One page (A4): the decision, figures with their intervals, what the error hangs on, the maps, the walls
-/// before and after scaling, the files, and what is assumed.
+/// One page (A4): the decision, figures with their intervals, what the error hangs on, the maps, the strips
+/// of walls, the files, and what is assumed.
 [[nodiscard]] std::string heat_report_svg(const HeatReport& report);
 [[nodiscard]] Result<std::string> heat_report_png(const HeatReport& report, int width_px = 1600);
 [[nodiscard]] Result<std::string> heat_report_pdf(const HeatReport& report);

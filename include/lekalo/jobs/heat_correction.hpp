@@ -20,13 +20,18 @@ struct CorrectionWish {
 
 /// The walls of the cold workpiece after a program whose finishing passes are moved.
 struct HeatCorrection {
-  double finish = 0;         ///< mm
-  std::string program;       ///< empty where none is worth writing
-  std::string why_not;       ///< one sentence, where there is no program
-  HeatFound found;           ///< of the corrected program
+  double finish = 0;    ///< mm
+  std::string program;  ///< empty where none is worth writing
+  std::string why_not;  ///< one sentence, where there is no program
+  HeatFound found;      ///< of the corrected program
+  std::vector<double>
+      errors_um;             ///< of each of its places at the middles, by the places of the program as it is
   WallErrors after;          ///< at the middles
   WallIntervals after_over;  ///< over film, force and share
   int rounds = 0;            ///< how often a program was written and followed
+  double still_um = 0;       ///< how far the last round would have moved a pass on
+  double dropped_um =
+      0;  ///< what some controls drop of its lengths (nc::MovedRounding), which is in no figure
 };
 
 /// At every corner of the intervals a corrected program may go this far into the cold workpiece, um. Rounding

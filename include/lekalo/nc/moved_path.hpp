@@ -39,7 +39,18 @@ struct MovedMotion {
 [[nodiscard]] Result<std::string> move_path(std::string_view program, const std::string& name,
                                             words::Control control, const std::vector<MovedMotion>& motions);
 
-/// Returns how far rounding may move a place of the path that move_path() has written, mm.
-[[nodiscard]] double moved_path_rounding(words::Control control) noexcept;
+/// The effect of decimals on a path that is moved, mm.
+struct MovedRounding {
+  double most = 0;  ///< how far rounding may move a place of it
+  /// The words of a Fanuc or Haas program may have more decimals than a control of increment system IS-B
+  /// reads. It drops the others: up to this.
+  double dropped = 0;
+};
+
+/// Returns what decimals may do to the path that move_path() writes of this program: rounding 0.00007 to
+/// 0.00009 mm where its words are written with four decimals of a millimetre, and 0.0018 to 0.0024 mm with
+/// four of an inch. Errors: as those of move_path() for the program as it is. Cost: linear in its bytes.
+[[nodiscard]] Result<MovedRounding> moved_path_rounding(std::string_view program, const std::string& name,
+                                                        words::Control control);
 
 }  // namespace lekalo::nc

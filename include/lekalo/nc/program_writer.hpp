@@ -49,7 +49,8 @@ class ProgramWriter {
   [[nodiscard]] std::string number(std::int64_t count) const;
   /// Returns two coordinates after these letters: " X1.0000 Y2.0000", " I0.5000 J0.0000".
   [[nodiscard]] std::string pair(char first, char second, WrittenPoint counts) const;
-  /// Returns " F600.0": one decimal of a mm/min, this many of an inch/min.
+  /// Returns " F600.0": one decimal of a mm/min, this many of an inch/min, and more where a slow feed needs
+  /// them (feed_decimals()).
   [[nodiscard]] std::string feed(double mm_per_min, int inch_decimals) const;
 
   /// The size of the text so far in bytes.

@@ -16,7 +16,7 @@
 namespace lekalo::jobs {
 namespace {
 
-/// Passes that are nearer than this to where they ought to be are left, um, besides rounding.
+/// Passes that are nearer than this to where they ought to be, or than rounding, are left, um.
 constexpr double kSettled = 0.15;
 constexpr int kMostRounds = 3;
 /// Passes keep this off the cold part, um, because the way between places of walls may miss some.
@@ -65,7 +65,8 @@ class WallsAfter {
 
   void summarise(HeatCorrection& made) const {
     constexpr double kFar = std::numeric_limits<double>::infinity();
-    made.after = summary_of(errors(now_.middle(), 1));
+    made.errors_um = errors(now_.middle(), 1);
+    made.after = summary_of(made.errors_um);
     heat::Interval* const over[] = {&made.after_over.least, &made.after_over.most, &made.after_over.mean,
                                     &made.after_over.largest};
     for (heat::Interval* interval : over) *interval = {kFar, -kFar};
@@ -185,36 +186,38 @@ bool is_better(const HeatCorrection& a, const HeatCorrection& b) {
   return a.after.largest() < b.after.largest();
 }
 
+/// Rounding that a reason names, um.
+constexpr double kCoarse = 0.3;
+
 /// Why a corrected program is not worth writing; empty where it is.
-std::string reason_against(const HeatFound& found, const HeatCorrection& made) {
+/// \param rounding  to the decimals of the program, um
+std::string reason_against(const HeatFound& found, const HeatCorrection& made, double rounding) {
   const double before = found.errors.largest(), after = made.after.largest(),
                scaled = found.scaling.left.largest();
   const char* const kNone = "no corrected program is written";
+  const std::string decimals =
+      rounding > kCoarse ? fmt::format(", of which {:.2f} um may be the decimals of the program", rounding)
+                         : "";
   if (scaled <= after && made.after_over.most.greatest <= kMostOvercut)
     return fmt::format(
         "scaling the program does as well: it leaves {:.2f} um of {:.2f} um at the middles, and moved "
-        "finishing "
-        "passes {:.2f} um; {}",
-        scaled, before, after, kNone);
+        "finishing passes {:.2f} um{}; {}",
+        scaled, before, after, decimals, kNone);
   if (made.after_over.most.greatest > kMostOvercut)
     return fmt::format(
-        "moved finishing passes may cut {:.2f} um into the cold workpiece somewhere in the intervals, and "
-        "{:g} um "
-        "are allowed; {}; state the share, the force or the cooling more closely",
-        made.after_over.most.greatest, kMostOvercut, kNone);
+        "moved finishing passes may cut {:.2f} um into the cold workpiece somewhere in the intervals{}, and "
+        "{:g} um are allowed; {}; state the share, the force or the cooling more closely",
+        made.after_over.most.greatest, decimals, kMostOvercut, kNone);
   if (after > kMostLeft * before)
     return fmt::format(
         "finishing passes that are moved as far as all of the intervals allow leave {:.2f} um of {:.2f} um "
-        "at the "
-        "middles, more than a fifth; {}; state the share, the force or the cooling more closely, or take "
-        "less "
-        "depth at a time",
-        after, before, kNone);
+        "at the middles{}, more than a fifth; {}; state the share, the force or the cooling more closely, or "
+        "take less depth at a time",
+        after, before, decimals, kNone);
   if (made.after_over.largest.greatest > found.largest_um.greatest)
     return fmt::format(
         "moved finishing passes may leave {:.2f} um somewhere in the intervals, and the program as it is "
-        "{:.2f} "
-        "um; {}",
+        "{:.2f} um; {}",
         made.after_over.largest.greatest, found.largest_um.greatest, kNone);
   return {};
 }
@@ -233,29 +236,31 @@ Result<HeatCorrection> heat_correction(const HeatJob& job, const HeatFound& foun
   std::vector<WallPasses> stations = wall_passes(found, radius, finish);
   LEKALO_CHECK(check_finishing(job, stations, finish));
   const words::Control control = job.source.machining.control;
-  const double rounding = 1000 * nc::moved_path_rounding(control);
+  const std::string &bytes = job.source.program.bytes, &name = job.source.program.name;
+  LEKALO_TRY(const nc::MovedRounding decimals, nc::moved_path_rounding(bytes, name, control));
+  const double rounding = 1000 * decimals.most;
+  best.dropped_um = 1000 * decimals.dropped;
   HeatCorrection latest = best;
-  const HeatFound* now = &found;
-  for (int round = 1; round <= kMostRounds; ++round) {
-    const double change = move_on(stations, PassView(found, *now), *now, kMostOvercut - kKeptOff - rounding);
-    if (round > 1 && change <= kSettled + rounding) break;
+  const auto move_passes = [&](const HeatFound& now) {
+    return move_on(stations, PassView(found, now), now, kMostOvercut - kKeptOff - rounding);
+  };
+  double still = move_passes(found);
+  for (int round = 1; round <= kMostRounds && (round == 1 || still > std::max(kSettled, rounding)); ++round) {
     LEKALO_CHECK(check_stock(job, found, stations));
     HeatJob again = job;
     again.measured.clear();
     LEKALO_TRY(again.source.program.bytes,
-               nc::move_path(job.source.program.bytes, job.source.program.name, control,
-                             moved_motions(found, stations, radius, job.pitch)));
+               nc::move_path(bytes, name, control, moved_motions(found, stations, radius, job.pitch)));
     LEKALO_TRY(latest.found, heat(again, phases));
     if (!job.measured.empty()) take_measured(job, found, latest.found);
     latest.program = std::move(again.source.program.bytes), latest.rounds = round;
     WallsAfter(found, latest.found).summarise(latest);
-    if (best.rounds == 0 || is_better(latest, best)) {
-      best = latest;
-    }
+    if (best.rounds == 0 || is_better(latest, best)) best = latest;
     best.rounds = round;
-    now = &latest.found;
+    still = move_passes(latest.found);
   }
-  best.why_not = reason_against(found, best);
+  best.still_um = still;
+  best.why_not = reason_against(found, best, rounding);
   if (!best.why_not.empty()) best.program.clear();
   return best;
 }

@@ -50,6 +50,12 @@ Result<HeatResult> heat_result(const HeatResultJob& job, const PhaseListener& ph
       made.warnings.push_back(made.correction->why_not);
     } else {
       corrected.correction = &*made.correction;
+      if (made.correction->dropped_um > 0)
+        made.warnings.push_back(
+            fmt::format("a control of increment system IS-B drops the last decimals of {}, up to {:.2f} um, "
+                        "which is in no "
+                        "figure here; let the control read them, or state the program with fewer decimals",
+                        job.corrected_as, made.correction->dropped_um));
       files.push_back({job.corrected_as, made.correction->program});
     }
   }

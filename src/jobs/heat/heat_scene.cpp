@@ -145,7 +145,13 @@ void add_moments(const HeatResultJob& job, const HeatFound& found, draw::HeatSce
   scene.seconds = found.source.work.seconds;
 }
 
-Result<draw::HeatScene> scene_of(const HeatResultJob& job, const HeatFound& found) {
+/// Returns the correction of which a program was written, or nullptr.
+const HeatCorrection* corrected_in(const HeatResult& made) {
+  return made.correction && !made.correction->program.empty() ? &*made.correction : nullptr;
+}
+
+Result<draw::HeatScene> scene_of(const HeatResultJob& job, const HeatResult& made) {
+  const HeatFound& found = made.found;
   const HeatSourceJob& source = job.heat.source;
   std::vector<geom::Edge> open;
   LEKALO_TRY(io::RegionFile pocket, io::parse_regions(source.pocket.bytes, source.pocket.name, {}, &open));
@@ -172,15 +178,19 @@ Result<draw::HeatScene> scene_of(const HeatResultJob& job, const HeatFound& foun
   scene.at_end.least = coolest;
   scene.stress = stress_layer(job, found);
   add_displacement(found, scene);
-  const HeatCase& middle = found.middle();
-  scene.walls = heat_columns(found.walls, middle.errors_um);
-  scene.scaled = heat_columns(found.walls, scaled(found.walls, middle.errors_um, 1, found.scaling));
-  const auto words = [](const char* what, const WallErrors& errors) {
-    return fmt::format("{}: {:+.2f} to {:+.2f} um", what, errors.least, errors.most);
+  const std::vector<double>& errors_um = found.middle().errors_um;
+  const auto strip = [&](const std::string& what, const WallErrors& errors,
+                         std::vector<draw::HeatColumn> walls) {
+    scene.strips.push_back(
+        {fmt::format("{}: {:+.2f} to {:+.2f} um", what, errors.least, errors.most), std::move(walls)});
   };
-  scene.strips = {words("as the program is", found.errors),
-                  words(fmt::format("scaled by {:.6f}", found.scaling.factor).c_str(), found.scaling.left)};
-  scene.spacing = job.heat.pitch, scene.height = height_of(scene.walls, job.heat.pitch);
+  strip("as the program is", found.errors, heat_columns(found.walls, errors_um));
+  strip(fmt::format("scaled by {:.6f}", found.scaling.factor), found.scaling.left,
+        heat_columns(found.walls, scaled(found.walls, errors_um, 1, found.scaling)));
+  const HeatCorrection* const moved = corrected_in(made);
+  if (moved != nullptr && !moved->errors_um.empty())
+    strip("finishing passes moved", moved->after, heat_columns(moved->found.walls, moved->errors_um));
+  scene.spacing = job.heat.pitch, scene.height = height_of(scene.strips.front().walls, job.heat.pitch);
   scene.tool_diameter = source.machining.tool_diameter;
   scene.largest_um = std::max({found.errors.largest(), found.scaling.left.largest(), 1e-3});
   scene.low_z = source.machining.top - box.thickness, scene.high_z = source.machining.top;
@@ -206,6 +216,11 @@ draw::HeatReport report_of(const HeatResultJob& job, const HeatResult& made, dra
   report.decision = heat_decision(found);
   const HeatWait wait = heat_wait(found);
   report.decision.push_back(fmt::format("It cools down {}: {}.", wait.lasts, wait.verdict));
+  const HeatCorrection* const moved = corrected_in(made);
+  if (moved != nullptr)
+    report.decision.push_back(fmt::format("{} has its finishing passes moved, and leaves {} um.",
+                                          file_part(job.corrected_as),
+                                          between("{:.2f}", moved->after_over.largest)));
   const HeatCase& middle = found.middle();
   const double balance = found.book.in > 0 ? found.book.in : 1, yield = heat.material[Property::yield].least;
   report.figures = {
@@ -267,7 +282,7 @@ Result<std::string> drawn_report(const draw::HeatReport& report, PictureForm for
 
 Result<void> add_heat_scenes(const HeatResultJob& job, HeatResult& made) {
   if (!job.maps && !job.report && !job.animation) return {};
-  LEKALO_TRY(draw::HeatScene scene, scene_of(job, made.found));
+  LEKALO_TRY(draw::HeatScene scene, scene_of(job, made));
   if (job.maps) {
     LEKALO_TRY(made.maps, drawn_maps(scene, *job.maps));
   }
