@@ -11,7 +11,7 @@ namespace {
 
 using geom::Point;
 
-/// What stands for a letter that the font lacks.
+/// A rectangle stands for a letter that the font lacks.
 LineLetter missing_letter() {
   constexpr int kWidth = 16, kSide = 3;
   return {kWidth,

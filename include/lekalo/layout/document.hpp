@@ -49,8 +49,8 @@ struct PartArea {
   friend bool operator==(const PartArea&, const PartArea&) = default;
 };
 
-/// What is done with a line or a text on a part. Machines cut along `mark` and `engrave` where they have
-/// words for it, before they cut out the part; the others are shown only. docs/design/marks.md.
+/// A role says what is done with a line or a text on a part. Machines cut along `mark` and `engrave` where
+/// they have words for it, before they cut out the part; the others are shown only. docs/design/marks.md.
 enum class MarkRole : std::uint8_t {
   mark,     ///< nobody said more about it
   engrave,  ///< said to be engraved
@@ -69,7 +69,7 @@ struct PartMark {
   friend bool operator==(const PartMark&, const PartMark&) = default;
 };
 
-/// Which point of its line of letters stands at the place of a text.
+/// An anchor is the point of a line of letters that stands at the place of its text.
 enum class TextAnchor : std::uint8_t { left, middle, right };
 
 /// A text on a part, one line of it. It takes no room and moves with the part like a drawn line: turned with

@@ -7,7 +7,7 @@
 
 namespace lekalo::nc {
 
-/// What a profile program engraves on parts before it cuts any of them out: docs/design/marks.md.
+/// A profile program engraves marks on parts before it cuts any of them out: docs/design/marks.md.
 
 /// A line, or all strokes of a text, on a placed part: in the sheet's frame, mm. The tool follows the very
 /// lines, without compensation.

@@ -84,7 +84,7 @@ std::vector<std::string> paragraphs_of(std::string_view text) {
       text.remove_prefix(std::min(text.find(';'), text.size() - (text.empty() ? 0 : 1)) +
                          (text.empty() ? 0 : 1));
     }
-    // What is left switches strokes under, over and through letters on and off.
+    // The codes that are left switch strokes under, over and through letters on and off.
   }
   return lines;
 }
@@ -288,7 +288,7 @@ Result<void> DxfEntities::read_mtext(DxfBlock& into) {
   numbers[44] = 1;
   numbers[71] = 1;
   while (at_.next() && at_.code() != 0) {
-    // What an embedded object says of columns has the same codes.
+    // An embedded object says of columns by the same codes.
     if (at_.code() == 101) is_embedded = true;
     LEKALO_TRY(const auto taken, take_common());
     if (taken || is_embedded) continue;

@@ -13,7 +13,7 @@
 
 namespace lekalo::io {
 
-/// What lies inside the parts of a drawing, by its layers: docs/design/marks.md.
+/// Lines and texts inside the parts of a drawing, sorted by their layers: docs/design/marks.md.
 
 /// A line that a rule takes from the outlines.
 struct RuledLine {

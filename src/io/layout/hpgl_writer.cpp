@@ -74,7 +74,7 @@ class HpglWriter {
     return {std::llround(scaled.x), std::llround(scaled.y)};
   }
 
-  /// What lies inside a part; a pen draws texts as strokes.
+  /// Draws what lies inside a part; texts as strokes.
   void inside(const PlacedShape& part) {
     if (!part.grain.empty()) line({part.grain.front(), part.grain.back()});
     for (const PlacedMark& mark : part.marks) line(points_of(mark.edges));

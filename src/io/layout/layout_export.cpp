@@ -75,7 +75,7 @@ class Drawer {
       edge.from = scaled(edge.from), edge.to = scaled(edge.to), edge.centre = scaled(edge.centre);
   }
 
-  /// What lies inside a part is on the layers and in the colours that it had; MARK asks for all of it.
+  /// Adds what lies inside a part, on the layers and in the colours that it had; MARK asks for all of it.
   void add_inside(const PlacedShape& part) {
     if (!wanted(request_, "MARK")) return;
     for (const detail::PlacedMark& mark : part.marks) {

@@ -11,7 +11,7 @@
 
 namespace lekalo::io::detail {
 
-/// What lies inside placed parts, as exports write it: docs/design/marks.md.
+/// Lines and texts inside placed parts, as exports write them: docs/design/marks.md.
 
 /// The layer on which a mark or text is written: its own, with "_" for characters that DXF cannot hold. What
 /// has none, or one of kExportLayers, is on kInsideLayer.

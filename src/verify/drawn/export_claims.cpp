@@ -230,7 +230,7 @@ class ExportCheck {
   std::vector<DrawnLine> wanted_;
   Likeness likeness_;
   bool is_plot_;
-  /// What is to be on parts, and what the file has there.
+  /// Lines that are to be on parts, and those that the file has there.
   std::vector<DrawnLine> inner_, inner_of_file_;
   std::vector<DrawnLetters> inner_letters_;
   std::size_t inner_lines_ = 0, inner_texts_ = 0;

@@ -20,7 +20,7 @@ struct PartOptions {
   /// The chords of arcs lie outside the material by at most this, mm.
   double chord_tolerance = kUsualChordTolerance;
   DrawingOptions drawing;
-  /// What the layers of drawings are; where no row fits a layer, its closed lines are outlines.
+  /// The roles of layers of drawings; where no row fits a layer, its closed lines are outlines.
   LayerRules layer_rules{};
 };
 
