@@ -31,7 +31,9 @@ TEST(LineFont, LettersOfLatinAndCyrillicAreThere) {
 TEST(LineFont, CapitalsStandOnTheBaselineAndAreOneHigh) {
   for (const char32_t code : letters_of("ABEHIKLMNTXZАБВГЕЖИКМНПТХЧШЫЬЯ")) {
     int low = 100, high = -100;
-    for (const auto& stroke : line_letter(code)->strokes)
+    const auto letter = line_letter(code);
+    ASSERT_TRUE(letter.has_value());
+    for (const auto& stroke : letter->strokes)
       for (const auto& [x, y] : stroke) low = std::min(low, y), high = std::max(high, y);
     EXPECT_EQ(low, 0) << static_cast<unsigned>(code);
     EXPECT_EQ(high, kLineFontCapital) << static_cast<unsigned>(code);

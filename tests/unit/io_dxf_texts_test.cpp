@@ -68,10 +68,10 @@ TEST(DxfTexts, AnMtextIsItsLines) {
   const std::string mtext =
       groups({{0, "MTEXT"}, {8, "0"}, {10, "10"}, {20, "20"}, {40, "3"}, {41, "0"}, {71, "1"}});
   EXPECT_EQ(told(read(mtext + groups({{3, "{\\fArial|b0;one}\\Pt"}, {1, "wo \\S1/2; \\{x\\}"}}))),
-            "one at 10,17 3 0 on 0#000000\ntwo 1/2 {x} at 10,12 3 0 on 0#000000\n");
+            "one at 10,17 3 0 on 0\ntwo 1/2 {x} at 10,12 3 0 on 0\n");
   // The direction of the x axis may stand for an angle; columns have codes of their own behind 75.
   EXPECT_EQ(told(read(mtext + groups({{1, "up"}, {11, "0"}, {21, "1"}, {75, "1"}, {50, "77"}}))),
-            "up at 13,20 3 90 on 0#000000\n");
+            "up at 13,20 3 90 on 0\n");
   EXPECT_EQ(told(read(groups({{0, "MTEXT"},
                               {8, "0"},
                               {10, "0"},
@@ -80,7 +80,7 @@ TEST(DxfTexts, AnMtextIsItsLines) {
                               {41, "60"},
                               {71, "8"},
                               {1, "II III IIIIIII"}}))),
-            "II III at 0,35 21 0 middle on 0#000000\nIIIIIII at 0,0 21 0 middle on 0#000000\n");
+            "II III at 0,35 21 0 middle on 0\nIIIIIII at 0,0 21 0 middle on 0\n");
 }
 
 TEST(DxfTexts, BlocksTakeTheirTextsAlong) {
@@ -103,7 +103,7 @@ TEST(DxfTexts, BlocksTakeTheirTextsAlong) {
                                         {21, "52"}}) +
                                 groups({{0, "SEQEND"}});
   EXPECT_EQ(told(read(insert + groups({{41, "2"}, {42, "2"}, {50, "90"}}) + attribute, block)),
-            "N7 at 101,50 4 0 on A#000000\nin at 100,52 4 90 on L#00ff00\n");
+            "N7 at 101,50 4 0 on A\nin at 100,52 4 90 on L#00ff00\n");
   EXPECT_EQ(told(read(insert + groups({{41, "-1"}, {42, "1"}}), block)),
             "in at 99,50 2 0 backwards on L#00ff00\n");
   EXPECT_EQ(told(read(insert + groups({{41, "1"}, {42, "3"}, {70, "2"}, {44, "10"}}), block)),

@@ -19,7 +19,7 @@ using cases::Json;
 Json sample() {
   Json layout = cases::empty_layout();
   cases::add_marked_plate(layout, "plate");
-  cases::place(layout, "plate", 80, 10, 90)["mirrored"] = true;
+  cases::place(layout, "plate", 80, 70, 90)["mirrored"] = true;
   return layout;
 }
 
@@ -80,7 +80,8 @@ TEST(VerifyMarks, ALieInADrawingIsFound) {
   // Every mark and text is asked for, and nothing else is.
   for (const char* form : {"dxf", "svg", "hpgl"}) {
     Json more = sample();
-    more["parts"][0]["marks"].push_back({{"layer", "ENG"}, {"edges", {cases::line_json(20, 30, 22, 30)}}});
+    more["parts"][0]["marks"].push_back(
+        {{"layer", "ENG"}, {"edges", Json::array({cases::line_json(20, 30, 22, 30)})}});
     EXPECT_NE(judged(exported(sample(), form, {}).files[0].bytes, more), "") << form;
     EXPECT_NE(judged(exported(more, form, {}).files[0].bytes, sample()), "") << form;
     Json moved = sample();
@@ -143,8 +144,9 @@ TEST(VerifyMarks, AMarkAfterItsPartIsCutOutIsRefused) {
 
 TEST(VerifyMarks, MarksThatLeaveTheirPartAreNotEngraved) {
   Json layout = sample();
-  layout["parts"][0]["marks"] = {{{"layer", "OUT"}, {"edges", {cases::line_json(50, 30, 61, 30)}}},
-                                 {{"layer", "EDGE"}, {"edges", {cases::line_json(50, 30, 60, 30)}}}};
+  layout["parts"][0]["marks"] = {
+      {{"layer", "OUT"}, {"edges", Json::array({cases::line_json(50, 30, 61, 30)})}},
+      {{"layer", "EDGE"}, {"edges", Json::array({cases::line_json(50, 30, 60, 30)})}}};
   layout["parts"][0].erase("texts");
   const io::Exported made = exported(layout, "gcode", kLaser);
   EXPECT_EQ(told(program_report(made.files[0].bytes, layout, 0.2)), "");
@@ -152,9 +154,10 @@ TEST(VerifyMarks, MarksThatLeaveTheirPartAreNotEngraved) {
   EXPECT_NE(made.notes[0].find("1 on layer 'OUT' (out of their part or into another)"), std::string::npos)
       << made.notes[0];
   // A small part in the hole of the plate, over which a line of the plate runs.
-  layout["parts"][0]["marks"] = {{{"layer", "OVER"}, {"edges", {cases::line_json(42, 10, 58, 10)}}}};
+  layout["parts"][0]["marks"] =
+      Json::array({{{"layer", "OVER"}, {"edges", Json::array({cases::line_json(42, 10, 58, 10)})}}});
   cases::add_part(layout, "small", cases::outline_json(cases::rectangle(0, 0, 4, 4)));
-  cases::place(layout, "small", 68, 58);
+  cases::place(layout, "small", 68, 18);
   const io::Exported over = exported(layout, "gcode", kLaser);
   EXPECT_NE(over.notes[0].find("1 on layer 'OVER' (out of their part or into another)"), std::string::npos)
       << over.notes[0];
@@ -163,7 +166,8 @@ TEST(VerifyMarks, MarksThatLeaveTheirPartAreNotEngraved) {
 TEST(VerifyMarks, TextsWithLettersThatTheFontLacksAreNamed) {
   Json layout = sample();
   layout["parts"][0].erase("marks");
-  layout["parts"][0]["texts"] = {{{"text", "中"}, {"at", {5, 5}}, {"height", 4}, {"layer", "T"}}};
+  layout["parts"][0]["texts"] =
+      Json::array({{{"text", "中"}, {"at", {5, 5}}, {"height", 4}, {"layer", "T"}}});
   const io::Exported made = exported(layout, "gcode", kLaser);
   EXPECT_NE(
       made.notes[0].find("1 line or text is on the parts not cut: 1 on layer 'T' (with letters that the font "

@@ -148,6 +148,7 @@ class DxfReader {
       default:
         break;
     }
+    if (entity_ == "TEXT" && layer_ == "LABEL") return;
     const std::optional<double> number = double_of_text(group.value);
     if (!number) return complain(group, fmt::format("{} is no number", excerpt(group.value)));
     const bool polyline = entity_ == "LWPOLYLINE";
