@@ -33,16 +33,29 @@ std::string notes(const std::vector<std::string>& notices) {
   return text;
 }
 
+Result<io::LayerRules> layer_rules_of(const std::string& path) {
+  if (path.empty()) return io::LayerRules{};
+  LEKALO_TRY(const std::string bytes, disk::read_file(path));
+  return io::read_layer_rules(bytes, io::as_utf8(path));
+}
+
 Result<jobs::Layout> read_layout_input(const LayoutSource& source, const std::vector<NamedPath>& outputs,
                                        std::vector<NamedPath> others) {
-  others.insert(others.begin(), {{"the layout", source.path}, {"--instance", source.instance}});
+  others.insert(
+      others.begin(),
+      {{"the layout", source.path}, {"--instance", source.instance}, {"--layer-rules", source.layer_rules}});
   LEKALO_CHECK(check_outputs(outputs, others));
   LEKALO_TRY(std::string bytes, disk::read_file(source.path));
-  LEKALO_TRY(jobs::Layout layout, jobs::open_layout({source.path, std::move(bytes)}, source.parts,
+  io::PartOptions parts = source.parts;
+  LEKALO_TRY(parts.layer_rules, layer_rules_of(source.layer_rules));
+  LEKALO_TRY(jobs::Layout layout, jobs::open_layout({source.path, std::move(bytes)}, parts,
                                                     disk::items_near(source.path, source.instance)));
   if (!source.instance.empty() && layout.form != io::NestingForm::placements)
     layout.notices.push_back(
         fmt::format("--instance has no effect: {} is no file of placements", io::as_utf8(source.path)));
+  if (!source.layer_rules.empty() && (!layout.bytes.empty() || layout.form))
+    layout.notices.push_back(
+        fmt::format("--layer-rules has no effect: {} is no drawing", io::as_utf8(source.path)));
   return layout;
 }
 

@@ -5,6 +5,7 @@
 
 #include "lekalo/base/counted.hpp"
 #include "lekalo/base/error.hpp"
+#include "lekalo/io/formats/layer_rules.hpp"
 #include "lekalo/jobs/layout.hpp"
 #include "lekalo/layout/check.hpp"
 #include "lekalo/layout/completeness.hpp"
@@ -18,6 +19,9 @@ namespace lekalo::cli {
 [[nodiscard]] Result<jobs::Layout> read_layout_input(const LayoutSource& source,
                                                      const std::vector<NamedPath>& outputs,
                                                      std::vector<NamedPath> others = {});
+
+/// Reads the table of layers that --layer-rules names; an empty one where the path is empty.
+[[nodiscard]] Result<io::LayerRules> layer_rules_of(const std::string& path);
 
 /// "note: ..." lines.
 [[nodiscard]] std::string notes(const std::vector<std::string>& notices);

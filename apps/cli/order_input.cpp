@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "layout_input.hpp"
 #include "lekalo/disk/file_words.hpp"
 #include "lekalo/disk/files.hpp"
 #include "lekalo/io/formats/drawing_formats.hpp"
@@ -31,6 +32,11 @@ class OrderReader {
   Result<std::vector<jobs::MaterialLayout>> read() {
     order_ = jobs::order_of(source_.terms);
     order_.reading = source_.reading;
+    if (auto rules = layer_rules_of(source_.layer_rules))
+      order_.reading.layer_rules = *std::move(rules);
+    else
+      fault(rules.error().message);
+    if (!source_.layer_rules.empty()) inputs_.push_back({"--layer-rules", source_.layer_rules});
     if (source_.parts.empty() && source_.table.empty())
       fault("no part is ordered; say --part FILE=N, a folder, a pattern in quotes, or --order TABLE",
             ErrorCode::usage);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -19,6 +20,7 @@
 #include "lekalo/base/stop.hpp"
 #include "lekalo/io/layout/label_place.hpp"
 #include "lekalo/io/text/words.hpp"
+#include "lekalo/layout/part_text.hpp"
 #include "region_rings.hpp"
 
 namespace lekalo::draw {
@@ -267,25 +269,48 @@ class LayoutComposer {
     }
   }
 
-  /// Draws what is engraved, bent or cut within a part, thin.
+  /// Draws what is engraved, bent or cut within a part, thin, in the colours of its drawing; texts as
+  /// strokes, bends dashed.
   void draw_part_marks(const layout::Part& part, const Placement& placement, const View& view,
                        const Rect& room) {
-    PathItem item{{}, false, stroked(kPartLine, 0.1), {"mark", part.id}};
     constexpr auto kOne = static_cast<double>(geom::GridRotation::kOne);
     const double c = static_cast<double>(placement.rotation.c) / kOne,
                  s = static_cast<double>(placement.rotation.s) / kOne;
     const Point at = geom::mm_from_grid(placement.at);
-    for (const layout::PartMark& mark : part.marks) {
+    std::map<std::pair<std::string, std::string>, std::vector<Ring>> by_look;
+    const auto add = [&](const std::string& kind, const std::string& colour, Ring line) {
       ask();
-      Ring line = chain_points(mark.edges, kMarkSag, kMarkStep);
       for (Point& p : line) {
         if (placement.mirrored) p.x = -p.x;
         p = Point{c * p.x - s * p.y, s * p.x + c * p.y} + at;
       }
       Ring shown = on_paper(line, view, room);
-      if (shown.size() > 1) item.lines.push_back(std::move(shown));
+      if (shown.size() > 1) by_look[{kind, colour}].push_back(std::move(shown));
+    };
+    for (const layout::PartMark& mark : part.marks)
+      add(mark.role == layout::MarkRole::bend ? "bend" : "mark", mark.colour,
+          chain_points(mark.edges, kMarkSag, kMarkStep));
+    for (const layout::PartText& text : part.texts)
+      for (Ring& stroke : layout::text_strokes(text)) add("text", text.colour, std::move(stroke));
+    for (auto& [look, lines] : by_look) {
+      const bool bend = look.first == "bend";
+      scene_.items.push_back(PathItem{std::move(lines),
+                                      false,
+                                      stroked(mark_colour(look.second), 0.1, bend ? 0.8 : 0),
+                                      {look.first, part.id}});
     }
-    if (!item.lines.empty()) scene_.items.push_back(std::move(item));
+  }
+
+  /// The colour that a mark has in its drawing. What is drawn for a dark screen is seen on paper, too.
+  static Colour mark_colour(const std::string& said) {
+    constexpr unsigned kTooLight = 200;
+    if (said.size() != 7) return kPartLine;
+    unsigned rgb = 0;
+    std::from_chars(said.data() + 1, said.data() + said.size(), rgb, 16);
+    const unsigned red = rgb >> 16U, green = (rgb >> 8U) & 0xffU, blue = rgb & 0xffU;
+    if (std::min({red, green, blue}) > kTooLight) return kPartLine;
+    return {static_cast<std::uint8_t>(red), static_cast<std::uint8_t>(green),
+            static_cast<std::uint8_t>(blue)};
   }
 
   void draw_remnant(const layout::SheetUse& use, const View& view, const Rect& room) {

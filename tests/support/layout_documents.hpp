@@ -138,7 +138,21 @@ inline layout::Document random_document(std::uint64_t seed, std::uint64_t index)
       const geom::Point centre = to - geom::Point{8, 0};
       p.marks.push_back({half() ? random_text(random) : "",
                          {{geom::EdgeKind::line, from, to, {}},
-                          {geom::EdgeKind::arc_ccw, to, centre + geom::Point{0, 8}, centre}}});
+                          {geom::EdgeKind::arc_ccw, to, centre + geom::Point{0, 8}, centre}},
+                         half() ? "#00ff7f" : "",
+                         static_cast<layout::MarkRole>(random.below(4))});
+      layout::PartText text;
+      text.text = "N" + random_text(random);
+      text.at = {random.uniform(-50, 50), random.uniform(-50, 50)};
+      text.height = random.uniform(0.5, 30);
+      text.degrees = half() ? angle() : 0;
+      text.width_factor = half() ? random.uniform(0.1, 3) : 1;
+      text.mirrored = half();
+      text.anchor = static_cast<layout::TextAnchor>(random.below(3));
+      text.layer = half() ? random_text(random) : "";
+      text.colour = half() ? "#a0b0c0" : "";
+      text.role = static_cast<layout::MarkRole>(random.below(4));
+      p.texts.push_back(std::move(text));
     }
     d.parts.push_back(std::move(p));
   }

@@ -80,6 +80,7 @@ const std::string kLayout = R"({"format": "lekalo-layout/1", "units": "mm",
              "zones": [{"id": "z", "quality": 1,
                         "outline": {"polygon": {"outer": [[0, 0], [9, 0], [9, 9], [0, 9]]}}}]}],
  "parts": [{"id": "p", "outline": {"polygon": {"outer": [[0, 0], [1, 0], [1, 1], [0, 1]]}},
+            "texts": [{"text": "t", "at": [0, 0], "height": 1, "deg": 0, "width_factor": 1}],
             "quality": 0, "rotations": [0], "grain": {"deg": 0, "tolerance_deg": 0},
             "tolerated_severity": 0, "priority": 0, "demand": 1, "gap": 0}],
  "kits": [{"id": "k", "demand": 1, "value": 1, "pieces": [{"part": "p", "count": 1}]}],
@@ -125,6 +126,12 @@ std::vector<Limit> limits_of_layouts() {
       most_whole("/parts/0/quality", "parts[0].quality", kMostLevel),
       least("/parts/0/rotations/0", "parts[0].rotations[0]", -kMostDegrees),
       most("/parts/0/grain/deg", "parts[0].grain.deg", kMostDegrees),
+      most("/parts/0/texts/0/height", "parts[0].texts[0].height", kHighestText),
+      least("/parts/0/texts/0/height", "parts[0].texts[0].height", kLowestText),
+      most("/parts/0/texts/0/deg", "parts[0].texts[0].deg", kMostDegrees),
+      most("/parts/0/texts/0/width_factor", "parts[0].texts[0].width_factor", kWidestText),
+      least("/parts/0/texts/0/width_factor", "parts[0].texts[0].width_factor", kNarrowestText),
+      most("/parts/0/texts/0/at/0", "parts[0].texts[0].at[0]", kLargestCoordinate),
       most("/parts/0/grain/tolerance_deg", "parts[0].grain.tolerance_deg", 90),
       most_whole("/parts/0/tolerated_severity", "parts[0].tolerated_severity", kMostLevel),
       least_whole("/parts/0/priority", "parts[0].priority", -kMostLevel),
@@ -195,6 +202,8 @@ TEST(Limits, TheSchemaStatesThem) {
   states("thickness", kShortestSide, kLargestOutline);
   states("point/items", -kLargestOutline, kLargestOutline);
   states("outline/properties/chord_tolerance", kLeastChordTolerance, kMostChordTolerance);
+  states("part/properties/texts/items/properties/height", kLowestText, kHighestText);
+  states("part/properties/texts/items/properties/width_factor", kNarrowestText, kWidestText);
   states("stock/properties/count", 1, count);
   states("stock/properties/height", kShortestSide, kLargestOutline);
   states("stock/properties/length", kShortestSide, kLargestOutline);
@@ -328,6 +337,8 @@ TEST(Limits, ThePageStatesThem) {
         fmt::format("{} mm", kShortestSide),
         with_commas(static_cast<std::int64_t>(kMostDegrees)) + " degrees",
         fmt::format("{}", kLargestSine),
+        fmt::format("from {} to {} mm; from {} to {} |", kLowestText,
+                    with_commas(static_cast<std::int64_t>(kHighestText)), kNarrowestText, kWidestText),
         fmt::format("{} mm", kMostChordTolerance),
         with_commas(kMostCount),
         with_commas(kMostKits),

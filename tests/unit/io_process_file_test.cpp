@@ -247,7 +247,9 @@ TEST(ProcessFile, WhatIsWrongIsToldWithItsEntry) {
       {with(laser(), "kerf", 0.2),
        "there is no key 'kerf'; known are material, thickness_mm, process, post, kerf_mm, feed_mm_per_min, "
        "speed, "
-       "pierce_s, lead, lead_in_mm, depth_mm, pass_mm, plunge_mm_per_min, safe_height_mm and holes"},
+       "pierce_s, lead, lead_in_mm, depth_mm, pass_mm, plunge_mm_per_min, safe_height_mm, "
+       "engrave_feed_mm_per_min, "
+       "engrave_speed, engrave_depth_mm and holes"},
       {with(laser(), "depth_mm", 3), "depth_mm has a meaning for routers alone: process router"},
       {with(laser(), "safe_height_mm", 3), "safe_height_mm has a meaning for routers alone: process router"},
       {with(laser(), "post", "grbl"),

@@ -14,11 +14,14 @@ namespace {
 std::string number(double value) { return fmt::format("{:.4g}", std::abs(value) < 1e-9 ? 0.0 : value); }
 std::string point(Place p) { return number(p.x) + "," + number(p.y); }
 
-std::string told(const Result<std::vector<DrawnLine>>& lines) {
-  if (!lines) return lines.error().message;
+std::string told(const Result<DrawnFile>& file) {
+  if (!file) return file.error().message;
   std::string text;
-  for (const DrawnLine& line : *lines) {
-    text += line.layer + (line.closed ? "" : "!") + ":";
+  for (const DrawnLetters& one : file->texts)
+    text += one.layer + one.colour + " '" + one.text + "' " + one.anchor + " " + point(one.at) + " " +
+            point(one.right) + " " + point(one.up) + "\n";
+  for (const DrawnLine& line : file->lines) {
+    text += line.layer + line.colour + (line.closed ? "" : "!") + ":";
     for (const Stroke& edge : line.edges)
       text += (edge.arc ? " A " + point(edge.centre) + " " + number(edge.radius) + (edge.ccw ? " +" : " -")
                         : " L") +
@@ -51,9 +54,16 @@ TEST(VerifyDrawnDxf, PolylinesCirclesAndLinesAreRead) {
   EXPECT_EQ(dxf("0 CIRCLE 8 CUT 10 1 20 2 30 0 40 5"), "CUT: A 1,2 5 + 6,2 6,2\n");
   EXPECT_EQ(dxf("0 LINE 8 MARK 10 1 20 2 30 0 11 3 21 5 31 0.0"), "MARK!: L 1,2 3,5\n");
   EXPECT_EQ(dxf("0 TEXT 8 LABEL 10 1 1 any 0 LINE 8 MARK 10 1 20 2 11 3 21 5"), "MARK!: L 1,2 3,5\n");
-  EXPECT_EQ(dxf("0 TEXT 2 X 0 LINE 8 MARK 10 1 20 2 11 3 21 5"), "MARK!: L 1,2 3,5\n");
+  EXPECT_EQ(dxf("0 LWPOLYLINE 8 ENG 420 255 90 2 70 0 10 0 20 0 42 1 10 4 20 0"),
+            "ENG#0000ff!: A 2,0 2 + 0,0 4,0\n");
   EXPECT_EQ(dxf("0 LINE 8 A 10 1 20 2 11 3 21 5 0 LINE 10 1 20 2 11 3 21 6"),
             "A!: L 1,2 3,5\n!: L 1,2 3,6\n");
+}
+
+TEST(VerifyDrawnDxf, TextsHaveTheirAxes) {
+  EXPECT_EQ(dxf("0 TEXT 8 T 420 16711680 10 1 20 2 30 0 40 3 1 N7 50 90 41 2"),
+            "T#ff0000 'N7' left 1,2 0,6 -3,0\n");
+  EXPECT_EQ(dxf("0 TEXT 8 T 10 1 20 2 40 3 1 N7 71 2 72 2 11 1 21 2"), "T 'N7' right 1,2 -3,0 0,3\n");
 }
 
 TEST(VerifyDrawnDxf, WhatLekaloDoesNotWriteIsRefusedWithItsLine) {
@@ -61,10 +71,14 @@ TEST(VerifyDrawnDxf, WhatLekaloDoesNotWriteIsRefusedWithItsLine) {
     EXPECT_NE(dxf(entities).find(said), std::string::npos) << entities << "\n" << dxf(entities);
   };
   refused("0 ARC 8 CUT", "line 16: lekalo writes no ARC");
-  refused("0 LWPOLYLINE 8 CUT 90 2 70 0 10 0 20 0 10 4 20 0", "a polyline that is not closed");
-  refused("0 LWPOLYLINE 8 CUT 90 3 70 1 10 0 20 0 10 4 20 0", "a polyline that is not closed");
-  refused("0 LWPOLYLINE 8 CUT 90 1 70 1 10 0 20 0", "a polyline that is not closed");
-  refused("0 LWPOLYLINE 8 CUT 70 1 10 0 20 0 10 4 20 0", "a polyline that is not closed");
+  refused("0 LWPOLYLINE 8 CUT 90 2 70 8 10 0 20 0 10 4 20 0", "a polyline of another kind");
+  refused("0 LINE 8 CUT 420 -1 10 1 20 2 11 3 21 5", "a colour that is none");
+  refused("0 TEXT 8 T 10 1 20 2 1 x", "a text that lekalo does not write so");
+  refused("0 TEXT 8 T 10 1 20 2 40 3 1 x 71 4", "a text that lekalo does not write so");
+  refused("0 TEXT 8 T 10 1 20 2 40 3 1 x 72 1 11 2 21 2", "a text that lekalo does not write so");
+  refused("0 LWPOLYLINE 8 CUT 90 3 70 1 10 0 20 0 10 4 20 0", "a polyline that is not of the vertices");
+  refused("0 LWPOLYLINE 8 CUT 90 1 70 1 10 0 20 0", "a polyline that is not of the vertices");
+  refused("0 LWPOLYLINE 8 CUT 70 1 10 0 20 0 10 4 20 0", "a polyline that is not of the vertices");
   refused("0 LWPOLYLINE 8 CUT 90 2 70 1 10 0 20 x", "x is no number");
   refused("0 LWPOLYLINE 8 CUT 90 2 70 1 20 0", "lekalo writes no group 20 there");
   refused("0 LWPOLYLINE 8 CUT 90 2 70 1 42 0", "lekalo writes no group 42 there");
@@ -160,7 +174,12 @@ TEST(VerifyDrawnSvg, PathsCirclesAndLinesAreReadWithYUp) {
   EXPECT_EQ(path("M0 0A.25 .25 0 0 0 .5 0Z"), "CUT: A 0.25,0 0.25 + 0,0 0.5,0 L 0.5,0 0,0\n");
   EXPECT_EQ(svg(R"(<circle cx="1" cy="-2" r="5" data-lekalo-arcs="1"/>)"), "CUT: A 1,2 5 + 6,2 6,2\n");
   EXPECT_EQ(svg(R"(<line x1="1" y1="-2" x2="3" y2="-5"/>)"), "CUT!: L 1,2 3,5\n");
-  EXPECT_EQ(svg("<text x=\"1\">any words</text>"), "");
+  EXPECT_EQ(
+      svg("</g><g inkscape:groupmode=\"layer\" inkscape:label=\"LABEL\"><text x=\"1\">any words</text>"), "");
+  EXPECT_EQ(path("M0 0L4 0L4,-3"), "CUT!: L 0,0 4,0 L 4,0 4,3\n");
+  EXPECT_EQ(svg("<text transform=\"matrix(0 -2 1 0 3 -4)\" font-size=\"10\" text-anchor=\"end\" "
+                "fill=\"#0000ff\">a&lt;&amp;b</text>"),
+            "CUT#0000ff 'a<&b' right 3,4 0,14.4 -7.2,0\n");
 }
 
 TEST(VerifyDrawnSvg, PathsOfOtherWordsAreRefused) {

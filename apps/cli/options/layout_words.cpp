@@ -24,6 +24,8 @@ void add_drawings_reading(Form& form, LayoutWords& w) {
   add("--strict", w.strict, "Refuse a drawing of which anything would be mended or set aside");
   add("--layers", w.layers, "NAME", "Layers of a drawing that hold parts [all that are shown]").delimiter =
       ',';
+  add("--layer-rules", w.layer_rules, "FILE",
+      "What the layers of drawings are: cut, mark, engrave, bend or ignore [outlines, and marks on them]");
 }
 
 void add_layout_outputs(Form& form, LayoutWords& w) {
@@ -33,7 +35,7 @@ void add_layout_outputs(Form& form, LayoutWords& w) {
 }
 
 Result<LayoutSource> to_layout_source(const LayoutWords& w) {
-  LayoutSource source{w.path, w.instance, {}};
+  LayoutSource source{w.path, w.instance, {}, w.layer_rules};
   source.parts.drawing.take = w.layers;
   WordReader reader;
   if (!w.units.empty()) reader.choice("--units", w.units, kUnits, source.parts.unit.emplace());

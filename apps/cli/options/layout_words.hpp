@@ -7,7 +7,7 @@ namespace lekalo::cli {
 
 /// The options that say how a layout is read, and where it is drawn and told; as typed.
 struct LayoutWords {
-  std::string path, instance, units, chords, join, repair, picture;
+  std::string path, instance, units, chords, join, repair, layer_rules, picture;
   std::vector<std::string> layers;
   bool strict = false, json = false;
 };

@@ -70,6 +70,7 @@ struct LayoutSource {
   std::string path;
   std::string instance;  ///< of placements: the file of the items; empty: where they say
   io::PartOptions parts;
+  std::string layer_rules;  ///< the file of `parts.layer_rules`, which are not read yet; may be empty
 };
 
 /// Files of parts as they were typed: a file, a folder or a pattern, and how many of each outline are wanted.
@@ -86,6 +87,7 @@ struct OrderSource {
   std::string stock;  ///< a stock file, whose free pieces are cut; may be empty
   jobs::OrderTerms terms;
   io::PartOptions reading;
+  std::string layer_rules;  ///< the file of `reading.layer_rules`, which are not read yet; may be empty
 };
 
 struct SimulateOptions {

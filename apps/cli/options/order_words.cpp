@@ -65,6 +65,7 @@ Result<std::optional<OrderSource>> to_order(const OrderWords& w, const LayoutWor
   if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint());
   if (!asked) return std::nullopt;
   order.reading = source->parts;
+  order.layer_rules = source->layer_rules;
   return order;
 }
 

@@ -45,6 +45,8 @@ inline constexpr double kShortestSide = 1e-3;
 inline constexpr double kMostDegrees = 3600;
 /// A cosine or a sine; whether the two are a rotation is another question.
 inline constexpr double kLargestSine = 1.5;
+/// Heights of texts on parts, mm, and how many times wider than the font their letters are.
+inline constexpr double kLowestText = 0.01, kHighestText = 1e4, kNarrowestText = 0.01, kWidestText = 100;
 /// The distance of chords from curves, mm.
 inline constexpr double kLeastChordTolerance = 0x1p-16, kMostChordTolerance = 100;
 /// Counts of stocks and parts, and the number of a copy, which begins with 0.

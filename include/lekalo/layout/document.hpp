@@ -49,13 +49,42 @@ struct PartArea {
   friend bool operator==(const PartArea&, const PartArea&) = default;
 };
 
+/// A role says what is done with a line or a text on a part. Machines cut along `mark` and `engrave` where
+/// they have words for it, before they cut out the part; the others are shown only. docs/design/marks.md.
+enum class MarkRole : std::uint8_t {
+  mark,     ///< nobody said more about it
+  engrave,  ///< said to be engraved
+  bend,     ///< folded there, never cut
+  cut       ///< said to be cut through; as it bounds no area, no contour of the part
+};
+
 /// A line on a part that bounds no area: a hinge, a bend, an engraving, a cut within the part. It takes no
 /// room and no rule asks for it; it moves with the part.
 struct PartMark {
   std::string layer;  ///< of the drawing; may be empty
   /// In the part's frame, as drawn, made by make_chain; closed where the last ends where the first begins.
   geom::Contour edges;
+  std::string colour{};  ///< as the drawing shows it, "#rrggbb"; empty where it does not say
+  MarkRole role = MarkRole::mark;
   friend bool operator==(const PartMark&, const PartMark&) = default;
+};
+
+/// An anchor is the point of a line of letters that stands at the place of its text.
+enum class TextAnchor : std::uint8_t { left, middle, right };
+
+/// A text on a part, one line of it. It takes no room and moves with the part like a drawn line: turned with
+/// it, and written backwards where the part lies mirrored.
+struct PartText {
+  std::string text;         ///< one line of UTF-8, not empty
+  geom::Point at;           ///< on the baseline, in the part's frame, mm
+  double height = 1;        ///< of capitals, mm, > 0
+  double degrees = 0;       ///< of the baseline, counter-clockwise
+  double width_factor = 1;  ///< letters are as many times wider than the font has them, > 0
+  bool mirrored = false;    ///< written backwards, to the left of `at` (before it is turned)
+  TextAnchor anchor = TextAnchor::left;
+  std::string layer{}, colour{};  ///< as of a mark
+  MarkRole role = MarkRole::mark;
+  friend bool operator==(const PartText&, const PartText&) = default;
 };
 
 /// A direction in the material or the part: grain, stretch. After half a turn it is the same one.
@@ -90,6 +119,7 @@ struct Part {
   int quality = kAnyQuality;
   std::vector<PartArea> areas;
   std::vector<PartMark> marks;
+  std::vector<PartText> texts{};
   /// The allowed angles of the part as placed, after mirroring; an empty list allows any.
   std::vector<AngleRange> rotations;
   bool may_mirror = false;

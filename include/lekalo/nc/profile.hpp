@@ -10,6 +10,7 @@
 #include "lekalo/base/units.hpp"
 #include "lekalo/geom/region.hpp"
 #include "lekalo/nc/dialect.hpp"
+#include "lekalo/nc/profile_marks.hpp"
 
 namespace lekalo::nc {
 
@@ -21,6 +22,7 @@ struct ProfilePart {
   /// The id of the placement, for messages.
   std::uint64_t id = 0;
   geom::Region region;  ///< made by make_region
+  std::vector<ProfileMark> marks{};
 };
 
 enum class Process {
@@ -66,6 +68,8 @@ struct ProfileOptions {
   double plunge_mm_per_min = 0;
   /// In ascending order of their diameters; the first that a hole fits is how it is cut.
   std::vector<HoleCut> holes;
+  /// Nothing: no mark is engraved.
+  std::optional<Engraving> engraving{};
 };
 
 /// The lines of a program that cut one contour, its travel and its remark among them.
@@ -86,6 +90,10 @@ struct ProfileProgram {
   /// How many holes were cut by each of ProfileOptions::holes.
   std::vector<std::size_t> cuts_by_hole;
   double cut_mm = 0, travel_mm = 0;
+  /// Marks are engraved before the first cut; their ways to each other are in travel_mm.
+  std::size_t marks = 0;
+  double engraved_mm = 0;
+  std::vector<MarkLeftOut> marks_left_out;
   /// The distance from the kerf of the corner of a contour that is farthest from it, in the placement
   /// `left_over_of`. Material stays there: little in corners that point inwards, which the kerf rounds, and
   /// all of a slot that is narrower than the kerf.

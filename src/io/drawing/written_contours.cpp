@@ -79,6 +79,20 @@ double largest_number(const geom::Contour& contour) {
 
 }  // namespace
 
+namespace {
+
+/// Fails where a chain is beyond what can be written.
+Result<void> check_numbers(const geom::Contour& contour) {
+  const double largest = largest_number(contour);
+  if (largest <= kLargestWritten) return {};
+  return failure(ErrorCode::usage,
+                 fmt::format("a coordinate, centre or radius of {:.6g} mm cannot be written: drawings go up "
+                             "to {:g} mm; an arc that flat is better a line",
+                             largest, kLargestWritten));
+}
+
+}  // namespace
+
 Result<WrittenDrawing> written_drawing(const std::vector<LayeredRegion>& regions, const DrawingExtras& extras,
                                        bool (*same_name)(const std::string&, const std::string&)) {
   WrittenDrawing made;
@@ -99,21 +113,19 @@ Result<WrittenDrawing> written_drawing(const std::vector<LayeredRegion>& regions
   for (const LayeredRegion& one : regions) {
     std::vector<const geom::Contour*> contours{&one.region.outer};
     for (const geom::Contour& hole : one.region.holes) contours.push_back(&hole);
-    for (const geom::Contour* contour : contours) {
-      const double largest = largest_number(*contour);
-      if (largest <= kLargestWritten) continue;
-      return failure(
-          ErrorCode::usage,
-          fmt::format("a coordinate, centre or radius of {:.6g} mm cannot be written: drawings go up "
-                      "to {:g} mm; an arc that flat is better a line",
-                      largest, kLargestWritten));
-    }
+    for (const geom::Contour* contour : contours) LEKALO_CHECK(check_numbers(*contour));
     const std::size_t holes = one.region.holes.size(), named = one.hole_layers.size();
     if (named != 0 && named != holes)
       return failure(ErrorCode::usage, fmt::format("{} layers are given for {} holes", named, holes));
     add(one.region.outer, one.layer);
     for (std::size_t h = 0; h < holes; ++h)
       add(one.region.holes[h], named == 0 ? one.layer : one.hole_layers[h]);
+  }
+  for (const DrawnChain& chain : extras.chains) {
+    LEKALO_CHECK(check_numbers(chain.edges));
+    add(chain.edges, chain.layer.name);
+    made.contours.back().is_open = !(chain.edges.back().to == chain.edges.front().from);
+    made.contours.back().colour = chain.layer.colour;
   }
   const auto extend = [&](Point p) {
     made.box = {{std::min(made.box.low.x, p.x), std::min(made.box.low.y, p.y)},
@@ -129,6 +141,13 @@ Result<WrittenDrawing> written_drawing(const std::vector<LayeredRegion>& regions
     const Point half = text.height * Point{0.5 * text_width(clean) / 0.72, 1};
     extend(text.middle - half), extend(text.middle + half);
     made.texts.push_back({std::move(clean), text.middle, text.height, layer(text.layer)});
+  }
+  for (const ReadText& text : extras.set_texts) {
+    // It is turned to any side, so that its box is a circle's.
+    std::string clean = clean_text(text.text);
+    const double reach = text.height * (1 + text.width_factor * text_width(clean) / 0.72);
+    extend(text.at - Point{reach, reach}), extend(text.at + Point{reach, reach});
+    made.set_texts.push_back({&text, std::move(clean), layer(text.layer.name)});
   }
   for (const std::string& name : made.layers) {
     LayerColour colour{name, 7, 0};

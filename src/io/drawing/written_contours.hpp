@@ -15,6 +15,8 @@ namespace lekalo::io {
 struct WrittenContour {
   const geom::Contour* edges = nullptr;
   std::size_t layer = 0;  ///< into WrittenDrawing::layers
+  bool is_open = false;   ///< it ends elsewhere than it begins
+  std::string colour{};   ///< "#0000ff"; empty: that of the layer
 };
 struct WrittenLine {
   geom::Point from, to;
@@ -26,10 +28,16 @@ struct WrittenText {
   double height = 1;
   std::size_t layer = 0;
 };
+struct WrittenSetText {
+  const ReadText* text = nullptr;
+  std::string clean;  ///< its letters as clean UTF-8
+  std::size_t layer = 0;
+};
 struct WrittenDrawing {
   std::vector<WrittenContour> contours;
   std::vector<WrittenLine> lines;
   std::vector<WrittenText> texts;
+  std::vector<WrittenSetText> set_texts;
   std::vector<std::string> layers;   ///< in the order of their first contours, lines, texts
   std::vector<LayerColour> colours;  ///< by layer
   geom::Box box;

@@ -11,6 +11,7 @@
 #include "lekalo/base/stop.hpp"
 #include "lekalo/io/text/excerpt.hpp"
 #include "text.hpp"
+#include "texts.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -78,6 +79,7 @@ class Expansion {
     out_.unread = std::move(model.unread);
     out_.curves.reserve(total);
     const std::vector<DrawnCurve> own = std::exchange(model.curves, {});
+    out_.texts = std::move(model.texts);
     LEKALO_CHECK(place(own, model.insertions, nullptr, kNoPen, kNotFrozen));
     return std::move(out_);
   }
@@ -228,6 +230,13 @@ class Expansion {
     return {};
   }
 
+  void add(DxfText text, const Affine& map, std::uint32_t inherited, std::uint32_t frozen) {
+    text.pen = pens_.inserted(text.pen, inherited);
+    if (frozen != kNotFrozen) text.pen = with_layer(text.pen, frozen);
+    place_text(text, map);
+    out_.texts.push_back(std::move(text));
+  }
+
   Result<void> insert(const Insertion& insertion, const Affine* map, std::uint32_t inherited,
                       std::uint32_t frozen) {
     const DxfBlock& block = *insertion.block;
@@ -240,6 +249,7 @@ class Expansion {
         const Affine local = placement(insertion, block.base, column, row);
         const Affine all = map == nullptr ? local : composed(*map, local);
         LEKALO_CHECK(place(block.curves, block.insertions, &all, pen, hides));
+        for (const DxfText& text : block.texts) add(text, all, pen, hides);
       }
     }
     return {};

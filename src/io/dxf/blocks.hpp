@@ -34,6 +34,20 @@ struct Insertion {
   Millimetres column_step, row_step;
 };
 
+/// A TEXT, MTEXT or ATTRIB as it stands in a block: bytes of the file, to be read when the drawing is whole.
+struct DxfText {
+  std::string text;         ///< undecoded
+  bool has_markup = false;  ///< of an MTEXT, which is perhaps several lines
+  BoundedPoint at;          ///< on the baseline; of an MTEXT the point to which it is attached
+  geom::Point along, up;    ///< of the baseline's direction and upwards, as long as capitals are high
+  double width_factor = 1;
+  double column = 0;        ///< the width in which an MTEXT is broken into lines, in its heights; 0: nowhere
+  double line_spacing = 1;  ///< of an MTEXT, of 5/3 of its height
+  int across = 0, upward = 0;  ///< 0, 1, 2: left, middle, right; above, middle, below the point (MTEXT)
+  std::uint32_t pen = 0;
+  std::size_t line = 0;
+};
+
 struct UnreadTally {
   std::size_t count = 0, line = 0;
 };
@@ -43,6 +57,7 @@ struct DxfBlock {
   BoundedPoint base;
   std::vector<DrawnCurve> curves;
   std::vector<Insertion> insertions;  ///< in file order
+  std::vector<DxfText> texts;         ///< in file order
   std::map<std::string, UnreadTally> unread;
   std::vector<geom::Box> fills;  ///< the boxes of what solid hatches fill, path by path
   std::size_t cost = 0;          ///< of the curves, in curves (curve_cost)

@@ -43,7 +43,8 @@ void DxfEntities::Numbers::set(int code, Millimetres value) {
 }
 
 Result<void> DxfEntities::read(DxfBlock& into) {
-  const std::size_t curves = into.curves.size(), insertions = into.insertions.size(), cost = into.cost;
+  const std::size_t curves = into.curves.size(), insertions = into.insertions.size(), cost = into.cost,
+                    texts = into.texts.size();
   begin_entity();
   const Common entity = common_;
   const Result<void> done = read_kind(into);
@@ -51,6 +52,7 @@ Result<void> DxfEntities::read(DxfBlock& into) {
   // Nothing of a damaged entity counts.
   into.curves.resize(curves);
   into.insertions.resize(insertions);
+  into.texts.resize(texts);
   cost_ -= into.cost - cost;
   into.cost = cost;
   if (has_entity_) entities_.pop_back();
@@ -85,6 +87,8 @@ Result<void> DxfEntities::read_kind(DxfBlock& into) {
       {"POLYLINE", &DxfEntities::read_polyline}, {"SPLINE", &DxfEntities::read_spline},
       {"ELLIPSE", &DxfEntities::read_ellipse},   {"INSERT", &DxfEntities::read_insert},
       {"MLINE", &DxfEntities::read_mline},       {"HATCH", &DxfEntities::read_hatch},
+      {"TEXT", &DxfEntities::read_text},         {"ATTRIB", &DxfEntities::read_text},
+      {"MTEXT", &DxfEntities::read_mtext},
   };
   for (const Kind& kind : kKinds) {
     if (common_.type == kind.type) return (this->*kind.read)(into);

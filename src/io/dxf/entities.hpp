@@ -46,7 +46,7 @@ class DxfCursor {
 };
 
 /// Reads entities into blocks; its functions stand in entities.cpp, conics.cpp, polyline.cpp, spline.cpp,
-/// mline.cpp and hatch.cpp.
+/// mline.cpp, hatch.cpp and texts.cpp.
 class DxfEntities {
  public:
   DxfEntities(DxfCursor& cursor, DxfLayers& layers, DxfPens& pens, DecimalFactor unit)
@@ -122,6 +122,9 @@ class DxfEntities {
   Result<void> read_mline(DxfBlock& into);
   Result<void> read_insert(DxfBlock& into);
   Result<void> read_hatch(DxfBlock& into);
+  Result<void> read_text(DxfBlock& into);
+  Result<void> read_mtext(DxfBlock& into);
+  Result<void> add_text(DxfBlock& into, DxfText text, double degrees, geom::Point direction, double height);
   Result<void> read_other(DxfBlock& into);
 
   void begin_entity();

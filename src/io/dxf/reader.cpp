@@ -16,6 +16,7 @@
 #include "lekalo/io/dxf/dxf.hpp"
 #include "stated_arcs.hpp"
 #include "text.hpp"
+#include "texts.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -250,6 +251,11 @@ class DxfDrawing {
       curve.layer = layer_of_pen[curve.layer];
       curve.entity = entity[curve.entity];
     }
+    for (const DxfText& text : model.texts)
+      for (ReadText& line : lines_of_text(text, header_.code_page)) {
+        line.layer = layer_of(pens_[text.pen]);
+        drawing_.texts.push_back(std::move(line));
+      }
     drawing_.damaged = std::move(entities_->damaged());
     for (const auto& [what, tally] : model.unread) drawing_.unread.push_back({what, tally.count, tally.line});
     if (!unit_is_said_) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -75,12 +76,20 @@ class DxfWriter {
   void section(const char* name) { group(0, "SECTION"), group(2, name); }
   void end_section() { group(0, "ENDSEC"); }
 
-  [[nodiscard]] bool is_ascii() const {
+  /// Says whether AutoCAD 2000 will do.
+  [[nodiscard]] bool is_simple() const {
     const auto plain = [](const std::string& text) {
       return std::all_of(text.begin(), text.end(),
                          [](char c) { return static_cast<unsigned char>(c) < 0x80; });
     };
+    // Colours of three bytes are younger than AutoCAD 2000, too.
+    const auto has_colour = [](const auto& one) { return !one.colour.empty(); };
+    if (std::any_of(drawing_.contours.begin(), drawing_.contours.end(), has_colour)) return false;
+    const auto is_plain_text = [&](const WrittenSetText& text) {
+      return plain(text.clean) && text.text->layer.colour.empty();
+    };
     return std::all_of(layers_.begin(), layers_.end(), plain) &&
+           std::all_of(drawing_.set_texts.begin(), drawing_.set_texts.end(), is_plain_text) &&
            std::all_of(drawing_.texts.begin(), drawing_.texts.end(),
                        [&](const WrittenText& text) { return plain(text.text); });
   }
@@ -88,7 +97,7 @@ class DxfWriter {
   void write_header() {
     section("HEADER");
     const auto variable = [this](const char* name) { group(9, name); };
-    variable("$ACADVER"), group(1, is_ascii() ? "AC1015" : "AC1021");
+    variable("$ACADVER"), group(1, is_simple() ? "AC1015" : "AC1021");
     variable("$DWGCODEPAGE"), group(3, "ANSI_1252");
     variable("$INSBASE"), point_in_space(10, {});
     variable("$EXTMIN"), point_in_space(10, drawing_.box.low);
@@ -209,19 +218,40 @@ class DxfWriter {
       group(72, 1), point_in_space(11, text.middle);
       group(100, "AcDbText"), group(73, 2);
     }
+    for (const WrittenSetText& text : drawing_.set_texts) write(text);
     end_section();
   }
 
-  void begin_entity(const char* type, std::size_t layer, const char* kind) {
+  /// \param colour  "#0000ff"; empty: that of the layer
+  void begin_entity(const char* type, std::size_t layer, const char* kind, const std::string& colour = "") {
     entity_ = handle();
     group(0, type), group(5, entity_), group(330, spaces_[0]), group(100, "AcDbEntity");
-    group(8, layers_[layer + layers_.size() - drawing_.layers.size()]), group(100, kind);
+    group(8, layers_[layer + layers_.size() - drawing_.layers.size()]);
+    if (!colour.empty()) {
+      int rgb = 0;
+      std::from_chars(colour.data() + 1, colour.data() + colour.size(), rgb, 16);
+      group(420, fmt::format("{:9}", rgb));
+    }
+    group(100, kind);
+  }
+
+  void write(const WrittenSetText& set) {
+    const ReadText& text = *set.text;
+    begin_entity("TEXT", set.layer, "AcDbText", text.layer.colour);
+    point_in_space(10, text.at), group(40, text.height), group(1, set.clean);
+    if (text.degrees != 0) group(50, text.degrees);
+    if (text.width_factor != 1) group(41, text.width_factor);
+    constexpr int kBackwards = 2;
+    if (text.mirrored) group(71, kBackwards);
+    if (text.anchor != ReadText::Anchor::left)
+      group(72, text.anchor == ReadText::Anchor::middle ? 1 : 2), point_in_space(11, text.at);
+    group(100, "AcDbText");
   }
 
   void write(const WrittenContour& contour) {
     const Edge& first = contour.edges->front();
     if (first.kind != EdgeKind::line && first.from == first.to) {
-      begin_entity("CIRCLE", contour.layer, "AcDbCircle");
+      begin_entity("CIRCLE", contour.layer, "AcDbCircle", contour.colour);
       point_in_space(10, first.centre);
       const double radius = radius_of_circle(first);
       group(40, radius);
@@ -247,8 +277,9 @@ class DxfWriter {
       }
       of_edge.push_back(read.size() - before);
     }
-    begin_entity("LWPOLYLINE", contour.layer, "AcDbPolyline");
-    group(90, fmt::format("{}", vertices.size())), group(70, 1), group(43, 0.0);
+    if (contour.is_open) vertices.emplace_back(contour.edges->back().to, 0);
+    begin_entity("LWPOLYLINE", contour.layer, "AcDbPolyline", contour.colour);
+    group(90, fmt::format("{}", vertices.size())), group(70, contour.is_open ? 0 : 1), group(43, 0.0);
     for (const auto& [at, bulge] : vertices) {
       point(10, at);
       if (bulge != 0) group(42, bulge);

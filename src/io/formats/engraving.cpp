@@ -39,7 +39,7 @@ bool holds(const Box& box, Point p) {
 struct Loop {
   const Contour* contour = nullptr;
   std::uint32_t region = 0, curve = 0;
-  bool is_hole = false, filled = false, engraved = false;
+  bool is_hole = false, filled = false, engraved = false, is_cut = false;
   Box box;
   /// The innermost loop around it, -1 for none.
   std::ptrdiff_t around = -1;
@@ -47,14 +47,16 @@ struct Loop {
 
 class Rules {
  public:
-  Rules(const Drawing& drawing, const DrawnRegions& drawn) : drawing_(drawing), drawn_(drawn) {
+  Rules(const Drawing& drawing, const DrawnRegions& drawn, const std::vector<bool>& said_to_be_cut)
+      : drawing_(drawing), drawn_(drawn) {
     std::size_t edge = 0;
     for (std::uint32_t r = 0; r < drawn.regions.size(); ++r) {
       const auto add = [&](const Contour& contour, bool is_hole) {
         const std::uint32_t curve = drawn.curve_of_edge[edge];
         edge += contour.size();
-        const bool filled = drawing.entities[drawing.curves[curve].entity].filled;
-        loops_.push_back({&contour, r, curve, is_hole, filled, false, geom::bounds(contour), -1});
+        const bool is_cut = said_to_be_cut[drawing.curves[curve].layer];
+        const bool filled = !is_cut && drawing.entities[drawing.curves[curve].entity].filled;
+        loops_.push_back({&contour, r, curve, is_hole, filled, false, is_cut, geom::bounds(contour), -1});
       };
       outer_of_.push_back(loops_.size());
       add(drawn.regions[r].outer, false);
@@ -126,7 +128,8 @@ class Rules {
 
   [[nodiscard]] bool may_be_letter(const Loop& loop) const {
     const Point size = loop.box.high - loop.box.low;
-    return loop.is_hole && !loop.engraved && size.x <= kHighestLetter && size.y <= kHighestLetter;
+    return loop.is_hole && !loop.is_cut && !loop.engraved && size.x <= kHighestLetter &&
+           size.y <= kHighestLetter;
   }
 
   [[nodiscard]] static bool are_neighbours(const Loop& a, const Loop& b) {
@@ -223,8 +226,9 @@ class Rules {
 
 }  // namespace
 
-Engraved without_engraving(const Drawing& drawing, const DrawnRegions& drawn) {
-  return Rules(drawing, drawn).run();
+Engraved without_engraving(const Drawing& drawing, const DrawnRegions& drawn,
+                           const std::vector<bool>& said_to_be_cut) {
+  return Rules(drawing, drawn, said_to_be_cut).run();
 }
 
 RegionsAround::RegionsAround(const std::vector<Region>& regions) {

@@ -32,7 +32,9 @@ inline constexpr std::uint32_t kNoRegion = 0xffffffff;
 
 /// Takes the engraving out of the regions of a drawing. Cost: O(n log n), and the cut-outs of a
 /// plate that may be letters times those that are.
-[[nodiscard]] Engraved without_engraving(const Drawing& drawing, const DrawnRegions& drawn);
+/// \param said_to_be_cut  by layer: no closed line there is engraving, whatever it looks like
+[[nodiscard]] Engraved without_engraving(const Drawing& drawing, const DrawnRegions& drawn,
+                                         const std::vector<bool>& said_to_be_cut);
 
 /// Numbers the innermost region within whose outer contour a point lies, kNoRegion where there is none.
 class RegionsAround {

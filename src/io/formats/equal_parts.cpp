@@ -43,13 +43,23 @@ bool same_marks(const Part& a, const Part& b, GridPoint shift) {
   };
   return std::equal(a.marks.begin(), a.marks.end(), b.marks.begin(), b.marks.end(),
                     [&](const layout::PartMark& m, const layout::PartMark& n) {
-                      return m.layer == n.layer &&
+                      return m.layer == n.layer && m.colour == n.colour && m.role == n.role &&
                              std::equal(m.edges.begin(), m.edges.end(), n.edges.begin(), n.edges.end(),
                                         [&](const geom::Edge& e, const geom::Edge& f) {
                                           const bool line = e.kind == geom::EdgeKind::line;
                                           return e.kind == f.kind && near(e.from, f.from) &&
                                                  near(e.to, f.to) && (line || near(e.centre, f.centre));
                                         });
+                    });
+}
+
+bool same_texts(const Part& a, const Part& b, GridPoint shift) {
+  const Point moved = geom::mm_from_grid(shift);
+  return std::equal(a.texts.begin(), a.texts.end(), b.texts.begin(), b.texts.end(),
+                    [&](const layout::PartText& t, layout::PartText u) {
+                      const Point apart = u.at + moved - t.at;
+                      u.at = t.at;
+                      return std::abs(apart.x) <= kSameOutline && std::abs(apart.y) <= kSameOutline && t == u;
                     });
 }
 
@@ -64,7 +74,7 @@ std::optional<double> same_part(const Part& a, const Part& b, GridPoint shift) {
     const GridPoint apart = q.points[offset] + shift - p.points[0];
     if (std::abs(apart.x) > most || std::abs(apart.y) > most) continue;
     const auto found = difference(p, q, shift, offset);
-    if (found && same_marks(a, b, shift)) return geom::mm_from_grid(*found);
+    if (found && same_marks(a, b, shift) && same_texts(a, b, shift)) return geom::mm_from_grid(*found);
   }
   return std::nullopt;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lekalo/base/counted.hpp"
 #include "lekalo/base/limits.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/predicates.hpp"
@@ -234,6 +235,9 @@ Result<ReadOutline> OutlineFile::read_drawing() const {
   for (const std::uint32_t curve : drawn.curve_of_edge)
     read.outline.labels.push_back(drawing.layers[drawing.curves[curve].layer].name);
   read.notices = std::move(drawn.notices);
+  if (!drawing.texts.empty())
+    read.notices.push_back(
+        fmt::format("{}: {} passed over", name_, counted(drawing.texts.size(), "text is", "texts are")));
   std::vector<std::string> aside;
   for (const SetAside& one : drawn.set_aside) aside.push_back(one.sentence);
   tell_set_aside(aside, read.notices);

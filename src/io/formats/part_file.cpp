@@ -11,6 +11,8 @@
 
 #include "engraving.hpp"
 #include "equal_parts.hpp"
+#include "inner_lines.hpp"
+#include "io/drawing/near_edges.hpp"
 #include "io/layout/layout_outline.hpp"
 #include "io/text/decimal.hpp"
 #include "io/text/json_tree.hpp"
@@ -20,6 +22,7 @@
 #include "lekalo/io/shape/region_json.hpp"
 #include "lekalo/io/shape/shape_tree.hpp"
 #include "lekalo/io/text/words.hpp"
+#include "lekalo/layout/part_text.hpp"
 #include "part_outline.hpp"
 
 namespace lekalo::io {
@@ -30,6 +33,7 @@ struct DrawnPart {
   geom::Region region;
   std::string id, name;
   std::vector<layout::PartMark> marks{};
+  std::vector<layout::PartText> texts{};
 };
 
 struct DrawnParts {
@@ -90,6 +94,11 @@ std::string name_of(const Drawing& drawing, const DrawingFormat& format, const D
   return layer + ", " + own;
 }
 
+/// A point within an edge.
+geom::Point middle_of(const geom::Edge& edge) {
+  return edge.kind == geom::EdgeKind::line ? 0.5 * (edge.from + edge.to) : bisected(edge).middle;
+}
+
 std::string first_point_of(const geom::Contour& line) {
   return fmt::format("({:.6g}, {:.6g}) mm", line.front().from.x, line.front().from.y);
 }
@@ -105,9 +114,45 @@ std::vector<geom::Contour> without_gaps(geom::Contour line) {
   return pieces;
 }
 
-/// Makes parts of regions, with the lines that lie on them; lines that lie on none are set aside.
-void take_parts(const Drawing& drawing, const DrawingFormat& format, DrawnRegions drawn, DrawnParts& made) {
-  const Engraved engraved = without_engraving(drawing, drawn);
+/// The lines and texts of a drawing that are no outlines.
+struct Inside {
+  const InnerLines& rules;
+  std::vector<RuledLine> lines;
+  std::vector<layout::PartText> texts;
+};
+
+/// Puts each text on the part in which its middle lies, or where that is none its place.
+void put_texts(const Drawing& drawing, const RegionsAround& around, std::vector<layout::PartText> texts,
+               DrawnParts& made) {
+  std::size_t on_parts = 0;
+  std::vector<const layout::PartText*> lost;
+  for (layout::PartText& text : texts) {
+    std::uint32_t part = around.innermost(layout::text_middle(text));
+    if (part == kNoRegion) part = around.innermost(text.at);
+    if (part == kNoRegion) {
+      lost.push_back(&text);
+      continue;
+    }
+    ++on_parts;
+    text.layer = plain(text.layer);
+    made.parts[part].texts.push_back(std::move(text));
+  }
+  if (on_parts > 0)
+    made.notices.push_back(fmt::format("{}: {} kept on {} parts", drawing.name,
+                                       on_parts == 1 ? "1 text is" : fmt::format("{} texts are", on_parts),
+                                       on_parts == 1 ? "its" : "their"));
+  if (!lost.empty())
+    made.notices.push_back(
+        fmt::format("{}: {} on no part and {} left out, the first is {} at ({:.6g}, {:.6g}) mm", drawing.name,
+                    lost.size() == 1 ? "1 text lies" : fmt::format("{} texts lie", lost.size()),
+                    lost.size() == 1 ? "is" : "are", excerpt(lost.front()->text), lost.front()->at.x,
+                    lost.front()->at.y));
+}
+
+/// Makes parts of regions, with the lines and texts that lie on them; lines that lie on none are set aside.
+void take_parts(const Drawing& drawing, const DrawingFormat& format, DrawnRegions drawn, Inside inside,
+                DrawnParts& made) {
+  const Engraved engraved = without_engraving(drawing, drawn, inside.rules.said_to_be_cut(drawing));
   std::size_t edge = 0;
   for (const geom::Region& region : engraved.regions) {
     const DrawnCurve& curve = drawing.curves[engraved.curve_of_edge[edge]];
@@ -115,26 +160,35 @@ void take_parts(const Drawing& drawing, const DrawingFormat& format, DrawnRegion
     made.parts.push_back({region, made.exported ? "CUT" : "", name_of(drawing, format, curve)});
   }
   std::size_t on_parts = 0;
-  const auto put = [&](std::uint32_t part, std::uint32_t curve, geom::Contour line) {
-    const std::string& layer = drawing.layers[drawing.curves[curve].layer].name;
+  const auto put = [&](std::uint32_t part, std::uint32_t number, layout::MarkRole role, geom::Contour line) {
+    const Layer& layer = drawing.layers[number];
     if (part != kNoRegion) {
       ++on_parts;
       for (geom::Contour& piece : without_gaps(std::move(line)))
-        made.parts[part].marks.push_back({plain(layer), std::move(piece)});
+        made.parts[part].marks.push_back({plain(layer.name), std::move(piece), colour_of(layer), role});
       return;
     }
     made.set_aside.push_back(fmt::format("{}: the line of {} {} on layer {} from {} on lies on no part",
                                          drawing.name, line.size(), line.size() == 1 ? "edge" : "edges",
-                                         excerpt(layer), first_point_of(line)));
+                                         excerpt(layer.name), first_point_of(line)));
   };
+  const auto layer_of = [&](std::uint32_t curve) { return drawing.curves[curve].layer; };
   const RegionsAround around(engraved.regions);
   for (const Engraved::Line& line : engraved.lines)
-    put(around.innermost(line.contour.front().from), line.curve, line.contour);
+    put(around.innermost(line.contour.front().from), layer_of(line.curve), layout::MarkRole::mark,
+        line.contour);
   for (Mark& mark : drawn.marks) {
     std::uint32_t part = mark.region ? engraved.new_number[*mark.region] : kNoRegion;
     if (part == kNoRegion) part = around.innermost(mark.edges.front().from);
-    put(part, mark.curve_of_edge.front(), std::move(mark.edges));
+    const std::uint32_t layer = layer_of(mark.curve_of_edge.front());
+    put(part, layer, inside.rules.role_of_open_line(drawing.layers[layer]), std::move(mark.edges));
   }
+  for (RuledLine& line : inside.lines) {
+    std::uint32_t part = around.innermost(middle_of(line.edges.front()));
+    if (part == kNoRegion) part = around.innermost(line.edges.front().from);
+    put(part, line.layer, line.role, std::move(line.edges));
+  }
+  put_texts(drawing, around, std::move(inside.texts), made);
   for (const SetAside& one : drawn.set_aside) made.set_aside.push_back(drawing.name + ": " + one.sentence);
   for (const std::string& sentence : drawing.damaged) made.set_aside.push_back(sentence);
   if (!engraved.lines.empty())
@@ -148,30 +202,34 @@ void take_parts(const Drawing& drawing, const DrawingFormat& format, DrawnRegion
 
 Result<DrawnParts> of_drawing(const DrawingFormat& format, std::string_view bytes, const std::string& name,
                               const PartOptions& how) {
-  const Result<Drawing> drawing = format.parse(bytes, name, how.unit);
-  LEKALO_CHECK(drawing);
+  LEKALO_TRY(Drawing drawing, format.parse(bytes, name, how.unit));
   DrawingOptions options = how.drawing;
-  if (options.strict && !drawing->damaged.empty())
-    return failure(ErrorCode::bad_input, drawing->damaged.front());
+  if (options.strict && !drawing.damaged.empty())
+    return failure(ErrorCode::bad_input, drawing.damaged.front());
   DrawnParts made;
-  if (options.take.empty() && options.leave.empty() && is_export(*drawing)) {
+  made.exported = options.take.empty() && options.leave.empty() && is_export(drawing);
+  if (made.exported) {
     made.notices.push_back(
         fmt::format("{}: the layers are those of lekalo's exports, so its parts are on CUT and its sheets on "
                     "SHEET",
-                    drawing->name));
-    if (has_layer(*drawing, "SHEET")) {
+                    drawing.name));
+    if (has_layer(drawing, "SHEET")) {
       options.take = {"SHEET"};
-      LEKALO_TRY(DrawnRegions sheets, make_regions(*drawing, options));
+      LEKALO_TRY(DrawnRegions sheets, make_regions(drawing, options));
       made.sheets = std::move(sheets.regions);
       made.tolerance = sheets.tolerance;
     }
     options.take = {"CUT"};
-    made.exported = true;
   }
-  LEKALO_TRY(DrawnRegions drawn, make_regions(*drawing, options));
+  InnerLines rules(how.layer_rules, options, made.exported);
+  LEKALO_TRY(std::vector<RuledLine> lines, rules.take_lines(drawing));
+  std::vector<layout::PartText> texts = rules.take_texts(drawing);
+  LEKALO_TRY(DrawnRegions drawn, make_regions(drawing, options));
   made.tolerance = std::max(made.tolerance, drawn.tolerance);
   made.notices.insert(made.notices.end(), drawn.notices.begin(), drawn.notices.end());
-  take_parts(*drawing, format, std::move(drawn), made);
+  if (std::string ignored = rules.ignored(drawing); !ignored.empty())
+    made.notices.push_back(std::move(ignored));
+  take_parts(drawing, format, std::move(drawn), {rules, std::move(lines), std::move(texts)}, made);
   return made;
 }
 
@@ -304,6 +362,7 @@ Result<PartsFile> read_parts(std::string_view bytes, const std::string& name, co
     part.name = plain(one.name);
     part.demand = 1;
     part.marks = std::move(one.marks);
+    part.texts = std::move(one.texts);
     if (i % kAtATime == 0) find_outlines(i);
     Result<PartOutline> outline = *std::move(found[i % kAtATime]);
     if (!outline && !options.drawing.strict) {

@@ -39,8 +39,12 @@ class ExportWordTaker {
   [[nodiscard]] Result<void> number(const ExportWord& word, double low, double high, double& to) const;
   [[nodiscard]] Result<void> profile_number(const ExportWord& word);
 
+  /// Takes the words for engraving into the request.
+  void complete_engraving(std::vector<std::string>& complaints);
+
   ExportRequest& request_;
   Shown shown_;
+  nc::Engraving engraving_;
   std::vector<std::string> given_;
 };
 

@@ -10,6 +10,7 @@
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/io/layout/layout_export.hpp"
 #include "lekalo/io/text/words.hpp"
+#include "lekalo/layout/part_text.hpp"
 
 namespace lekalo::io::detail {
 namespace {
@@ -42,8 +43,7 @@ class HpglWriter {
       for (const PlacedShape& part : sheet.parts)
         for (const geom::Region& area : part.areas) region(area);
     if (pen("MARK"))
-      for (const PlacedShape& part : sheet.parts)
-        if (!part.grain.empty()) line({part.grain.front(), part.grain.back()});
+      for (const PlacedShape& part : sheet.parts) inside(part);
     if (pen("LABEL"))
       for (const PlacedShape& part : sheet.parts) label(part);
     if (pen("CUT"))
@@ -72,6 +72,14 @@ class HpglWriter {
       return {};
     }
     return {std::llround(scaled.x), std::llround(scaled.y)};
+  }
+
+  /// Draws what lies inside a part; texts as strokes.
+  void inside(const PlacedShape& part) {
+    if (!part.grain.empty()) line({part.grain.front(), part.grain.back()});
+    for (const PlacedMark& mark : part.marks) line(points_of(mark.edges));
+    for (const layout::PartText& text : part.texts)
+      for (const geom::Ring& stroke : layout::text_strokes(text)) line(stroke);
   }
 
   /// Holes before the outline.

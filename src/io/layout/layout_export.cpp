@@ -10,6 +10,7 @@
 #include "lekalo/io/drawing/written_drawing.hpp"
 #include "lekalo/io/dxf/dxf.hpp"
 #include "lekalo/layout/check.hpp"
+#include "placed_inside.hpp"
 #include "sheet_shapes.hpp"
 
 namespace lekalo::io {
@@ -47,6 +48,8 @@ class Drawer {
       for (const PlacedShape& part : sheet.parts) add(part.areas, "AREA");
     for (const SheetShapes& sheet : sheets)
       for (const PlacedShape& part : sheet.parts) add({part.region}, "CUT");
+    for (const SheetShapes& sheet : sheets)
+      for (const PlacedShape& part : sheet.parts) add_inside(part);
     for (const SheetShapes& sheet : sheets) {
       for (const PlacedShape& part : sheet.parts) add_texts(part);
       if (sheets.size() > 1) add_title(sheet);
@@ -70,6 +73,30 @@ class Drawer {
   void scale(geom::Contour& contour) const {
     for (geom::Edge& edge : contour)
       edge.from = scaled(edge.from), edge.to = scaled(edge.to), edge.centre = scaled(edge.centre);
+  }
+
+  /// Adds what lies inside a part, on the layers and in the colours that it had; MARK asks for all of it.
+  void add_inside(const PlacedShape& part) {
+    if (!wanted(request_, "MARK")) return;
+    for (const detail::PlacedMark& mark : part.marks) {
+      drawn_.extras.chains.push_back({mark.edges, layer_like(mark.mark->layer, mark.mark->colour)});
+      if (scale_ != 1) scale(drawn_.extras.chains.back().edges);
+    }
+    for (const layout::PartText& text : part.texts) {
+      ReadText set;
+      set.text = text.text;
+      set.at = scaled(text.at), set.height = scale_ * text.height;
+      set.degrees = text.degrees, set.width_factor = text.width_factor, set.mirrored = text.mirrored;
+      set.anchor = static_cast<ReadText::Anchor>(text.anchor);
+      set.layer = layer_like(text.layer, text.colour);
+      drawn_.extras.set_texts.push_back(std::move(set));
+    }
+  }
+  static Layer layer_like(const std::string& name, const std::string& colour) {
+    Layer layer;
+    layer.name = detail::layer_of_inside(name);
+    layer.colour = colour;
+    return layer;
   }
 
   void add_texts(const PlacedShape& part) {
@@ -96,7 +123,8 @@ class Drawer {
 Result<Exported> drawing(const std::vector<SheetShapes>& sheets, const ExportRequest& request) {
   const bool dxf = request.form == ExportForm::dxf;
   const Drawn drawn = Drawer(request, dxf ? millimetres_per(request.unit) : 1).draw(sheets);
-  if (drawn.regions.empty() && drawn.extras.lines.empty() && drawn.extras.texts.empty())
+  if (drawn.regions.empty() && drawn.extras.lines.empty() && drawn.extras.texts.empty() &&
+      drawn.extras.chains.empty() && drawn.extras.set_texts.empty())
     return failure(ErrorCode::bad_input, "there is nothing to write on the layers asked for");
   LEKALO_TRY(std::string text, dxf ? dxf_drawing(drawn.regions, drawn.extras, request.unit)
                                    : svg_drawing(drawn.regions, drawn.extras));
@@ -130,9 +158,8 @@ Result<Exported> programmed(const std::vector<SheetShapes>& sheets, const std::s
                             const ExportRequest& request) {
   Exported made;
   for (const SheetShapes& sheet : sheets) {
-    std::vector<nc::ProfilePart> parts;
-    for (const PlacedShape& part : sheet.parts) parts.push_back({part.placement->id, part.region});
-    const auto program = nc::profile_program(parts, name + " " + sheet.name, request.profile);
+    const detail::SheetMarks marks(sheet);
+    const auto program = nc::profile_program(marks.parts(), name + " " + sheet.name, request.profile);
     if (!program)
       return failure(program.error().code, fmt::format("sheet {}: {}", sheet.name, program.error().message));
     const nc::ProfileProgram& p = *program;
@@ -150,6 +177,12 @@ Result<Exported> programmed(const std::vector<SheetShapes>& sheets, const std::s
       said += fmt::format(
           "; corners lie up to {:.3f} mm from the kerf and keep that much material, most in placement {}",
           p.left_over_mm, p.left_over_of);
+    if (p.marks > 0)
+      said += fmt::format("; {} engraved before them, {:.0f} mm",
+                          p.marks == 1 ? "1 line or text is" : fmt::format("{} lines and texts are", p.marks),
+                          p.engraved_mm);
+    if (const std::string left = marks.left_out(p, request.profile.engraving.has_value()); !left.empty())
+      said += "; " + left;
     made.notes.push_back(std::move(said));
     made.files.push_back({sheet.name, p.text, p.lines_of_cuts});
   }

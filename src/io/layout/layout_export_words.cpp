@@ -72,6 +72,7 @@ std::vector<std::string> ExportWordTaker::complete() {
   if (!(p.tolerance_mm <= 0.25 * p.kerf_mm))
     complaints.push_back(fmt::format("{} {:g}: has to be at most a quarter of the kerf of {:g} mm",
                                      shown_("tolerance"), p.tolerance_mm, p.kerf_mm));
+  complete_engraving(complaints);
   return complaints;
 }
 
@@ -160,7 +161,10 @@ Result<void> ExportWordTaker::profile_number(const ExportWord& word) {
                             {"depth", 0.01, 1000, &p.depth_mm},
                             {"pass", 0.01, 1000, &p.pass_mm},
                             {"safe-height", 0.1, 1000, &p.safe_height_mm},
-                            {"plunge", 0.1, 1e6, &p.plunge_mm_per_min}};
+                            {"plunge", 0.1, 1e6, &p.plunge_mm_per_min},
+                            {"engrave-feed", 0.1, 1e6, &engraving_.feed_mm_per_min},
+                            {"engrave-speed", 1, 1e6, &engraving_.speed},
+                            {"engrave-depth", 0.01, 1000, &engraving_.depth_mm}};
   for (const Number& one : numbers)
     if (word.first == one.name) return number(word, one.low, one.high, *one.to);
   return {};
@@ -186,7 +190,10 @@ const std::vector<ExportWordHelp>& export_words() {
       {"depth", "MM", "gcode, router: depth below Z 0"},
       {"pass", "MM", "gcode, router: depth of one pass [all at once]"},
       {"safe-height", "MM", "gcode, router: Z of travels [5]"},
-      {"plunge", "MM/MIN", "gcode, router: speed downwards"}};
+      {"plunge", "MM/MIN", "gcode, router: speed downwards"},
+      {"engrave-feed", "MM/MIN", "gcode: speed along lines and texts on parts [they are not engraved]"},
+      {"engrave-speed", "S", "gcode: the S word of engraving"},
+      {"engrave-depth", "MM", "gcode, router: depth of engraving below Z 0"}};
   return words;
 }
 

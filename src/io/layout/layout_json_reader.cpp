@@ -18,6 +18,7 @@
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
 #include "lekalo/layout/job.hpp"
+#include "mark_words.hpp"
 
 namespace lekalo::io {
 namespace detail {
@@ -235,11 +236,12 @@ class LayoutReader {
 
   layout::Part part_of(JsonValue value) {
     layout::Part part;
-    if (!reader_.expect_object(value,
-                               {"id",       "name",      "material", "thickness",  "customer",
-                                "due",      "label",     "outline",  "quality",    "areas",
-                                "marks",    "rotations", "mirror",   "grain",      "tolerated_severity",
-                                "priority", "demand",    "gap",      "border_gap", "defect_gap"}))
+    if (!reader_.expect_object(value, {"id",        "name",   "material", "thickness",
+                                       "customer",  "due",    "label",    "outline",
+                                       "quality",   "areas",  "marks",    "texts",
+                                       "rotations", "mirror", "grain",    "tolerated_severity",
+                                       "priority",  "demand", "gap",      "border_gap",
+                                       "defect_gap"}))
       return part;
     part.id = id(value, part_ids_, "parts");
     optional(value, "name", [&](JsonValue v) { part.name = reader_.text(v); });
@@ -257,6 +259,7 @@ class LayoutReader {
       part.areas.push_back(std::move(area));
     });
     items(value, "marks", kMostMarkEdges, [&](JsonValue v) { mark(v, part); });
+    items(value, "texts", kMostMarkEdges, [&](JsonValue v) { text(v, part); });
     optional(value, "rotations", [&](JsonValue v) { rotations(v, part); });
     optional(value, "mirror", [&](JsonValue v) { part.may_mirror = reader_.truth(v); });
     optional(value, "grain", [&](JsonValue v) {
@@ -278,14 +281,70 @@ class LayoutReader {
 
   void mark(JsonValue value, layout::Part& part) {
     layout::PartMark mark;
-    if (!reader_.expect_object(value, {"layer", "edges"})) return;
-    optional(value, "layer", [&](JsonValue v) { mark.layer = reader_.text(v); });
+    if (!reader_.expect_object(value, {"layer", "colour", "role", "edges"})) return;
+    look(value, mark);
     const auto edges = reader_.need(value, "edges", "its lines and arcs");
     if (!edges || !reader_.expect_list(*edges, kMostMarkEdges)) return;
     auto chain = read_chain(*edges, fmt::format("{}: {}", reader_.name(), edges->path()));
     if (!chain) return reader_.take(chain.error());
     mark.edges = *std::move(chain);
     part.marks.push_back(std::move(mark));
+  }
+
+  /// Reads the layer, the colour and the role of a mark or a text.
+  template <class Item>
+  void look(JsonValue value, Item& item) {
+    optional(value, "layer", [&](JsonValue v) { item.layer = reader_.text(v); });
+    optional(value, "colour", [&](JsonValue v) {
+      item.colour = reader_.text(v);
+      if (reader_.ok() && !is_colour(item.colour))
+        reader_.refuse(v, fmt::format("{} is no colour; write it as in #0000ff", excerpt(item.colour)));
+    });
+    optional(value, "role", [&](JsonValue v) {
+      const std::string word = reader_.text(v);
+      const auto role = value_among(kMarkRoles, word);
+      if (role)
+        item.role = *role;
+      else if (reader_.ok())
+        reader_.refuse(v, fmt::format("{} is no role; there are mark, engrave, bend and cut", excerpt(word)));
+    });
+  }
+
+  void text(JsonValue value, layout::Part& part) {
+    layout::PartText text;
+    if (!reader_.expect_object(value, {"text", "at", "height", "deg", "width_factor", "mirrored", "anchor",
+                                       "layer", "colour", "role"}))
+      return;
+    look(value, text);
+    const auto words = reader_.need(value, "text", "its letters"),
+               at = reader_.need(value, "at", "where it stands"),
+               height = reader_.need(value, "height", "that of its capitals, mm");
+    if (!words || !at || !height) return;
+    text.text = reader_.text_not_empty(*words);
+    if (!reader_.expect_list(*at, 2)) return;
+    if (at->size() != 2) return reader_.refuse(*at, "a place is two numbers, x and y");
+    double place[2] = {0, 0};
+    std::size_t k = 0;
+    for (const JsonValue number : *at)
+      place[k++] = reader_.number(number, -limits::kLargestCoordinate, limits::kLargestCoordinate);
+    text.at = {place[0], place[1]};
+    text.height = reader_.number(*height, limits::kLowestText, limits::kHighestText);
+    optional(value, "deg", [&](JsonValue v) {
+      text.degrees = reader_.number(v, -limits::kMostDegrees, limits::kMostDegrees);
+    });
+    optional(value, "width_factor", [&](JsonValue v) {
+      text.width_factor = reader_.number(v, limits::kNarrowestText, limits::kWidestText);
+    });
+    optional(value, "mirrored", [&](JsonValue v) { text.mirrored = reader_.truth(v); });
+    optional(value, "anchor", [&](JsonValue v) {
+      const std::string word = reader_.text(v);
+      const auto anchor = value_among(kTextAnchors, word);
+      if (anchor)
+        text.anchor = *anchor;
+      else if (reader_.ok())
+        reader_.refuse(v, fmt::format("{} is no anchor; there are left, middle and right", excerpt(word)));
+    });
+    part.texts.push_back(std::move(text));
   }
 
   void rotations(JsonValue value, layout::Part& part) {

@@ -9,6 +9,7 @@
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
 #include "lekalo/io/text/json_writer.hpp"
+#include "mark_words.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -158,6 +159,8 @@ class ItemWriter {
       list_of_lines(fields.field("areas"), part.areas, 2, [this](const PartArea& a) { area(a); });
     if (!part.marks.empty())
       list_of_lines(fields.field("marks"), part.marks, 2, [this](const layout::PartMark& m) { mark(m); });
+    if (!part.texts.empty())
+      list_of_lines(fields.field("texts"), part.texts, 2, [this](const layout::PartText& t) { text(t); });
     fields.close();
   }
   /// \param write_part  writes what a piece calls its part
@@ -185,9 +188,31 @@ class ItemWriter {
  private:
   void mark(const layout::PartMark& mark) {
     Fields fields(json_);
-    if (!mark.layer.empty()) fields.text("layer", mark.layer);
+    look(fields, mark);
     detail::write_edges(fields.field("edges"), mark.edges);
     fields.close();
+  }
+
+  void text(const layout::PartText& text) {
+    Fields fields(json_);
+    fields.text("text", text.text);
+    fields.field("at").list({text.at.x + 0.0, text.at.y + 0.0});
+    fields.number("height", text.height);
+    fields.number("deg", text.degrees, 0);
+    fields.number("width_factor", text.width_factor, 1);
+    fields.truth("mirrored", text.mirrored);
+    if (text.anchor != TextAnchor::left)
+      fields.text("anchor", detail::word_among(detail::kTextAnchors, text.anchor));
+    look(fields, text);
+    fields.close();
+  }
+
+  /// The layer, the colour and the role of a mark or a text.
+  template <class Item>
+  static void look(Fields& fields, const Item& item) {
+    fields.said("layer", item.layer);
+    fields.said("colour", item.colour);
+    if (item.role != MarkRole::mark) fields.text("role", detail::word_among(detail::kMarkRoles, item.role));
   }
 
   void range(const AngleRange& range) {

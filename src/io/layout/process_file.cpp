@@ -44,7 +44,10 @@ constexpr std::array kProcessKeys{ProcessKey{"process", "process", false},
                                   ProcessKey{"depth_mm", "depth", true},
                                   ProcessKey{"pass_mm", "pass", true},
                                   ProcessKey{"plunge_mm_per_min", "plunge", true},
-                                  ProcessKey{"safe_height_mm", "safe-height", true}};
+                                  ProcessKey{"safe_height_mm", "safe-height", true},
+                                  ProcessKey{"engrave_feed_mm_per_min", "engrave-feed", true},
+                                  ProcessKey{"engrave_speed", "engrave-speed", true},
+                                  ProcessKey{"engrave_depth_mm", "engrave-depth", true}};
 
 std::string process_key_of(const std::string& word) {
   const auto found = std::find_if(kProcessKeys.begin(), kProcessKeys.end(),

@@ -8,8 +8,10 @@
 #include <optional>
 #include <set>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/pose.hpp"
+#include "lekalo/geom/trig.hpp"
 #include "lekalo/io/layout/label_place.hpp"
 #include "lekalo/io/text/words.hpp"
 
@@ -58,6 +60,18 @@ geom::Contour moved(const geom::Contour& contour, const Motion& motion) {
     result.push_back(edge);
   }
   return result;
+}
+
+/// A text that is turned and moved, and where the part is mirrored written the other way round.
+layout::PartText moved(layout::PartText text, const Motion& motion) {
+  const geom::BlankFromPart pose = motion.pose();
+  text.at = pose(text.at);
+  const double turn = geom::direction_angle(pose.cosine, pose.sine) * kDegreesPerRadian;
+  double degrees = std::fmod(turn + (motion.mirrored ? -text.degrees : text.degrees), 360);
+  if (degrees < 0) degrees += 360;
+  text.degrees = degrees;
+  text.mirrored = text.mirrored != motion.mirrored;
+  return text;
 }
 
 geom::Region placed(const layout::Outline& outline, bool with_arcs, const Motion& motion) {
@@ -175,6 +189,8 @@ class SheetMaker {
     shape.region = placed(part.outline, with_arcs_[placement.part], motion);
     for (const layout::PartArea& area : part.areas)
       shape.areas.push_back(placed(area.outline, is_of_curves(area.outline, geom::ChordSide::grow), motion));
+    for (const layout::PartMark& mark : part.marks) shape.marks.push_back({&mark, moved(mark.edges, motion)});
+    for (const layout::PartText& text : part.texts) shape.texts.push_back(moved(text, motion));
     const LabelPlace place = label_place(outline);
     shape.grain = grain_line(part, placement, outline, place);
     shape.label = fmt::format("{} {}", part.name.empty() ? part.id : part.name, placement.id);

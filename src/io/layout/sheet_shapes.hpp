@@ -10,6 +10,12 @@
 
 namespace lekalo::io::detail {
 
+/// A mark of a placed part, as drawn, turned and moved in doubles.
+struct PlacedMark {
+  const layout::PartMark* mark = nullptr;
+  geom::Contour edges;
+};
+
 /// A sheet as it is written for machines and other programs: regions of lines and arcs, mm.
 ///
 /// A part whose drawing has arcs, and whose polygon is what its drawing gives (grid_region_of_curves, so that
@@ -21,7 +27,9 @@ struct PlacedShape {
   const layout::Part* part = nullptr;
   geom::Region region;
   std::vector<geom::Region> areas;
-  std::vector<geom::Point> grain;  ///< two ends of a line in the part along its grain, or none
+  std::vector<PlacedMark> marks;
+  std::vector<layout::PartText> texts;  ///< in the sheet's frame
+  std::vector<geom::Point> grain;       ///< two ends of a line in the part along its grain, or none
   geom::Point label_at;
   double label_height = 0;  ///< 0: there is no room
   std::string label;

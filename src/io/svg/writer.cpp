@@ -7,7 +7,9 @@
 #include "io/drawing/exact_arcs.hpp"
 #include "io/drawing/written_contours.hpp"
 #include "io/text/decimal.hpp"
+#include "lekalo/base/angle.hpp"
 #include "lekalo/geom/edge_distance.hpp"
+#include "lekalo/geom/trig.hpp"
 #include "lekalo/io/svg/svg.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "path.hpp"
@@ -71,7 +73,7 @@ class SvgWriter {
     for (std::size_t i = 0; i < drawing_.contours.size(); ++i) {
       const std::size_t layer = drawing_.contours[i].layer;
       enter(layer);
-      write(*drawing_.contours[i].edges);
+      write(drawing_.contours[i]);
     }
     for (const WrittenLine& line : drawing_.lines) {
       enter(line.layer);
@@ -87,6 +89,7 @@ class SvgWriter {
           text.middle.x, upright(text.middle.y - 0.5 * text.height), text.height / 0.72,
           drawing_.colours[text.layer].rgb, xml_text(text.text));
     }
+    for (const WrittenSetText& text : drawing_.set_texts) write(text);
     if (open_layer_) text_ += "</g>\n";
     return std::move(text_) + "</svg>\n";
   }
@@ -111,17 +114,20 @@ class SvgWriter {
     text_ += fmt::format(form, std::forward<Values>(values)...);
   }
 
-  void write(const geom::Contour& contour) {
+  void write(const WrittenContour& written) {
+    const geom::Contour& contour = *written.edges;
+    const std::string colour = written.colour.empty() ? "" : fmt::format(" stroke=\"{}\"", written.colour);
     const Edge& first = contour.front();
     if (first.kind != EdgeKind::line && first.from == first.to) {
       const double radius = radius_of_circle(first);
-      append("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"", first.centre.x, upright(first.centre.y), radius);
+      append("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"{}", first.centre.x, upright(first.centre.y), radius,
+             colour);
       const Point centre{first.centre.x, upright(first.centre.y)};
       keep_exact_arcs(contour, {std::get<Edge>(circle({centre, 0}, {radius, 0}).shape)}, {1});
       text_ += "/>\n";
       return;
     }
-    text_ += "<path d=\"";
+    text_ += "<path" + colour + " d=\"";
     const std::size_t begin = text_.size();
     append("M{} {}", first.from.x, upright(first.from.y));
     std::vector<std::size_t> of_edge;
@@ -133,15 +139,32 @@ class SvgWriter {
       }
       of_edge.push_back(1);
       // Z draws the last line, unless readers would take it for rounding.
-      const bool last = i + 1 == contour.size();
+      const bool last = i + 1 == contour.size() && !written.is_open;
       if (!last || norm(edge.to - edge.from) <= kShortLine * (norm(edge.from) + norm(edge.to)))
         append("L{} {}", edge.to.x, upright(edge.to.y));
     }
-    text_ += 'Z';
+    if (!written.is_open) text_ += 'Z';
     const std::vector<Edge> read = edges_read_from(std::string_view(text_).substr(begin));
     text_ += '"';
     keep_exact_arcs(contour, read, of_edge);
     text_ += "/>\n";
+  }
+
+  /// The letters run along their baseline by the element's own axes, of which y goes down.
+  void write(const WrittenSetText& set) {
+    enter(set.layer);
+    const ReadText& text = *set.text;
+    const auto [sine, cosine] = geom::sincos(text.degrees * kDegree);
+    const double across = text.mirrored ? -text.width_factor : text.width_factor;
+    constexpr const char* kAnchors[] = {"start", "middle", "end"};
+    const std::string colour = text.layer.colour.empty()
+                                   ? fmt::format("#{:06x}", drawing_.colours[set.layer].rgb)
+                                   : text.layer.colour;
+    append(
+        "<text transform=\"matrix({} {} {} {} {} {})\" font-family=\"sans-serif\" font-size=\"{}\" "
+        "text-anchor=\"{}\" fill=\"{}\" stroke=\"none\">{}</text>\n",
+        across * cosine + 0.0, upright(across * sine), sine, cosine, text.at.x, upright(text.at.y),
+        text.height / 0.72, kAnchors[static_cast<int>(text.anchor)], colour, xml_text(set.clean));
   }
 
   static std::vector<Edge> edges_read_from(std::string_view path) {

@@ -10,6 +10,7 @@
 
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/edge_distance.hpp"
+#include "profile_engraving.hpp"
 #include "profile_leads.hpp"
 #include "profile_order.hpp"
 #include "profile_path.hpp"
@@ -81,6 +82,13 @@ Result<void> check_options(const ProfileOptions& o) {
     if (range.needed) LEKALO_CHECK(check_range(range.what, range.value, range.low, range.high));
   LEKALO_CHECK(check_range("tolerance in mm (less than a quarter of the kerf)", o.tolerance_mm, 1e-4,
                            0.25 * o.kerf_mm));
+  if (o.engraving) {
+    if (o.process == Process::plasma)
+      return failure(ErrorCode::usage, "a torch or jet of water cuts through and engraves nothing");
+    LEKALO_CHECK(check_range("feed of engraving in mm/min", o.engraving->feed_mm_per_min, 0.1, 1e6));
+    LEKALO_CHECK(check_range("speed of engraving (S word)", o.engraving->speed, 0, 1e6));
+    if (router) LEKALO_CHECK(check_range("depth of engraving in mm", o.engraving->depth_mm, 0.01, 1000));
+  }
   if (router && !(o.speed >= 1))
     return failure(ErrorCode::usage, "a router needs the speed of its spindle, the S word");
   if (o.post.laser_needs_power && o.process == Process::laser && !(o.speed >= 1))
@@ -179,6 +187,33 @@ double left_over(const geom::Contour& contour, const std::vector<WrittenEdge>& p
   return most;
 }
 
+tl::unexpected<Error> too_long() {
+  return failure(
+      ErrorCode::bad_input,
+      fmt::format("the program would be longer than {} MB; cut fewer parts at a time, or in fewer passes",
+                  kLongestProgram / 1'000'000));
+}
+
+/// Writes the marks of all parts, and moves `here` to where the last ends.
+Result<void> engrave(const std::vector<ProfilePart>& parts, const ProfileOptions& options,
+                     const Resolution& resolution, ProfileWriter& writer, ProfileProgram& program,
+                     Point& here) {
+  EngravedPaths engraved = engraved_paths(parts, options);
+  program.marks = engraved.marks;
+  program.marks_left_out = std::move(engraved.left_out);
+  if (engraved.paths.empty()) return {};
+  writer.begin_engraving();
+  for (const std::vector<WrittenEdge>& path : engraved.paths) {
+    writer.engrave(path);
+    if (writer.size() > kLongestProgram) return too_long();
+    program.travel_mm += geom::norm(resolution.mm(path.front().from) - here);
+    program.engraved_mm += length_of(path, resolution);
+    here = resolution.mm(path.back().to);
+  }
+  writer.end_engraving();
+  return {};
+}
+
 /// The closed path, begun at another of its edges.
 std::vector<WrittenEdge> begun_at(std::vector<WrittenEdge> path, std::size_t edge) {
   std::rotate(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(edge), path.end());
@@ -215,6 +250,7 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, co
   // Steps 7 and 8.
   ProfileWriter writer(name, options);
   Point here;
+  LEKALO_CHECK(engrave(parts, options, resolution, writer, program, here));
   for (const OrderedCut& ordered : order) {
     const Cut& cut = cuts[ordered.cut];
     const Starts& its = starts[ordered.cut];
@@ -230,11 +266,7 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, co
                                cut.outline ? "outline" : fmt::format("hole {}", cut.hole + 1)));
     writer.cut(start.lead, path, on_terms.feed_mm_per_min);
     program.lines_of_cuts.push_back({parts[cut.part].id, first_line, writer.line_count()});
-    if (writer.size() > kLongestProgram)
-      return failure(
-          ErrorCode::bad_input,
-          fmt::format("the program would be longer than {} MB; cut fewer parts at a time, or in fewer passes",
-                      kLongestProgram / 1'000'000));
+    if (writer.size() > kLongestProgram) return too_long();
     program.travel_mm += geom::norm(resolution.mm(start.pierce) - here);
     here = resolution.mm(start.on_contour);
     program.cut_mm += length_of(all, resolution);

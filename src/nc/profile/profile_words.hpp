@@ -18,6 +18,10 @@ class ProfileWriter {
   /// A contour from its pierce: the lead, perhaps, and the closed path.
   void cut(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path,
            double feed_mm_per_min);
+  /// Marks, one after the other, between these two; all of them before the first cut.
+  void begin_engraving();
+  void engrave(const std::vector<WrittenEdge>& path);
+  void end_engraving();
   [[nodiscard]] std::string finish();
   [[nodiscard]] std::size_t size() const noexcept { return out_.size(); }
   [[nodiscard]] std::size_t line_count() const noexcept { return out_.line_count(); }

@@ -22,7 +22,7 @@ bool same_part(const WrittenPart& a, const WrittenPart& b) {
                                 [](const WrittenArea& p, const WrittenArea& q) {
                                   return p.quality == q.quality && same_outline(p.outline, q.outline);
                                 });
-  return a.id == b.id && areas && a.marks == b.marks && a.rotations == b.rotations &&
+  return a.id == b.id && areas && a.marks == b.marks && a.texts == b.texts && a.rotations == b.rotations &&
          same_outline(a.outline, b.outline) && a.quality == b.quality && a.may_mirror == b.may_mirror &&
          a.grain == b.grain && a.tolerated_severity == b.tolerated_severity && a.priority == b.priority &&
          a.demand == b.demand && a.gap == b.gap && a.border_gap == b.border_gap &&

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <map>
+#include <numbers>
 
 #include "drawn_file.hpp"
 #include "lekalo/base/double_of_text.hpp"
@@ -54,7 +56,7 @@ class DxfReader {
  public:
   explicit DxfReader(const Document& document) : name_(document.name), groups_(document.bytes) {}
 
-  Result<std::vector<DrawnLine>> read() {
+  Result<DrawnFile> read() {
     Group group;
     bool ended = false;
     while (complaint_.empty() && groups_.next(group)) {
@@ -75,7 +77,9 @@ class DxfReader {
         edge.from = scale_ * edge.from, edge.to = scale_ * edge.to, edge.centre = scale_ * edge.centre;
         edge.radius *= scale_;
       }
-    return std::move(lines_);
+    for (DrawnLetters& text : texts_)
+      text.at = scale_ * text.at, text.right = scale_ * text.right, text.up = scale_ * text.up;
+    return DrawnFile{std::move(lines_), std::move(texts_)};
   }
 
  private:
@@ -100,7 +104,7 @@ class DxfReader {
       take_header(group);
     else if (entity_ == "LAYER")
       take_layer(group);
-    else if (section_ == "ENTITIES" && entity_ != "TEXT")
+    else if (section_ == "ENTITIES")
       take_entity(group);
   }
 
@@ -132,10 +136,19 @@ class DxfReader {
         return;
       case 70:
         closed_ = group.value == "1";
+        if (!closed_ && group.value != "0") complain(group, "a polyline of another kind than lekalo writes");
+        return;
+      case 420:
+        take_colour(group);
+        return;
+      case 1:
+        if (entity_ != "TEXT") break;
+        letters_ = group.value;
         return;
       default:
         break;
     }
+    if (entity_ == "TEXT" && layer_ == "LABEL") return;
     const std::optional<double> number = double_of_text(group.value);
     if (!number) return complain(group, fmt::format("{} is no number", excerpt(group.value)));
     const bool polyline = entity_ == "LWPOLYLINE";
@@ -153,13 +166,25 @@ class DxfReader {
       complain(group, fmt::format("lekalo writes no group {} there", group.code));
   }
 
+  void take_colour(const Group& group) {
+    unsigned rgb = 0;
+    const auto [end, error] =
+        std::from_chars(group.value.data(), group.value.data() + group.value.size(), rgb);
+    if (error != std::errc{} || end != group.value.data() + group.value.size() || rgb > 0xffffff)
+      return complain(group, "a colour that is none");
+    colour_ = fmt::format("#{:06x}", rgb);
+  }
+
   void finish_entity() {
     if (section_ == "ENTITIES") {
       if (entity_ == "LWPOLYLINE") add_polyline();
       if (entity_ == "CIRCLE") add_circle();
       if (entity_ == "LINE") add_line();
+      if (entity_ == "TEXT" && layer_ != "LABEL") add_text();
+      if (entity_ != "TEXT" && !lines_.empty()) lines_.back().colour = colour_;
     }
-    layer_.clear(), count_ = {}, closed_ = false, vertices_.clear(), numbers_.clear();
+    layer_.clear(), colour_.clear(), letters_ = {}, count_ = {}, closed_ = false, vertices_.clear(),
+                                     numbers_.clear();
   }
 
   struct Vertex {
@@ -169,10 +194,12 @@ class DxfReader {
 
   void add_polyline() {
     DrawnLine line{layer_, {}, closed_};
-    if (!closed_ || vertices_.size() < 2 || count_ != fmt::format("{}", vertices_.size()))
-      complaint_ = fmt::format(
-          "line {}: a polyline that is not closed, or not of the vertices that it counts", groups_.line());
-    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    if (vertices_.size() < 2 || count_ != fmt::format("{}", vertices_.size())) {
+      complaint_ =
+          fmt::format("line {}: a polyline that is not of the vertices that it counts", groups_.line());
+      return;
+    }
+    for (std::size_t i = 0; i + (closed_ ? 0 : 1) < vertices_.size(); ++i) {
       const Place from = vertices_[i].at, to = vertices_[(i + 1) % vertices_.size()].at;
       const double bulge = vertices_[i].bulge;
       if (bulge == 0) {
@@ -200,6 +227,35 @@ class DxfReader {
     lines_.push_back({layer_, {arc_about(start, start, centre, true)}, true});
   }
 
+  /// A text has its place, its height and perhaps an angle, a width, a direction and an anchor, whose place
+  /// is the same.
+  void add_text() {
+    const auto number = [&](int code, double otherwise) {
+      const auto found = numbers_.find(code);
+      return found == numbers_.end() ? otherwise : found->second;
+    };
+    const double generation = number(71, 0), across = number(72, 0), height = number(40, 0),
+                 width = number(41, 1);
+    const bool fine = numbers_.contains(10) && numbers_.contains(20) && height > 0 && width > 0 &&
+                      (generation == 0 || generation == 2) && (across == 0 || across == 1 || across == 2) &&
+                      number(73, 0) == 0 && number(11, numbers_[10]) == numbers_[10] &&
+                      number(21, numbers_[20]) == numbers_[20] && (across == 0 || numbers_.contains(11));
+    if (!fine) {
+      complaint_ = fmt::format("line {}: a text that lekalo does not write so", groups_.line());
+      return;
+    }
+    const double angle = number(50, 0) * std::numbers::pi / 180;
+    const Place along{std::cos(angle), std::sin(angle)};
+    constexpr std::array<const char*, 3> kAnchors{"left", "middle", "right"};
+    texts_.push_back({layer_,
+                      colour_,
+                      std::string(letters_),
+                      kAnchors[static_cast<std::size_t>(across)],
+                      {numbers_[10], numbers_[20]},
+                      (generation == 2 ? -height * width : height * width) * along,
+                      height * left_of(along)});
+  }
+
   void add_line() {
     if (!has({10, 20, 11, 21})) return;
     lines_.push_back(
@@ -210,16 +266,17 @@ class DxfReader {
   Groups groups_;
   std::string complaint_;
   double scale_ = 0;
-  std::string section_, entity_, variable_, layer_;
-  std::string_view count_;
+  std::string section_, entity_, variable_, layer_, colour_;
+  std::string_view count_, letters_;
   bool closed_ = false;
   std::vector<Vertex> vertices_;
   std::map<int, double> numbers_;
   std::vector<DrawnLine> lines_;
+  std::vector<DrawnLetters> texts_;
 };
 
 }  // namespace
 
-Result<std::vector<DrawnLine>> read_dxf(const Document& document) { return DxfReader(document).read(); }
+Result<DrawnFile> read_dxf(const Document& document) { return DxfReader(document).read(); }
 
 }  // namespace lekalo::verify

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <set>
+#include <utility>
 
 #include "lekalo/verify/claims.hpp"
 #include "lekalo/verify/layout.hpp"
@@ -18,8 +21,10 @@ constexpr double kDrawn = 2e-6;
 /// Half a plotter unit in x and in y.
 constexpr double kPlotted = 0.0178;
 constexpr std::array<const char*, 6> kLayersOfLines{"CUT", "SHEET", "DEFECT", "ZONE", "AREA", "MARK"};
+/// The sines and cosines of texts' angles are rounded.
+constexpr double kTextRounding = 1e-9;
 
-Result<std::vector<DrawnLine>> read_export(const Document& document, Kind kind) {
+Result<DrawnFile> read_export(const Document& document, Kind kind) {
   if (kind == Kind::dxf) return read_dxf(document);
   if (kind == Kind::svg) return read_svg(document);
   return read_hpgl(document);
@@ -45,11 +50,16 @@ bool inside(Place p, const std::vector<std::vector<Stroke>>& contours) {
 
 class ExportCheck {
  public:
-  ExportCheck(std::vector<DrawnLine> file, std::vector<DrawnLine> wanted, const Likeness& likeness)
-      : file_(std::move(file)), wanted_(std::move(wanted)), likeness_(likeness) {}
+  ExportCheck(DrawnFile file, std::vector<DrawnLine> wanted, const Likeness& likeness, bool is_plot)
+      : file_(std::move(file.lines)),
+        texts_(std::move(file.texts)),
+        wanted_(std::move(wanted)),
+        likeness_(likeness),
+        is_plot_(is_plot) {}
 
   ClaimReport checked(const std::vector<PlacedSheet>& sheets, const std::vector<std::string>& only) {
     std::size_t outlines = 0;
+    take_inside(sheets, only.empty() || std::find(only.begin(), only.end(), "MARK") != only.end());
     for (const char* layer : kLayersOfLines) {
       const bool asked = only.empty() || std::find(only.begin(), only.end(), layer) != only.end();
       if (layer == std::string_view("MARK"))
@@ -57,11 +67,12 @@ class ExportCheck {
       else
         outlines += compare(layer, asked);
     }
-    for (const DrawnLine& line : file_)
-      if (std::find(kLayersOfLines.begin(), kLayersOfLines.end(), line.layer) == kLayersOfLines.end())
-        report_.findings.push_back(fmt::format("something is drawn on a layer \"{}\"", line.layer));
+    compare_inside();
     report_.notes.push_back(fmt::format("{} outlines were compared both ways, within {} mm", outlines,
                                         likeness_.places + likeness_.chords));
+    if (inner_lines_ + inner_texts_ > 0)
+      report_.notes.push_back(
+          fmt::format("{} lines and {} texts on parts were compared both ways", inner_lines_, inner_texts_));
     return std::move(report_);
   }
 
@@ -92,6 +103,102 @@ class ExportCheck {
       }
   }
 
+  /// Keeps the lines and texts that lie on parts, and takes those of the file from its other lines. In a plot
+  /// they are drawn with the pen of marks, and texts as strokes.
+  void take_inside(const std::vector<PlacedSheet>& sheets, bool asked) {
+    if (asked)
+      for (const PlacedSheet& sheet : sheets)
+        for (const PlacedSheet::Part& part : sheet.parts)
+          for (const PlacedInside& one : part.inside) {
+            const bool as_letters = !one.letters.empty() && !is_plot_;
+            if (as_letters) inner_letters_.push_back(one.letters.front());
+            inner_texts_ += one.letters.size();
+            if (one.letters.empty()) inner_lines_ += one.lines.size();
+            if (!as_letters) inner_.insert(inner_.end(), one.lines.begin(), one.lines.end());
+          }
+    if (is_plot_) {
+      std::vector<const DrawnLine*> inner;
+      for (const DrawnLine& line : inner_) inner.push_back(&line);
+      const EdgeSet placed(inner);
+      split_off([&](const DrawnLine& line) {
+        return line.layer == "MARK" && !inner_.empty() &&
+               std::all_of(line.edges.begin(), line.edges.end(),
+                           [&](const Stroke& edge) { return placed.holds(edge, likeness_); });
+      });
+    } else {
+      split_off([](const DrawnLine& line) {
+        return std::find(kLayersOfLines.begin(), kLayersOfLines.end(), line.layer) == kLayersOfLines.end();
+      });
+    }
+  }
+
+  template <class Is>
+  void split_off(const Is& is) {
+    const auto from =
+        std::stable_partition(file_.begin(), file_.end(), [&](const DrawnLine& line) { return !is(line); });
+    std::move(from, file_.end(), std::back_inserter(inner_of_file_));
+    file_.erase(from, file_.end());
+  }
+
+  /// Lines on parts are the same both ways, each on its layer and in its colour; so are texts.
+  void compare_inside() {
+    std::set<std::pair<std::string, std::string>> looks;
+    for (const auto* lines : {&inner_, &inner_of_file_})
+      for (const DrawnLine& line : *lines) looks.insert(look_of(line));
+    for (const auto& look : looks) {
+      const auto of_look = [&](const std::vector<DrawnLine>& lines) {
+        std::vector<const DrawnLine*> found;
+        for (const DrawnLine& line : lines)
+          if (look_of(line) == look) found.push_back(&line);
+        return found;
+      };
+      const std::vector<const DrawnLine*> file = of_look(inner_of_file_), wanted = of_look(inner_);
+      const std::string where = look.second.empty() ? look.first : look.first + " in " + look.second;
+      // A line of a plot that falls into one unit is drawn no less.
+      if (file.size() != wanted.size())
+        report_.findings.push_back(fmt::format("layer {} has {} lines on parts and is to have {}", where,
+                                               file.size(), wanted.size()));
+      const EdgeSet drawn(file), placed(wanted);
+      for (const DrawnLine* line : file) find_each(*line, placed, where.c_str(), "is on no line of a part");
+      for (const DrawnLine* line : wanted) find_each(*line, drawn, where.c_str(), "of a part is not drawn");
+    }
+    compare_texts();
+  }
+
+  /// The layer without regard to case, and the colour; a plot has one pen for all.
+  [[nodiscard]] std::pair<std::string, std::string> look_of(const DrawnLine& line) const {
+    if (is_plot_) return {"MARK", ""};
+    return {upper_case(line.layer), line.colour};
+  }
+  static std::string upper_case(std::string text) {
+    for (char& c : text)
+      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    return text;
+  }
+
+  void compare_texts() {
+    std::vector<DrawnLetters> left = inner_letters_;
+    for (const DrawnLetters& text : texts_) {
+      const auto same =
+          std::find_if(left.begin(), left.end(), [&](const DrawnLetters& one) { return is_same(text, one); });
+      if (same == left.end())
+        report_.findings.push_back(fmt::format("the text {} at ({}, {}) on layer {} is on no part",
+                                               excerpt(text.text), text.at.x, text.at.y, text.layer));
+      else
+        left.erase(same);
+    }
+    for (const DrawnLetters& text : left)
+      report_.findings.push_back(fmt::format("the text {} at ({}, {}) on layer {} of a part is not drawn",
+                                             excerpt(text.text), text.at.x, text.at.y, text.layer));
+  }
+
+  [[nodiscard]] bool is_same(const DrawnLetters& a, const DrawnLetters& b) const {
+    const double off = likeness_.places + kTextRounding * (length(b.right) + length(b.up));
+    const bool colour = a.colour == b.colour || (b.colour.empty() && a.colour == "#000000");
+    return a.text == b.text && colour && a.anchor == b.anchor && upper_case(a.layer) == upper_case(b.layer) &&
+           length(a.at - b.at) <= off && length(a.right - b.right) <= off && length(a.up - b.up) <= off;
+  }
+
   /// Each part with a grain has one mark, which lies in it and runs along the grain.
   void compare_marks(const std::vector<PlacedSheet>& sheets, bool asked) {
     std::vector<const PlacedSheet::Part*> marked;
@@ -118,8 +225,15 @@ class ExportCheck {
     return off <= 2 * likeness_.places && inside(mark.from, part.contours) && inside(mark.to, part.contours);
   }
 
-  std::vector<DrawnLine> file_, wanted_;
+  std::vector<DrawnLine> file_;
+  std::vector<DrawnLetters> texts_;
+  std::vector<DrawnLine> wanted_;
   Likeness likeness_;
+  bool is_plot_;
+  /// Lines that are to be on parts, and those that the file has there.
+  std::vector<DrawnLine> inner_, inner_of_file_;
+  std::vector<DrawnLetters> inner_letters_;
+  std::size_t inner_lines_ = 0, inner_texts_ = 0;
   ClaimReport report_;
 };
 
@@ -136,12 +250,13 @@ Result<ClaimReport> verify_export(const Document& document, const Document& layo
         fmt::format("{}: a plot holds one sheet and {} are in use; say which, for example --sheet {}",
                     document.name, sheets.size(), sheets[0].name));
   put_side_by_side(sheets);
-  LEKALO_TRY(std::vector<DrawnLine> file, read_export(document, kind));
+  LEKALO_TRY(DrawnFile file, read_export(document, kind));
   std::vector<DrawnLine> wanted;
   for (const PlacedSheet& sheet : sheets) wanted.insert(wanted.end(), sheet.lines.begin(), sheet.lines.end());
   const Likeness likeness =
       kind == Kind::hpgl ? Likeness{kPlotted, words.chord_tolerance} : Likeness{kDrawn, 0};
-  return ExportCheck(std::move(file), std::move(wanted), likeness).checked(sheets, words.only);
+  return ExportCheck(std::move(file), std::move(wanted), likeness, kind == Kind::hpgl)
+      .checked(sheets, words.only);
 }
 
 }  // namespace lekalo::verify

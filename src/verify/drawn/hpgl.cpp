@@ -17,7 +17,7 @@ class HpglReader {
  public:
   explicit HpglReader(const Document& document) : name_(document.name), rest_(document.bytes) {}
 
-  Result<std::vector<DrawnLine>> read() {
+  Result<DrawnFile> read() {
     while (complaint_.empty() && skip_blanks()) {
       // A label ends with the character ETX, so that it may hold a semicolon.
       const bool label = rest_.starts_with("LB");
@@ -32,7 +32,7 @@ class HpglReader {
     }
     if (complaint_.empty() && pen_ != 0) complaint_ = "it does not end with SP0";
     if (!complaint_.empty()) return failure(ErrorCode::bad_input, fmt::format("{}: {}", name_, complaint_));
-    return std::move(lines_);
+    return DrawnFile{std::move(lines_), {}};
   }
 
  private:
@@ -107,6 +107,6 @@ class HpglReader {
 
 }  // namespace
 
-Result<std::vector<DrawnLine>> read_hpgl(const Document& document) { return HpglReader(document).read(); }
+Result<DrawnFile> read_hpgl(const Document& document) { return HpglReader(document).read(); }
 
 }  // namespace lekalo::verify

@@ -97,6 +97,7 @@ PlacedSheet sheet_of(const WrittenLayout& layout, SheetOf which) {
     PlacedSheet::Part& placed_part = sheet.parts.emplace_back();
     placed_part.id = piece.id;
     placed_part.contours = contours_of(part.outline, piece);
+    placed_part.inside = placed_inside(part, piece);
     add("CUT", placed_part.contours, sheet);
     for (const WrittenArea& area : part.areas) add("AREA", contours_of(area.outline, piece), sheet);
     if (!part.grain) continue;
@@ -139,6 +140,8 @@ void move_by(double by, PlacedSheet& sheet) {
   for (DrawnLine& line : sheet.lines) std::ranges::for_each(line.edges, move);
   for (PlacedSheet::Part& part : sheet.parts)
     for (std::vector<Stroke>& contour : part.contours) std::ranges::for_each(contour, move);
+  for (PlacedSheet::Part& part : sheet.parts)
+    for (PlacedInside& inside : part.inside) move_by(by, inside);
 }
 
 }  // namespace

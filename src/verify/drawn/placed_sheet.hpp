@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "drawn_file.hpp"
+#include "placed_inside.hpp"
 #include "verify/layout/layout_document.hpp"
 
 namespace lekalo::verify {
@@ -25,6 +26,7 @@ struct PlacedSheet {
     std::vector<std::vector<Stroke>> contours;
     /// The direction of the grain on the sheet, of a part that has one.
     std::optional<Place> grain;
+    std::vector<PlacedInside> inside{};
   };
   std::vector<Part> parts;
 };

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <utility>
 
 #include "drawn_file.hpp"
 #include "lekalo/base/double_of_text.hpp"
@@ -55,12 +57,14 @@ class SvgReader {
  public:
   explicit SvgReader(const Document& document) : name_(document.name), rest_(document.bytes) {}
 
-  Result<std::vector<DrawnLine>> read() {
+  Result<DrawnFile> read() {
     while (complaint_.empty()) {
       const std::size_t open = rest_.find('<');
       if (open == std::string_view::npos) break;
       if (!in_text_ && rest_.substr(0, open).find_first_not_of(" \r\n\t") != std::string_view::npos)
         complain("text where lekalo writes none");
+      if (in_text_ && !texts_.empty() && texts_open_)
+        texts_.back().text = plain_letters(rest_.substr(0, open));
       rest_.remove_prefix(open + 1);
       const std::size_t close = rest_.find('>');
       if (close == std::string_view::npos) return complained("an element is cut off");
@@ -69,7 +73,7 @@ class SvgReader {
     }
     if (depth_ != 0 || !page_) complain("an element is not closed");
     if (!complaint_.empty()) return complained(complaint_);
-    return std::move(lines_);
+    return DrawnFile{std::move(lines_), std::move(texts_)};
   }
 
  private:
@@ -85,7 +89,7 @@ class SvgReader {
     if (text.starts_with("?xml")) return;
     if (text.starts_with("/")) {
       --depth_;
-      in_text_ = false;
+      in_text_ = texts_open_ = false;
       return;
     }
     const bool alone = text.ends_with("/");
@@ -106,7 +110,7 @@ class SvgReader {
     else if (word == "line")
       line(attributes);
     else if (word == "text")
-      in_text_ = true;
+      letters(attributes);
     else
       complain("lekalo writes no such element");
   }
@@ -168,11 +172,11 @@ class SvgReader {
   }
 
   void path(const Attributes& attributes) {
-    only(attributes, {"d", "data-lekalo-arcs"});
+    only(attributes, {"d", "stroke", "data-lekalo-arcs"});
     const auto data = attributes.find("d");
     if (data == attributes.end()) return complain("a path without data");
     Words words(data->second);
-    DrawnLine drawn{layer_, {}, false};
+    DrawnLine drawn{layer_, {}, false, colour(attributes, "stroke")};
     const auto place = [&] {
       const double x = words.number(), y = words.number();
       return Place{x, -y};
@@ -193,7 +197,7 @@ class SvgReader {
       drawn.edges.push_back(edge);
       at = edge.to;
     }
-    if (!drawn.closed) return complain("path data that cannot be read");
+    if (!words.fine() || drawn.edges.empty()) return complain("path data that cannot be read");
     lines_.push_back(std::move(drawn));
   }
 
@@ -212,10 +216,61 @@ class SvgReader {
   }
 
   void circle(const Attributes& attributes) {
-    only(attributes, {"cx", "cy", "r", "data-lekalo-arcs"});
+    only(attributes, {"cx", "cy", "r", "stroke", "data-lekalo-arcs"});
     const Place centre{number(attributes, "cx"), -number(attributes, "cy")},
         start = centre + Place{number(attributes, "r"), 0};
-    lines_.push_back({layer_, {arc_about(start, start, centre, true)}, true});
+    lines_.push_back({layer_, {arc_about(start, start, centre, true)}, true, colour(attributes, "stroke")});
+  }
+
+  static std::string colour(const Attributes& attributes, const char* key) {
+    const auto found = attributes.find(key);
+    return found == attributes.end() ? "" : std::string(found->second);
+  }
+
+  /// A text on a part has a transformation; a label has a place.
+  void letters(const Attributes& attributes) {
+    in_text_ = true;
+    if (layer_ == "LABEL") return;
+    only(attributes, {"transform", "font-family", "font-size", "text-anchor", "fill", "stroke"});
+    const auto said = attributes.find("transform"), anchor = attributes.find("text-anchor");
+    if (said == attributes.end() || anchor == attributes.end() || !said->second.starts_with("matrix(") ||
+        !said->second.ends_with(")"))
+      return complain("a text without its place");
+    Words words(said->second.substr(7, said->second.size() - 8));
+    std::array<double, 6> m{};
+    for (double& number : m) number = words.number();
+    if (!words.fine() || !words.done()) return complain("a transformation that cannot be read");
+    // Capitals are 0.72 of the font's size.
+    const double height = 0.72 * number(attributes, "font-size");
+    const std::string_view word = anchor->second;
+    const char* const known = word == "start"    ? "left"
+                              : word == "middle" ? "middle"
+                              : word == "end"    ? "right"
+                                                 : nullptr;
+    if (known == nullptr || !(height > 0)) return complain("a text that lekalo does not write so");
+    // The axes of the element have y down.
+    texts_.push_back({layer_,
+                      colour(attributes, "fill"),
+                      "",
+                      known,
+                      {m[4], -m[5]},
+                      height * Place{m[0], -m[1]},
+                      height * Place{-m[2], m[3]}});
+    texts_open_ = true;
+  }
+
+  /// The letters that are written with entities of XML.
+  static std::string plain_letters(std::string_view text) {
+    constexpr std::array<std::pair<std::string_view, char>, 5> kEntities{
+        {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}}};
+    std::string letters;
+    while (!text.empty()) {
+      const auto* const known = std::find_if(kEntities.begin(), kEntities.end(),
+                                             [&](const auto& one) { return text.starts_with(one.first); });
+      letters += known == kEntities.end() ? text.front() : known->second;
+      text.remove_prefix(known == kEntities.end() ? 1 : known->first.size());
+    }
+    return letters;
   }
 
   void line(const Attributes& attributes) {
@@ -230,12 +285,13 @@ class SvgReader {
   std::string_view rest_, current_;
   std::string complaint_, layer_;
   int depth_ = 0;
-  bool in_text_ = false, page_ = false;
+  bool in_text_ = false, texts_open_ = false, page_ = false;
   std::vector<DrawnLine> lines_;
+  std::vector<DrawnLetters> texts_;
 };
 
 }  // namespace
 
-Result<std::vector<DrawnLine>> read_svg(const Document& document) { return SvgReader(document).read(); }
+Result<DrawnFile> read_svg(const Document& document) { return SvgReader(document).read(); }
 
 }  // namespace lekalo::verify

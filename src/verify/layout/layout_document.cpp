@@ -242,10 +242,58 @@ void read_mark_edge(Json item, const std::string& path, std::string& complaint,
   numbers.push_back(inner.flag("ccw") ? 1 : -1);
 }
 
+/// Complains of a word that is not one of these.
+void check_word(Members& members, std::string_view key, const std::string& word,
+                std::initializer_list<std::string_view> known) {
+  if (std::find(known.begin(), known.end(), word) == known.end())
+    members.complain(fmt::format("field {} is {}", members.name(key), excerpt(word)));
+}
+
+/// Reads the layer, the colour and the role of a mark or a text.
+template <class Item>
+void read_look(Members& members, Item& item) {
+  if (members.has("layer")) item.layer = members.text("layer");
+  if (members.has("colour")) {
+    item.colour = members.text("colour");
+    const bool is_hex = item.colour.size() == 7 && item.colour.starts_with("#") &&
+                        item.colour.find_first_not_of("0123456789abcdef", 1) == std::string::npos;
+    if (!is_hex) members.complain(fmt::format("field {} is no colour as in #0000ff", members.name("colour")));
+  }
+  if (!members.has("role")) return;
+  item.role = members.text("role");
+  check_word(members, "role", item.role, {"mark", "engrave", "bend", "cut"});
+}
+
+WrittenText read_part_text(Json item, const std::string& path, std::string& complaint) {
+  WrittenText text;
+  Members members(
+      item, path, complaint,
+      {"text", "at", "height", "deg", "width_factor", "mirrored", "anchor", "layer", "colour", "role"});
+  read_look(members, text);
+  text.text = members.text("text");
+  if (text.text.empty()) members.complain(fmt::format("field {} is empty", members.name("text")));
+  std::vector<double> place;
+  members.each("at", [&](Json number, const std::string& at) {
+    place.push_back(members.number_of(number, at, -limits::kLargestCoordinate, limits::kLargestCoordinate));
+  });
+  if (place.size() == 2)
+    text.x = place[0], text.y = place[1];
+  else
+    members.complain(fmt::format("field {} is not two numbers", members.name("at")));
+  text.height = members.number("height", limits::kLowestText, limits::kHighestText);
+  if (members.has("deg")) text.degrees = members.number("deg", -limits::kMostDegrees, limits::kMostDegrees);
+  if (members.has("width_factor"))
+    text.width_factor = members.number("width_factor", limits::kNarrowestText, limits::kWidestText);
+  text.mirrored = members.flag("mirrored");
+  if (members.has("anchor")) text.anchor = members.text("anchor");
+  check_word(members, "anchor", text.anchor, {"left", "middle", "right"});
+  return text;
+}
+
 WrittenMark read_mark(Json item, const std::string& path, std::string& complaint) {
   WrittenMark mark;
-  Members members(item, path, complaint, {"layer", "edges"});
-  if (members.has("layer")) mark.layer = members.text("layer");
+  Members members(item, path, complaint, {"layer", "colour", "role", "edges"});
+  read_look(members, mark);
   // The end of the edge before; from, to, centre and direction of an arc are seven numbers, a line has four.
   std::vector<double> before;
   members.each("edges", [&](Json value, const std::string& at) {
@@ -255,6 +303,7 @@ WrittenMark read_mark(Json item, const std::string& path, std::string& complaint
     if (!before.empty() && (before[2] != edge[0] || before[3] != edge[1]))
       members.complain(fmt::format("{} does not begin where the edge before it ends", at));
     mark.numbers.insert(mark.numbers.end(), edge.begin(), edge.end());
+    mark.arcs.push_back(edge.size() > 4);
     before = std::move(edge);
   });
   if (mark.numbers.empty()) members.complain(fmt::format("{} has no edges", path));
@@ -290,11 +339,11 @@ bool is_in_calendar(std::string_view day) {
 }
 
 WrittenPart read_part(Json item, const std::string& path, std::string& complaint, const Gaps& rules) {
-  Members members(item, path, complaint,
-                  {"id",       "name",      "material", "thickness",  "customer",
-                   "due",      "label",     "outline",  "quality",    "areas",
-                   "marks",    "rotations", "mirror",   "grain",      "tolerated_severity",
-                   "priority", "demand",    "gap",      "border_gap", "defect_gap"});
+  Members members(
+      item, path, complaint,
+      {"id",       "name",   "material", "thickness",  "customer",  "due",    "label", "outline",
+       "quality",  "areas",  "marks",    "texts",      "rotations", "mirror", "grain", "tolerated_severity",
+       "priority", "demand", "gap",      "border_gap", "defect_gap"});
   WrittenPart part;
   if (!complaint.empty()) return part;
   part.id = members.id();
@@ -317,6 +366,9 @@ WrittenPart read_part(Json item, const std::string& path, std::string& complaint
   });
   members.each("marks", [&](Json value, const std::string& at) {
     part.marks.push_back(read_mark(value, at, complaint));
+  });
+  members.each("texts", [&](Json value, const std::string& at) {
+    part.texts.push_back(read_part_text(value, at, complaint));
   });
   part.rotations = read_rotations(members);
   part.may_mirror = members.flag("mirror");

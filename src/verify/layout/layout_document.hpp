@@ -42,9 +42,18 @@ struct WrittenGrain {
 /// A line on a part that no rule asks for: the numbers of its edges in their order, of an arc with its
 /// centre, and whether it runs counter-clockwise.
 struct WrittenMark {
-  std::string layer;
+  std::string layer, colour, role = "mark";
   std::vector<double> numbers;
+  std::vector<bool> arcs;  ///< says which edges are arcs
   friend bool operator==(const WrittenMark&, const WrittenMark&) = default;
+};
+
+/// A text on a part that no rule asks for either.
+struct WrittenText {
+  std::string text, layer, colour, role = "mark", anchor = "left";
+  double x = 0, y = 0, height = 0, degrees = 0, width_factor = 1;
+  bool mirrored = false;
+  friend bool operator==(const WrittenText&, const WrittenText&) = default;
 };
 
 /// The material of stock, or of a part. No rule asks for it.
@@ -62,6 +71,7 @@ struct WrittenPart {
   int quality = 0;
   std::vector<WrittenArea> areas;
   std::vector<WrittenMark> marks;
+  std::vector<WrittenText> texts;
   /// An empty list allows any angle.
   std::vector<WrittenAngles> rotations;
   bool may_mirror = false;

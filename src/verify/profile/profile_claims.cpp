@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "engraved_marks.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/verify/claims.hpp"
 #include "profile_moves.hpp"
@@ -110,11 +111,16 @@ class ProfileCheck {
       }
       parts_.emplace_back(part.id, Ring(part.contours, 0.1 * half_));
     }
+    marks_.emplace(sheet);
     all_.emplace(all, 0.1 * half_);
   }
 
   ClaimReport checked(const std::vector<CutChain>& chains) {
     for (const CutChain& chain : chains) {
+      if (!chain.rapid && marks_->follows(chain)) {
+        keep_before_cuts(chain);
+        continue;
+      }
       if (chain.rapid) report_.findings.push_back(fmt::format("line {}: a rapid motion cuts", chain.line));
       keep_out(chain);
       follow(chain);
@@ -123,8 +129,9 @@ class ProfileCheck {
       if (!wanted.cut) report_.findings.push_back(wanted.name() + " is not cut");
     check_order();
     report_.notes.push_back(
-        fmt::format("{} cuts along {} contours of {} parts were rechecked for a kerf of {} mm", chains.size(),
-                    wanted_.size(), parts_.size(), words_.kerf_mm));
+        fmt::format("{} cuts along {} contours of {} parts were rechecked for a kerf of {} mm",
+                    chains.size() - marks_->engravings(), wanted_.size(), parts_.size(), words_.kerf_mm));
+    if (std::string note = marks_->note(); !note.empty()) report_.notes.push_back(std::move(note));
     return std::move(report_);
   }
 
@@ -152,6 +159,16 @@ class ProfileCheck {
     for (const auto& [id, ring] : parts_)
       if (ring.encloses(chain.edges[0].from))
         report_.findings.push_back(fmt::format("line {}: the cut begins in placement {}", chain.line, id));
+  }
+
+  /// A part that was cut out may have moved, so that its marks come before.
+  void keep_before_cuts(const CutChain& chain) {
+    for (const Loop& loop : loops_)
+      if (loop.ring.encloses(chain.edges[0].from)) {
+        report_.findings.push_back(
+            fmt::format("line {}: a mark is engraved after {} was cut", chain.line, wanted_[loop.of].name()));
+        return;
+      }
   }
 
   /// Finds the contour that the closed part of a chain follows.
@@ -244,6 +261,7 @@ class ProfileCheck {
   std::vector<Wanted> wanted_;
   std::vector<std::pair<std::uint64_t, Ring>> parts_;
   std::optional<Ring> all_;
+  std::optional<EngravedMarks> marks_;
   std::vector<Loop> loops_;
   ClaimReport report_;
 };

@@ -19,6 +19,7 @@ export type Values = Record<string, string>;
 
 const ROUTER = ['router'];
 const BEAM = ['laser', 'plasma', 'waterjet'];
+const ENGRAVER = ['laser', 'router'];
 const UNIT: Field = { name: 'unit', of: ['mm', 'inch'] };
 /** The empty value stands for all layers. */
 const ONLY: Field = { name: 'only', of: ['', 'CUT'] };
@@ -42,6 +43,9 @@ export const CHOICES: Record<ChosenForm, { name: string; sheetEach: boolean; fie
       { name: 'pass', when: ROUTER },
       { name: 'plunge', required: true, when: ROUTER },
       { name: 'safe-height', when: ROUTER },
+      { name: 'engrave-feed', when: ENGRAVER },
+      { name: 'engrave-speed', when: ENGRAVER },
+      { name: 'engrave-depth', when: ROUTER },
     ],
   },
 };

@@ -44,7 +44,23 @@ export interface Edge {
 /** A line on a part that bounds no area: engraving, a hinge, a bend. */
 export interface Mark {
   layer?: string;
+  /** As the drawing shows it, #rrggbb. */
+  colour?: string;
+  role?: 'mark' | 'engrave' | 'bend' | 'cut';
   edges: Edge[];
+}
+/** A line of text on a part, of capitals so high, written backwards where it is mirrored. */
+export interface PartText {
+  text: string;
+  at: Point;
+  height: number;
+  deg?: number;
+  width_factor?: number;
+  mirrored?: boolean;
+  anchor?: 'left' | 'middle' | 'right';
+  layer?: string;
+  colour?: string;
+  role?: Mark['role'];
 }
 export interface Part {
   id: string;
@@ -58,6 +74,7 @@ export interface Part {
   quality?: number | 'best';
   areas?: { quality: number | 'best'; outline: Outline }[];
   marks?: Mark[];
+  texts?: PartText[];
   rotations?: (number | { from: number; to: number })[];
   mirror?: boolean;
   grain?: { deg: number; tolerance_deg?: number };

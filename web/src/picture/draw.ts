@@ -16,7 +16,7 @@ import {
   drawTag,
   measured,
 } from './marks';
-import { loopsOf, marksPath, roomAlong, Shape, tracedPath, type Outlined } from './outlines';
+import { drawPartText, loopsOf, marksPath, roomAlong, Shape, tracedPath, type Outlined } from './outlines';
 import type { Scene, Theme } from './scene';
 import type { View } from './view';
 
@@ -348,6 +348,10 @@ export class Picture implements Painter {
       ctx.strokeStyle = theme.partInk;
       ctx.lineWidth = 0.5 * px;
       ctx.stroke(this.marks(part));
+    }
+    if (!small && part.texts) {
+      ctx.fillStyle = theme.partInk;
+      for (const text of part.texts) if (text.height / px >= 4) drawPartText(ctx, text);
     }
     if (shape.reach / px >= 18) this.drawLabel(ctx, scene, sheet, p, px, mark !== null);
   }

@@ -1,6 +1,6 @@
 // Outlines become paths of a canvas.
 
-import type { Mark, Part, Point } from '../layout/document';
+import type { Mark, Part, PartText, Point } from '../layout/document';
 
 /** A part's outline by level of detail, in its own frame: level n drops corners nearer than 2^n / 8 mm to the last. */
 export class Shape {
@@ -56,6 +56,20 @@ export function marksPath(marks: readonly Mark[]): Path2D {
     }
   }
   return path;
+}
+
+/** Writes a text of a part in the part's frame, in which y goes up. */
+export function drawPartText(ctx: CanvasRenderingContext2D, text: PartText): void {
+  ctx.save();
+  ctx.translate(...text.at);
+  ctx.rotate(((text.deg ?? 0) * Math.PI) / 180);
+  ctx.scale((text.mirrored ? -1 : 1) * (text.width_factor ?? 1), -1);
+  // Capitals are 0.72 of a font's size.
+  ctx.font = `${text.height / 0.72}px sans-serif`;
+  ctx.textBaseline = 'alphabetic';
+  ctx.textAlign = text.anchor === 'middle' ? 'center' : (text.anchor ?? 'left');
+  ctx.fillText(text.text, 0, 0);
+  ctx.restore();
 }
 
 export type Outlined = { polygon: { outer: Point[]; holes?: Point[][] } };

@@ -84,6 +84,19 @@ struct Layer {
   std::string line_type{};
 };
 
+/// A line of a text as it stands in the file.
+struct ReadText {
+  enum class Anchor : std::uint8_t { left, middle, right };
+  std::string text;   ///< UTF-8, not empty, without control characters
+  geom::Point at;     ///< on the baseline, mm
+  double height = 1;  ///< of capitals, mm
+  double degrees = 0, width_factor = 1;
+  bool mirrored = false;  ///< written backwards, before it is turned
+  Anchor anchor = Anchor::left;
+  Layer layer;
+  std::size_t line = 0;  ///< of its entity in the file
+};
+
 /// Entities that are not curves or that are not read, by name: "TEXT", "SPLINE (fit points alone)".
 struct Unread {
   std::string name;
@@ -101,6 +114,7 @@ struct Drawing {
   std::vector<Layer> layers;
   std::vector<DrawnEntity> entities;
   std::vector<DrawnCurve> curves;  ///< file order
+  std::vector<ReadText> texts{};   ///< of DXF; those of blocks come after the others
   std::vector<Unread> unread;      ///< by name
   /// A sentence about every entity that is damaged and was set aside, with file, line and reason, in file
   /// order; the entity is counted in `unread` too.

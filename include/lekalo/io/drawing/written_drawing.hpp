@@ -7,6 +7,7 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
 #include "lekalo/geom/region.hpp"
+#include "lekalo/io/drawing/drawing.hpp"
 
 namespace lekalo::io {
 
@@ -34,6 +35,12 @@ struct DrawnText {
   double height = 1;  ///< of capitals
   std::string layer;
 };
+/// A chain of edges that bounds no region, closed where the last ends where the first begins. Of its layer
+/// the name and the colour count.
+struct DrawnChain {
+  geom::Contour edges;  ///< made by make_chain
+  Layer layer;
+};
 /// How a layer is shown: AutoCAD's colour index in DXF, the colour itself in SVG. Others are black (7).
 struct LayerColour {
   std::string layer;
@@ -44,6 +51,9 @@ struct DrawingExtras {
   std::vector<DrawnLine> lines;
   std::vector<DrawnText> texts;
   std::vector<LayerColour> colours;
+  std::vector<DrawnChain> chains{};
+  /// Texts at their places, turned and perhaps backwards; of their layers the name and the colour count.
+  std::vector<ReadText> set_texts{};
 };
 
 /// Laws of the written text (tests/property/io_drawing_writer_test.cpp): parse_dxf or parse_svg and
