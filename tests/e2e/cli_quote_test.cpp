@@ -168,8 +168,11 @@ TEST(CliQuote, OneSentenceSaysWhatIsWrongAndNothingIsWritten) {
   // A layout that does not say its material.
   ASSERT_EQ(shop({"nest", "plate.svg", "--sheet", "400x300", "--work", "100", "-o", "bare.json"}).status, 0);
   const Words bare = Words{"quote", "bare.json", "--rates", "rates.json"} + kCut;
-  expect(shop(bare + out), 2, "says no material, so nobody knows its rate: say --material NAME");
-  expect(shop(bare + Words{"--material", "steel"} + out), 2, "says no thickness, so nobody knows its rate");
+  expect(shop(bare + out), 2,
+         "says neither material nor thickness, so nobody knows its rate: say --material NAME and --thickness "
+         "MM");
+  expect(shop(bare + Words{"--material", "steel"} + out), 2,
+         "says no thickness, so nobody knows its rate: say --thickness MM");
   EXPECT_EQ(shop(bare + Words{"--material", "steel", "--thickness", "2"}).status, 0);
 }
 

@@ -267,12 +267,13 @@ class RatesReader {
       for (const char* const key : {"sheet_mm", "remnant_percent"})
         if (json.find(key)) complain(fmt::format("{} has a meaning beside per_sheet alone", key));
     made.least_remnant_mm = number(json, "least_remnant_mm", 0, 1e6, false);
-    const auto [place, is_new] =
-        first_.emplace(std::tuple(made.material, made.thickness, made.sheet ? made.sheet->width_mm : 0,
-                                  made.sheet ? made.sheet->height_mm : 0),
-                       entry);
-    if (!is_new && !made.material.empty() && made.thickness > 0 && by_sheet == made.sheet.has_value())
-      complain(fmt::format("{} is material {} already", described_rate(made), place->second));
+    if (by_sheet == made.sheet.has_value() && !made.material.empty() && made.thickness > 0) {
+      const auto [place, is_new] =
+          first_.emplace(std::tuple(made.material, made.thickness, made.sheet ? made.sheet->width_mm : 0,
+                                    made.sheet ? made.sheet->height_mm : 0),
+                         entry);
+      if (!is_new) complain(fmt::format("{} is material {} already", described_rate(made), place->second));
+    }
     rates_.materials.push_back(std::move(made));
   }
 

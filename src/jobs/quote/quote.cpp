@@ -78,11 +78,16 @@ class Quoter {
     if (material.name.empty()) material.name = options_.material;
     if (material.thickness == 0) material.thickness = geom::grid_from_mm(options_.thickness_mm);
     if (!material.name.empty() && material.thickness != 0) return material;
-    return failure(
-        ErrorCode::usage,
-        named(layout, fmt::format("stock {} says no {}, so nobody knows its rate: say {}{}", stock.id,
-                                  material.name.empty() ? "material" : "thickness", options_.prefix,
-                                  material.name.empty() ? "material NAME" : "thickness MM")));
+    const bool none = material.name.empty() && material.thickness == 0;
+    const char* const missing = none                    ? "neither material nor thickness"
+                                : material.name.empty() ? "no material"
+                                                        : "no thickness";
+    std::string say;
+    if (material.name.empty()) say += options_.prefix + "material NAME";
+    if (material.thickness == 0) say += (none ? " and " : "") + options_.prefix + "thickness MM";
+    return failure(ErrorCode::usage,
+                   named(layout, fmt::format("stock {} says {}, so nobody knows its rate: say {}", stock.id,
+                                             missing, say)));
   }
 
   /// The process of a layout is for what the options say, or else for what all its stock in use is of.
