@@ -155,7 +155,9 @@ TEST_F(StockCommand, AnOrderThatIsKilledIsAllocatedWithItsLayoutOrNotAtAll) {
     (void)program.wait();
     expect_true();
     for (const Json& one : book()["orders"])
-      if (one["id"] == order) EXPECT_EQ(stock({"cancel", "shop", order}).status, 0);
+      if (one["id"] == order) {
+        EXPECT_EQ(stock({"cancel", "shop", order}).status, 0);
+      }
   }
   for (const Json& item : book()["items"]) EXPECT_EQ(item["state"], "free");
 }

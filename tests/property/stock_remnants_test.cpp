@@ -153,8 +153,9 @@ void expect_laws(const Document& document, const std::vector<Remnant>& left, con
     const geom::GridRegion& outline = left[i].outline;
     EXPECT_TRUE(phi::lies_within(sheet, outline)) << name;
     EXPECT_TRUE(keeps_rule(left[i], rule)) << name;
-    if (left[i].rectangle.low != left[i].rectangle.high)
+    if (left[i].rectangle.low != left[i].rectangle.high) {
       EXPECT_TRUE(phi::lies_within(outline, geom::rectangle(left[i].rectangle))) << name;
+    }
     for (const Placement& placement : document.placements) {
       const Part& part = document.parts[placement.part];
       const geom::GridRegion lying = placed_outline(part, placement);
