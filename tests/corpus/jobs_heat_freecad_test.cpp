@@ -18,7 +18,7 @@ std::string bytes_of(const std::string& name) {
 }
 
 HeatJob job_of(const std::string& program, const std::string& pocket) {
-  return cases::heat_job(bytes_of(program), bytes_of(pocket), "60x50x12", 0.3, 3);
+  return cases::heat_job(bytes_of(program), bytes_of(pocket), "60x50x12", 0.3, 4);
 }
 
 /// The lines of a program before its finishing pass, which stay as they are.
@@ -49,7 +49,6 @@ TEST(JobsHeatFreecad, AProgramInInchesStaysInInches) {
   // In a vice the workpiece grows along Y alone, which no scaling mends.
   HeatJob job = job_of("rectangle_inch.ngc", "rectangle.json");
   job.holding.held[heat::of(heat::Side::x_low)] = job.holding.held[heat::of(heat::Side::x_high)] = true;
-  job.pitch = 4;
   const auto [found, made] = cases::corrected_heat(job);
   EXPECT_GT(found.scaling.left.largest(), 1);
   cases::expect_better(found, made);
@@ -62,7 +61,6 @@ TEST(JobsHeatFreecad, AProgramInInchesStaysInInches) {
 TEST(JobsHeatFreecad, DecimalsThatAreTooCoarseAreNamed) {
   HeatJob job = job_of("rectangle_inch.ngc", "rectangle.json");
   job.source.machining.control = words::Control::fanuc;
-  job.pitch = 4;
   const auto [found, made] = cases::corrected_heat(job);
   EXPECT_EQ(made.program, "");
   EXPECT_NE(made.why_not.find("of which 1.80 um may be the decimals of the program"), std::string::npos)
