@@ -276,11 +276,10 @@ TEST(CliExport, PiercesAndJointsAreSaidAndConfirmed) {
     EXPECT_NE(ran.err.find("; every pierce of 2 mm is clear of parts and of earlier cuts; "),
               std::string::npos)
         << ran.err;
-    EXPECT_NE(ran.err.find(" joints of 0.5 mm hold "), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find("; joints of 0.5 mm: "), std::string::npos) << ran.err;
     const Ran verified = run(folder.path(), verify + joints + pierce);
     EXPECT_EQ(verified.status, 0) << verified.err;
-    EXPECT_NE(verified.err.find("whether parts would tip without them, or need more, was not"),
-              std::string::npos);
+    EXPECT_NE(verified.err.find("whether parts would tip without them"), std::string::npos);
     EXPECT_EQ(run(folder.path(), verify).status, 4) << "contours are open";
     EXPECT_EQ(run(folder.path(), verify + Words{"--joint-width", "0.6"}).status, 4);
     EXPECT_EQ(run(folder.path(), verify + joints + Words{"--pierce-diameter", "9"}).status, 4);

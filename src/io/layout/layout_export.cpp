@@ -139,8 +139,8 @@ std::string pierces_and_joints(const nc::ProfileProgram& p, const nc::ProfileOpt
     said += fmt::format("; {} cuts begin nearer than {:g} mm to the cut before, the nearest {:.1f} mm",
                         p.near_starts, profile.heat_spread_mm, p.nearest_start_mm);
   if (profile.joints.wanted())
-    said += fmt::format("; {} joints of {:g} mm hold {} parts", p.joints, profile.joints.width_mm,
-                        p.jointed_parts);
+    said += fmt::format("; joints of {:g} mm: {}, parts that they hold: {}", profile.joints.width_mm,
+                        p.joints, p.jointed_parts);
   if (!p.unheld.empty())
     said += fmt::format("; placements that lie in a hole have no joints, because its slug falls: {}",
                         joined_text(p.unheld, ", "));

@@ -179,10 +179,11 @@ class ProfileCheck {
         break;
       }
     }
-    report_.notes.push_back(fmt::format(
-        "{} joints of {} mm on {} contours were rechecked; whether parts would tip without them, or need "
-        "more, was not",
-        joints.size(), words_.joint_width_mm, held));
+    report_.notes.push_back(
+        fmt::format("joints of {} mm that were rechecked: {}, contours with joints: {}; whether parts would "
+                    "tip without them, "
+                    "or need more, was not",
+                    words_.joint_width_mm, joints.size(), held));
   }
 
   /// The disc of a pierce lies clear of every part, and it and the lead are clear of the kerfs before.
