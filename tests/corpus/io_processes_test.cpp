@@ -34,6 +34,18 @@ TEST(ProcessSchema, AcceptsTheExampleAndWhatMayBeLeftOut) {
   Json pierced = example();
   pierced["processes"][5]["pierce_s"] = 0;
   texts.push_back(pierced.dump());
+  Json held = example();
+  for (const auto& [key, value] : {std::pair<const char*, Json>{"joints", "tipping"},
+                                   {"joint_width_mm", 0.5},
+                                   {"joints_up_to_mm", 300},
+                                   {"slat_pitch_mm", 60},
+                                   {"slats", "x"},
+                                   {"heat_spread_mm", 40}})
+    held["processes"][0][key] = value;
+  held["processes"][5]["joints"] = 2;
+  held["processes"][5]["joint_width_mm"] = 3;
+  held["processes"][5]["tab_height_mm"] = 1;
+  texts.push_back(held.dump());
   const auto said = cases::schema_verdicts(kSchema, texts);
   ASSERT_EQ(said.size(), texts.size());
   for (std::size_t i = 0; i < said.size(); ++i) {
@@ -72,6 +84,17 @@ TEST(ProcessSchema, RefusesWhatTheReaderRefuses) {
                              {"/processes/1/holes/0/feed", "2"},
                              {"/processes/5/pass_mm", "0"},
                              {"/processes/5/safe_height_mm", "0"},
+                             {"/processes/0/heat_spread_mm", "-1"},
+                             {"/processes/0/pierce_diameter_mm", "0"},
+                             {"/processes/0/joints", "2"},
+                             {"/processes/0/joints", "\"2\""},
+                             {"/processes/0/joint_width_mm", "1"},
+                             {"/processes/0/joints_up_to_mm", "100"},
+                             {"/processes/0/slat_pitch_mm", "60"},
+                             {"/processes/0/slats", "\"z\""},
+                             {"/processes/0/tab_height_mm", "1"},
+                             {"/processes/5/tab_height_mm", "1"},
+                             {"/processes/5/pierce_diameter_mm", "8"},
                              {"/processes/5/pierce_s", "1"}}) {
     Json changed = example();
     const std::string place = wrong.place;

@@ -110,5 +110,41 @@ TEST(NcProfileRs274, TheInterpreterCutsBesideEveryPart) {
   EXPECT_GT(arcs, 30U);
 }
 
+TEST(NcProfileRs274, TheInterpreterStopsBeforeJointsAndRisesOverTabs) {
+  for (std::size_t index = 0; index < cases::case_count(3); ++index) {
+    SCOPED_TRACE(fmt::format("seed {} case {}", cases::seed(), index));
+    const std::vector<ProfilePart> parts = cases::random_parts(cases::seed(), 700 + index);
+    ProfileOptions options;
+    options.process = static_cast<Process>(index % 3);
+    options.kerf_mm = 0.3, options.lead_in_mm = 1, options.feed_mm_per_min = 1500, options.speed = 9000;
+    if (options.process == Process::router)
+      options.depth_mm = 6, options.pass_mm = 2.5, options.plunge_mm_per_min = 200,
+      options.joints.tab_height_mm = 1.5;
+    else
+      options.pierce_diameter_mm = 0.5;
+    options.joints.rule = JointRule::count, options.joints.count = 2, options.joints.width_mm = 0.4;
+    const auto made = profile_program(parts, "random", options);
+    ASSERT_TRUE(made) << made.error().message;
+    ASSERT_GT(made->joints, 0U);
+    const rs274::Run run = oracle().run(made->text);
+    ASSERT_TRUE(run.accepted) << run.errors << made->text;
+    const Swept sum = swept(run.calls, parts, options.kerf_mm);
+    EXPECT_LE(double(sum.deepest), made->deepest_mm + 1.5e-4) << made->text;
+    if (options.process != Process::router) {
+      EXPECT_EQ(sum.spindle_starts, made->cuts - made->jointed_parts + made->joints);
+      continue;
+    }
+    // In the last pass the tool rises to the tabs as often as there are joints.
+    std::size_t tabs = 0;
+    double z = 0;
+    for (const rs274::Call& call : run.calls)
+      if (call.straight()) {
+        if (call.numbers[2] > -4.5 - 1e-6 && call.numbers[2] < -4.5 + 1e-6 && z < -5.9) ++tabs;
+        z = call.numbers[2];
+      }
+    EXPECT_EQ(tabs, made->joints);
+  }
+}
+
 }  // namespace
 }  // namespace lekalo::nc::nc_profile_rs274_test

@@ -261,6 +261,105 @@ TEST(CliExport, HolesThatAreCutSlowerAreSaidAndConfirmed) {
   EXPECT_NE(program.find(" F2500.0\n"), std::string::npos) << program;
 }
 
+TEST(CliExport, PiercesAndJointsAreSaidAndConfirmed) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plates.json", plates().dump());
+  const Words cut{"export", "plates.json", "--sheet", "s#1",    "--format", "gcode",     "-o",
+                  "cut.nc", "--kerf",      "0.4",     "--feed", "2000",     "--lead-in", "3"};
+  const Words joints{"--joint-width", "0.5"}, pierce{"--pierce-diameter", "2"};
+  const Words verify{"verify", "cut.nc", "--layout", "plates.json", "--sheet", "s#1", "--kerf", "0.4"};
+  for (const Words& more : {Words{"--joints", "2"}, Words{"--joints", "tipping", "--slat-pitch", "60"},
+                            Words{"--joints", "1", "--unit", "inch"}, Words{"--joints-of", "1=3"},
+                            Words{"--joints", "2", "--post", "fanuc", "--lead", "arc"}}) {
+    const Ran ran = run(folder.path(), cut + joints + pierce + more);
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_NE(ran.err.find("; every pierce of 2 mm is clear of parts and of earlier cuts; "),
+              std::string::npos)
+        << ran.err;
+    EXPECT_NE(ran.err.find("; joints of 0.5 mm: "), std::string::npos) << ran.err;
+    const Ran verified = run(folder.path(), verify + joints + pierce);
+    EXPECT_EQ(verified.status, 0) << verified.err;
+    EXPECT_NE(verified.err.find("whether parts would tip without them"), std::string::npos);
+    EXPECT_EQ(run(folder.path(), verify).status, 4) << "contours are open";
+    EXPECT_EQ(run(folder.path(), verify + Words{"--joint-width", "0.6"}).status, 4);
+    EXPECT_EQ(run(folder.path(), verify + joints + Words{"--pierce-diameter", "9"}).status, 4);
+  }
+  const Ran routed =
+      run(folder.path(), cut + joints +
+                             Words{"--joints", "2", "--process", "router", "--depth", "6", "--pass", "2",
+                                   "--plunge", "200", "--speed", "9000", "--tab-height", "1.5"});
+  ASSERT_EQ(routed.status, 0) << routed.err;
+  EXPECT_NE(read_bytes(folder / "cut.nc").find("G1 Z-4.5000"), std::string::npos);
+  const Ran verified = run(folder.path(), verify + joints);
+  EXPECT_EQ(verified.status, 0) << verified.err;
+}
+
+TEST(CliExport, PiercesAndJointsThatWillNotDoAreRefusedInOneSentence) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plates.json", plates().dump());
+  const Words cut{"--format", "gcode", "--kerf", "0.4", "--feed", "2000"};
+  const Words router{"--process", "router", "--depth", "6", "--plunge", "200", "--speed", "9000"};
+  struct Case {
+    Words words;
+    int status;
+    std::string says;
+  };
+  const std::vector<Case> wrong{
+      {{"--pierce-diameter", "0.3"}, 2, "--pierce-diameter 0.3: has to be at least the kerf of 0.4 mm"},
+      {{"--pierce-diameter", "8", "--lead-in", "3"},
+       2,
+       "--lead-in 3: a pierce of 8 mm and a kerf of 0.4 mm need a lead of at least 3.8 mm"},
+      {{"--pierce-diameter", "wide"}, 2, "--pierce-diameter wide: has to be a number from 0.01 to 100"},
+      {router + Words{"--pierce-diameter", "2"}, 2, "--pierce-diameter has no meaning for routers"},
+      {{"--pierce-diameter", "11", "--lead-in", "6"},
+       3,
+       "there is no room for a pierce of 11 mm with a lead of 6 mm or less, clear of every part, for hole 1 "
+       "of placement 1, hole 1 of placement 2"},
+      {{"--heat-spread", "-3"}, 2, "--heat-spread -3: has to be a number from 0 to 10000"},
+      {{"--joints", "2"}, 2, "--joint-width is missing: the material that a joint leaves, in mm"},
+      {{"--joints", "0", "--joint-width", "1"},
+       2,
+       "--joints 0: has to be tipping, or a whole number from 1 to 20"},
+      {{"--joints", "tipping", "--joint-width", "1"}, 2, "--slat-pitch is missing: how far apart the slats"},
+      {{"--joints", "2", "--joint-width", "1", "--slat-pitch", "60"},
+       2,
+       "--slat-pitch says nothing without --joints tipping"},
+      {{"--joint-width", "1"}, 2, "--joint-width says nothing without --joints"},
+      {{"--joints", "2", "--joint-width", "60"}, 2, "--joint-width 60: has to be a number from 0.05 to 50"},
+      {{"--joints", "2", "--joint-width", "40"}, 3, "there is no room for joints of 40 mm"},
+      {{"--joints-of", "1", "--joint-width", "1"},
+       2,
+       "--joints-of 1: has to be numbers of placements with 0 to 20 joints each"},
+      {{"--joints-of", "1=2,1=3", "--joint-width", "1"},
+       2,
+       "--joints-of 1=2,1=3: placement 1 stands there twice"},
+      {{"--joints-of", "9=2", "--joint-width", "1"}, 2, "there is no placement 9 to have 2 joints"},
+      {{"--slats", "z", "--joints", "tipping", "--joint-width", "1", "--slat-pitch", "60"},
+       2,
+       "--slats z: has to be one of x, y"},
+      {{"--joints", "2", "--joint-width", "1", "--tab-height", "1"},
+       2,
+       "--tab-height has a meaning for routers alone"},
+      {router + Words{"--joints", "2", "--joint-width", "1"}, 2,
+       "--tab-height is missing: how high the tabs"},
+      {router + Words{"--joints", "2", "--joint-width", "1", "--tab-height", "6"}, 2,
+       "--tab-height 6: has to be below the depth of 6 mm"}};
+  for (const auto& [words, status, says] : wrong) {
+    const Ran ran = run(folder.path(), Words{"export", "plates.json", "--sheet", "s#1"} + cut + words);
+    EXPECT_EQ(ran.status, status) << says << ran.err;
+    EXPECT_NE(ran.err.find(says), std::string::npos) << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+    EXPECT_EQ(ran.out, "");
+  }
+  for (const std::string option : {"--pierce-diameter", "--joint-width"}) {
+    write_bytes(folder / "cut.nc", "G21\nM2\n");
+    const Ran ran = run(folder.path(), {"verify", "cut.nc", "--layout", "plates.json", option, "1"});
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_NE(ran.err.find(option + " is rechecked with --layout FILE and --kerf MM"), std::string::npos)
+        << ran.err;
+  }
+}
+
 TEST(CliExport, ProcessesThatWillNotDoAreRefusedInOneSentence) {
   const TemporaryFolder folder;
   write_bytes(folder / "plates.json", plates().dump());

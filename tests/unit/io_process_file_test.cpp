@@ -249,7 +249,10 @@ TEST(ProcessFile, WhatIsWrongIsToldWithItsEntry) {
        "speed, "
        "pierce_s, lead, lead_in_mm, depth_mm, pass_mm, plunge_mm_per_min, safe_height_mm, "
        "engrave_feed_mm_per_min, "
-       "engrave_speed, engrave_depth_mm and holes"},
+       "engrave_speed, engrave_depth_mm, "
+       "pierce_diameter_mm, "
+       "heat_spread_mm, joints, joints_up_to_mm, joint_width_mm, slat_pitch_mm, slats, tab_height_mm and "
+       "holes"},
       {with(laser(), "depth_mm", 3), "depth_mm has a meaning for routers alone: process router"},
       {with(laser(), "safe_height_mm", 3), "safe_height_mm has a meaning for routers alone: process router"},
       {with(laser(), "post", "grbl"),
@@ -259,6 +262,30 @@ TEST(ProcessFile, WhatIsWrongIsToldWithItsEntry) {
       {without(router(), "plunge_mm_per_min"),
        "plunge_mm_per_min is missing: how fast a router goes down, in mm/min"},
       {with(router(), "pierce_s", 1), "pierce_s has no meaning for routers: leave it out"},
+      {with(router(), "pierce_diameter_mm", 8),
+       "pierce_diameter_mm has no meaning for routers: leave it out"},
+      {with(laser(), "pierce_diameter_mm", 0.05),
+       "pierce_diameter_mm 0.05: has to be at least the kerf of 0.2 mm"},
+      {with(with(laser(), "pierce_diameter_mm", 5), "lead_in_mm", 2),
+       "lead_in_mm 2: a pierce of 5 mm and a kerf of 0.2 mm need a lead of at least 2.4 mm, or the pierce "
+       "burns "
+       "into the part"},
+      {with(laser(), "heat_spread_mm", -1), "heat_spread_mm -1: has to be a number from 0 to 10000"},
+      {with(laser(), "joints", 2), "joint_width_mm is missing: the material that a joint leaves, in mm"},
+      {with(laser(), "joints", 21), "joints 21: has to be tipping, or a whole number from 1 to 20"},
+      {with(laser(), "joints", 1.5), "joints 1.5: has to be tipping, or a whole number from 1 to 20"},
+      {with(laser(), "joints", "2"), "joints \"2\": a number stands without quotation marks"},
+      {with(laser(), "joints", "many"), "joints many: has to be tipping, or a whole number from 1 to 20"},
+      {with(with(laser(), "joints", "tipping"), "joint_width_mm", 0.5),
+       "slat_pitch_mm is missing: how far apart the slats of the table are, in mm"},
+      {with(laser(), "slat_pitch_mm", 60), "slat_pitch_mm says nothing without joints tipping"},
+      {with(laser(), "joint_width_mm", 0.5), "joint_width_mm says nothing without joints"},
+      {with(laser(), "joints_up_to_mm", 100), "joints_up_to_mm says nothing without joints"},
+      {with(laser(), "tab_height_mm", 1), "tab_height_mm has a meaning for routers alone: process router"},
+      {with(with(router(), "joints", 2), "joint_width_mm", 3),
+       "tab_height_mm is missing: how high the tabs of a router are, in mm"},
+      {with(with(with(router(), "joints", 2), "joint_width_mm", 3), "tab_height_mm", 100),
+       "tab_height_mm 100: has to be below the depth of 12.5 mm"},
       {hole(3), "holes has to be a list of at most 100 rows"},
       {Json(7), "an object is needed, not a number"},
   };

@@ -364,6 +364,109 @@ TEST(VerifyProfile, ACutThatLeavesAStretchOutIsNone) {
             "line 22: the cut follows no contour of a part\nthe outline of placement 2 is not cut\n");
 }
 
+std::string judged_by(const std::string& layout, const std::string& cut, const ProfileWords& words) {
+  const std::string program = kModes + cut + "M2\n";
+  const Result<ClaimReport> report = verify_profile({"p.nc", program}, {"l.json", layout}, words);
+  if (!report) return report.error().message;
+  std::string text;
+  for (const std::string& finding : report->findings) text += finding + "\n";
+  return text;
+}
+ProfileWords with_joints(double width, double pierce = 0) {
+  ProfileWords words;
+  words.kerf_mm = 1, words.joint_width_mm = width, words.pierce_diameter_mm = pierce;
+  return words;
+}
+
+const std::string kRight = "G1 X30\nG3 X30.5 Y0 I0 J0.5\n",
+                  kAbove = "G1 Y30\nG3 X30 Y30.5 I-0.5 J0\nG1 X0\nG3 X-0.5 Y30 I0 J-0.5\n",
+                  kLeft = "G1 Y0\nG3 X0 Y-0.5 I0.5 J0\nG1 X14\n", kToTheJoint = kRight + kAbove + kLeft;
+
+TEST(VerifyProfile, JointsStayAsWideAsStatedAndAllElseIsCut) {
+  // About a plate of 30 mm; the kerf of 1 mm ends at X14 and goes on at X15.5.
+  const std::string one = "G0 X15.5 Y-0.5\nM3\n" + kToTheJoint + "M5\n";
+  EXPECT_EQ(judged_by(plate(), one, with_joints(0.5)), "");
+  EXPECT_EQ(
+      judged_by(plate(), one, with_joints(0.494)),
+      "line 4: the cut along the outline of placement 1 ends 0.5000 mm before it goes on, and a joint of "
+      "0.494 mm is stated\n");
+  EXPECT_EQ(judged_by(plate(), one, with_joints(0.496)), "");
+  EXPECT_EQ(judged_by(plate(), one, with_joints(0)),
+            "line 4: the cut is not closed\nthe outline of placement 1 is not cut\n");
+  const std::string with_lead = "G0 X15.5 Y-4\nM3\nG1 Y-0.5\n" + kToTheJoint + "M5\n";
+  EXPECT_EQ(judged_by(plate(), with_lead, with_joints(0.5)), "");
+  EXPECT_EQ(judged_by(plate(), with_lead, with_joints(0.5, 2)), "");
+  EXPECT_NE(judged_by(plate(), one, with_joints(0.5, 2)).find("line 4: the pierce of 2 mm enters a part"),
+            std::string::npos);
+  // A pierce beside the joint burns it away, and so does a cut across the sheet that it hangs on.
+  std::string near = with_lead;
+  near.replace(near.find("Y-4"), 3, "Y-1.6");
+  EXPECT_EQ(judged_by(plate(), near, with_joints(0.5, 2)),
+            "line 4: what is burnt enters the joint behind line 4\n");
+  std::string across = with_lead;
+  across.replace(across.find("Y-4\nM3"), 6, "Y-1.7\nM3\nG1 X13");
+  EXPECT_NE(judged_by(plate(), across, with_joints(0.5)), "");
+  const std::string first = "G0 X15.5 Y-0.5\nM3\n" + kRight + "G1 Y14\nM5\n",
+                    second = "G0 X30.5 Y15.5\nM3\n" + kAbove + "G1 Y14\nM5\n",
+                    third = "G0 X-0.5 Y12.5\nM3\n" + kLeft + "M5\n";
+  EXPECT_EQ(judged_by(plate(), first + second + third, with_joints(0.5)), "");
+  EXPECT_NE(judged_by(plate(), first + third, with_joints(0.5)), "");
+  EXPECT_NE(judged_by(plate(), first + first + second + third, with_joints(0.5)), "");
+}
+
+TEST(VerifyProfile, TabsAreWhatIsCutLessDeep) {
+  const auto at = [](double z, const std::string& way) { return fmt::format("G1 Z{}\n", z) + way; };
+  const std::string over = "G1 X15.5\n";
+  const auto program = [&](double tab) {
+    return "G0 Z5\nM3\nG0 X15.5 Y-0.5\n" + at(-2, kToTheJoint + over) + at(-6, kToTheJoint) + at(tab, over) +
+           "G0 Z5\nM5\n";
+  };
+  EXPECT_EQ(judged_by(plate(), program(-4), with_joints(0.5)), "");
+  EXPECT_NE(judged_by(plate(), program(-6), with_joints(0.5)), "") << "nothing stays";
+}
+
+TEST(VerifyProfile, PiercesAndLeadsMeetNoKerfThatIsThere) {
+  ProfileWords words = with_joints(0, 2);
+  const auto led = [](double x, double y, double size, double lead) {
+    return fmt::format("G0 X{0} Y{1}\nM3\nG1 Y{2}\n", x, y - lead, y - 0.5) +
+           way_round(x, y, size, size, 0.5) + "M5\n";
+  };
+  const std::string inside = "G0 X20 Y20\nM3\nG1 X20 Y16.5\nX23.5\nY23.5\nX16.5\nY16.5\nX20\nM5\n";
+  EXPECT_EQ(judged_by(layout_text(), inside + led(10, 10, 20, 4) + led(50, 10, 10, 4), words), "");
+  // The kerf about the ring has a corner about (30, 10).
+  const auto said = [&](double x) {
+    return judged_by(layout_text(),
+                     inside + led(10, 10, 20, 4) + fmt::format("G0 X{} Y9.5\nM3\nG1 X50\n", x) +
+                         way_round(50, 10, 10, 10, 0.5) + "M5\n",
+                     words);
+  };
+  EXPECT_EQ(said(32), "");
+  EXPECT_NE(said(31.8).find("the pierce or its lead meets a kerf that is there before it"),
+            std::string::npos);
+}
+
+TEST(VerifyProfile, WhatSeveralKerfsFreeTogetherIsLoose) {
+  cases::Json layout = cases::empty_layout();
+  cases::add_part(layout, "plate", cases::outline_json(cases::rectangle(0, 0, 10, 10)));
+  std::vector<std::string> cuts;
+  for (const double y : {10.0, 21.2, 32.4})
+    for (const double x : {10.0, 21.2, 32.4}) {
+      cases::place(layout, "plate", x, y);
+      cuts.push_back(around(x, y, 10, 10, 0.5));
+    }
+  std::string outer;
+  for (const std::size_t i : {0, 1, 2, 3, 5, 6, 7, 8}) outer += cuts[i];
+  EXPECT_EQ(judged_on(layout.dump(), cuts[4] + outer), "");
+  const std::string said = judged_on(layout.dump(), outer + cuts[4]);
+  EXPECT_NE(said.find("the outline of placement 5 is cut when the kerfs before it have made it loose"),
+            std::string::npos)
+      << said;
+  // With one neighbour left the middle still hangs on it.
+  EXPECT_EQ(judged_on(layout.dump(), cuts[0] + cuts[1] + cuts[2] + cuts[3] + cuts[5] + cuts[6] + cuts[8] +
+                                         cuts[4] + cuts[7]),
+            "");
+}
+
 TEST(VerifyProfile, OneSheetIsCutByOneProgram) {
   cases::Json layout = cases::Json::parse(layout_text());
   layout["stocks"][0]["count"] = 2;

@@ -40,6 +40,8 @@ Result<void> check_words(const VerifyOptions& o, Kind kind) {
        {Kind::layout, Kind::nest_report, Kind::check_report, Kind::show_report, Kind::program, Kind::dxf,
         Kind::svg, Kind::hpgl}},
       {"--kerf", o.kerf.has_value(), {Kind::program}},
+      {"--pierce-diameter", o.pierce_diameter.has_value(), {Kind::program}},
+      {"--joint-width", o.joint_width.has_value(), {Kind::program}},
       {"--tolerance", o.tolerance.has_value(), {Kind::program, Kind::hpgl}},
       {"--sheet", !o.export_words.sheet.empty(), {Kind::program, Kind::dxf, Kind::svg, Kind::hpgl}},
       {"--only", !o.export_words.only.empty(), {Kind::dxf, Kind::svg, Kind::hpgl}},
@@ -96,7 +98,9 @@ Result<int> verify_other(const VerifyOptions& o, const std::string& bytes, Kind 
   LEKALO_TRY(beside.after, read_earlier(o.after));
   beside.export_words = o.export_words;
   if (o.kerf)
-    beside.profile = {o.export_words.sheet, *o.kerf, o.tolerance.value_or(0.01), o.machining.control};
+    beside.profile = {o.export_words.sheet,          *o.kerf,
+                      o.tolerance.value_or(0.01),    o.machining.control,
+                      o.pierce_diameter.value_or(0), o.joint_width.value_or(0)};
   beside.export_words.chord_tolerance = o.tolerance.value_or(0.02);
   LEKALO_TRY(const jobs::VerifiedClaims verified, jobs::verify_claims({o.result, bytes}, beside, find));
   if (o.json) LEKALO_CHECK(print(verified.json));

@@ -61,7 +61,7 @@ struct VerifyOptions {
   verify::SimulateOptions machining;
   std::vector<EarlierFile> after;
   verify::ExportWords export_words;
-  std::optional<double> kerf, tolerance;
+  std::optional<double> kerf, tolerance, pierce_diameter, joint_width;
   bool json = false;
 };
 

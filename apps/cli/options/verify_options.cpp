@@ -2,6 +2,7 @@
 #include <iterator>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 #include "after_words.hpp"
 #include "control_word.hpp"
@@ -15,7 +16,7 @@ namespace {
 /// The words of the command line as they were typed, where they are to become numbers.
 struct VerifyWords {
   VerifyOptions options;
-  std::string tool, stock_to_leave, top, kerf, tolerance, only, control;
+  std::string tool, stock_to_leave, top, kerf, tolerance, pierce_diameter, joint_width, only, control;
   std::vector<std::string> after;
 };
 
@@ -45,6 +46,17 @@ Result<Command> to_verify(const VerifyWords& w) {
   if (!w.tolerance.empty())
     read.number("--tolerance", w.tolerance, 1e-4, 25.0, "a length from 0.0001 to 25 mm",
                 o.tolerance.emplace());
+  if (!w.pierce_diameter.empty())
+    read.number("--pierce-diameter", w.pierce_diameter, 0.01, 100.0, "a diameter from 0.01 to 100 mm",
+                o.pierce_diameter.emplace());
+  if (!w.joint_width.empty())
+    read.number("--joint-width", w.joint_width, 0.05, 50.0, "a width from 0.05 to 50 mm",
+                o.joint_width.emplace());
+  for (const auto& [option, given] : {std::pair{"--pierce-diameter", o.pierce_diameter.has_value()},
+                                      {"--joint-width", o.joint_width.has_value()}})
+    read.require(
+        !given || o.kerf.has_value(),
+        fmt::format("{} is rechecked with --layout FILE and --kerf MM, the width of the cut", option));
   read_control(read, w.control, o.machining.control);
   read_layers(read, w.only, o.export_words.only);
   if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint());
@@ -80,6 +92,9 @@ Typed add_verify_form(Form& form) {
   add("--kerf", w.kerf, "MM", "Width of the cut of a profile program");
   add("--tolerance", w.tolerance, "MM",
       "As for export: of chords in a plot [0.02], or how far the kerf may enter a part [0.01]");
+  add("--pierce-diameter", w.pierce_diameter, "MM",
+      "What a pierce of a profile program burns: rechecked to be clear of parts and of earlier cuts");
+  add("--joint-width", w.joint_width, "MM", "The joints of a profile program: rechecked to stay, so wide");
   add("--sheet", o.export_words.sheet, "SHEET", "The sheet of an export or a profile program, as for export");
   add("--only", w.only, "LAYER,...", "The layers of an export that has not all, as for export");
   add("--json", o.json, "Print the report as JSON on stdout");

@@ -10,6 +10,7 @@
 #include "lekalo/base/units.hpp"
 #include "lekalo/geom/region.hpp"
 #include "lekalo/nc/dialect.hpp"
+#include "lekalo/nc/joints.hpp"
 #include "lekalo/nc/profile_marks.hpp"
 
 namespace lekalo::nc {
@@ -69,7 +70,16 @@ struct ProfileOptions {
   /// In ascending order of their diameters; the first that a hole fits is how it is cut.
   std::vector<HoleCut> holes;
   /// Nothing: no mark is engraved.
-  std::optional<Engraving> engraving{};
+  std::optional<Engraving> engraving {  /// The diameter of the disc that a pierce burns, from the kerf to
+                                        /// 100; not for routers. Every disc then
+    /// lies outside of every part, but for the tolerance, and clear of the kerfs of all cuts before. 0: it is
+    /// not known, and nothing is promised of it.
+    double pierce_diameter_mm = 0;
+    /// A cut begins at least so far from all of the cut before, where there is a choice, 0 to 10000; 0: the
+    /// shortest travels.
+    double heat_spread_mm = 0;
+    JointOptions joints;
+  };
 };
 
 /// The lines of a program that cut one contour, its travel and its remark among them.
@@ -99,7 +109,20 @@ struct ProfileProgram {
   /// all of a slot that is narrower than the kerf.
   double left_over_mm = 0;
   std::uint64_t left_over_of = 0;
+  /// Leads that run into the kerf of an earlier cut; none where the diameter of pierces is known.
+  std::size_t crossed_leads = 0;
+  /// Cuts that begin nearer to the cut before than heat_spread_mm, and the least of all these distances.
+  std::size_t near_starts = 0;
+  double nearest_start_mm = 0;
+  /// How many joints hold how many parts, and the parts that want joints but lie in a hole of another part,
+  /// where a joint would hold on to a slug that falls: they have none.
+  std::size_t joints = 0, jointed_parts = 0;
+  std::vector<std::uint64_t> unheld;
 };
+
+/// Returns the shortest lead whose pierce lies clear of the contour that it leads to, mm; 0 where the
+/// diameter of pierces is not stated, or is no larger than the kerf and the tolerance on either side.
+[[nodiscard]] double least_lead_mm(const ProfileOptions& options) noexcept;
 
 /// \pre parts do not overlap (of two in the same place neither's kerf enters the other)
 ///
@@ -109,8 +132,12 @@ struct ProfileProgram {
 ///
 /// Fails with ErrorCode::usage for options out of their ranges, and with ErrorCode::bad_input where the parts
 /// cannot be cut with this kerf: a hole or the mouth of a notch narrower than the kerf (naming the part), or
-/// a cut that would enter a part by more than the tolerance (naming both). The operator gets no program in
-/// which such a cut is left.
+/// a cut that would enter a part by more than the tolerance (naming both), where a pierce of the stated
+/// diameter has no place (naming all such cuts), and where joints have none (naming all such parts). The
+/// operator gets no program in which such a cut is left.
+///
+/// Nothing is cut that is loose: besides what lies in a hole or an outline, parts whose neighbours' kerfs
+/// close round them come before the last of these (docs/design/cut-order.md).
 ///
 /// The proof (deepest_mm) knows nothing of how the paths were made: it reads the rounded numbers. Every edge
 /// of a path keeps kerf / 2 - tolerance from every edge of every part (geom/edge_distance.hpp, its error and

@@ -167,13 +167,18 @@ struct ProfileWords {
   double kerf_mm = 0;          ///< above 0
   double tolerance_mm = 0.01;  ///< what the kerf may enter a part by
   words::Control control = words::Control::linuxcnc;
+  double pierce_diameter_mm = 0;  ///< of the disc that a pierce burns; 0: nothing is said of it
+  double joint_width_mm = 0;      ///< of the joints that hold parts; 0: every contour is cut all round
 };
 
 /// Holds a profile program against its layout: nothing of a cut, its leads among it, comes nearer to a part
 /// than half the kerf less the tolerance; every contour of every part on the sheet is followed all round by a
 /// closed cut on its waste side, and no cut follows anything else; what is enclosed is cut before what
-/// encloses it. That a contour is followed without a break is looked at every millimetre. Depth, feeds and
-/// power are not claims. Modes that the program does not say are unchecked: the control decides them.
+/// encloses it, be it a contour or kerfs of several that run into each other. Pierces of a stated diameter
+/// are clear of parts, and they and their leads of kerfs that are there before. With joints a contour may be
+/// cut in stretches, between whose ends exactly a joint stays that no other kerf or pierce enters. That a
+/// contour is followed without a break is looked at every millimetre. Depth, feeds and power are not claims.
+/// Modes that the program does not say are unchecked: the control decides them.
 ///
 /// bad_input with the line for words that lekalo does not write into such a program; usage without --sheet
 /// where several are in use. Cost: O(length of the cuts in mm) and the square of their number.

@@ -38,6 +38,11 @@ class ExportWordTaker {
   [[nodiscard]] tl::unexpected<Error> none_of(const ExportWord& word, const std::string& list) const;
   [[nodiscard]] Result<void> number(const ExportWord& word, double low, double high, double& to) const;
   [[nodiscard]] Result<void> profile_number(const ExportWord& word);
+  /// Words of pierces and joints: export_joint_words.cpp.
+  [[nodiscard]] Result<void> joint_rule(const ExportWord& word);
+  [[nodiscard]] Result<void> joints_of(const ExportWord& word);
+  void complain_of_pierces(std::vector<std::string>& complaints) const;
+  void complain_of_joints(std::vector<std::string>& complaints) const;
 
   /// Takes the words for engraving into the request.
   void complete_engraving(std::vector<std::string>& complaints);

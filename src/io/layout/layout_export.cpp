@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "hpgl_writer.hpp"
+#include "lekalo/base/joined_text.hpp"
 #include "lekalo/io/drawing/written_drawing.hpp"
 #include "lekalo/io/dxf/dxf.hpp"
 #include "lekalo/layout/check.hpp"
@@ -154,6 +155,35 @@ std::string holes_cut(std::size_t count, const nc::ProfileOptions& profile, std:
                      lead > 0 ? fmt::format("with a lead of {:g} mm", lead) : "without a lead");
 }
 
+/// Says what became of pierces, heat and joints, as the end of a sentence.
+std::string pierces_and_joints(const nc::ProfileProgram& p, const nc::ProfileOptions& profile) {
+  std::string said;
+  if (p.crossed_leads > 0)
+    said += fmt::format("; {} leads run into a kerf that is there already", p.crossed_leads);
+  if (profile.pierce_diameter_mm > 0)
+    said += fmt::format("; every pierce of {:g} mm is clear of parts and of earlier cuts",
+                        profile.pierce_diameter_mm);
+  if (profile.heat_spread_mm > 0 && p.near_starts > 0)
+    said += fmt::format("; {} cuts begin nearer than {:g} mm to the cut before, the nearest {:.1f} mm",
+                        p.near_starts, profile.heat_spread_mm, p.nearest_start_mm);
+  if (profile.joints.wanted())
+    said += fmt::format("; joints of {:g} mm: {}, parts that they hold: {}", profile.joints.width_mm,
+                        p.joints, p.jointed_parts);
+  if (!p.unheld.empty())
+    said += fmt::format("; placements that lie in a hole have no joints, because its slug falls: {}",
+                        joined_text(p.unheld, ", "));
+  return said;
+}
+
+/// Fails for a placement that is to have joints and is not there.
+Result<void> check_joints_of(const layout::Document& document, const nc::JointOptions& joints) {
+  for (const auto& [id, count] : joints.of)
+    if (std::none_of(document.placements.begin(), document.placements.end(),
+                     [id = id](const layout::Placement& placement) { return placement.id == id; }))
+      return failure(ErrorCode::usage, fmt::format("there is no placement {} to have {} joints", id, count));
+  return {};
+}
+
 Result<Exported> programmed(const std::vector<SheetShapes>& sheets, const std::string& name,
                             const ExportRequest& request) {
   Exported made;
@@ -173,6 +203,7 @@ Result<Exported> programmed(const std::vector<SheetShapes>& sheets, const std::s
       said += fmt::format("; {} leads are shorter for want of room", p.shortened_leads);
     if (p.bare_starts > 0)
       said += fmt::format("; {} cuts have no room for a lead and begin on the contour", p.bare_starts);
+    said += pierces_and_joints(p, request.profile);
     if (p.left_over_mm > request.profile.tolerance_mm)
       said += fmt::format(
           "; corners lie up to {:.3f} mm from the kerf and keep that much material, most in placement {}",
@@ -207,6 +238,7 @@ Result<Exported> export_layout(const layout::Document& document, const std::stri
   std::vector<std::string> notes;
   const std::vector<SheetShapes> shapes = detail::sheet_shapes(document, sheets, together, notes);
   const std::vector<layout::Violation> broken = layout::check(document);
+  LEKALO_CHECK(check_joints_of(document, request.profile.joints));
   if (request.form == ExportForm::gcode)
     for (const layout::Violation& violation : broken)
       if (violation.kind == layout::ViolationKind::overlap &&

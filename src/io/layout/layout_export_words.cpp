@@ -42,6 +42,9 @@ Result<void> ExportWordTaker::take(const ExportWord& word) {
     return choice(word, {{"line", nc::LeadShape::line}, {"arc", nc::LeadShape::arc}}, p.lead);
   if (name == "tolerance" && request_.form == ExportForm::hpgl)
     return number(word, 1e-4, 10, request_.chord_tolerance_mm);
+  if (name == "slats") return choice(word, {{"x", true}, {"y", false}}, p.joints.slats.along_x);
+  if (name == "joints") return joint_rule(word);
+  if (name == "joints-of") return joints_of(word);
   return profile_number(word);
 }
 
@@ -62,17 +65,19 @@ std::vector<std::string> ExportWordTaker::complete() {
     needs("depth", "how deep a router cuts, in mm");
     needs("plunge", "how fast a router goes down, in mm/min");
   }
-  for (const char* name : {"depth", "pass", "safe-height", "plunge"})
+  for (const char* name : {"depth", "pass", "safe-height", "plunge", "tab-height"})
     if (!router && was_given(name))
       complaints.push_back(
           fmt::format("{} has a meaning for routers alone: {} router", shown_(name), shown_("process")));
   if (router && p.pierce_s > 0)
     complaints.push_back(fmt::format("{} has no meaning for routers: leave it out", shown_("pierce")));
+  complain_of_joints(complaints);
   if (!was_given("tolerance")) p.tolerance_mm = std::min(p.tolerance_mm, 0.25 * p.kerf_mm);
   if (!(p.tolerance_mm <= 0.25 * p.kerf_mm))
     complaints.push_back(fmt::format("{} {:g}: has to be at most a quarter of the kerf of {:g} mm",
                                      shown_("tolerance"), p.tolerance_mm, p.kerf_mm));
   complete_engraving(complaints);
+  complain_of_pierces(complaints);
   return complaints;
 }
 
@@ -164,7 +169,13 @@ Result<void> ExportWordTaker::profile_number(const ExportWord& word) {
                             {"plunge", 0.1, 1e6, &p.plunge_mm_per_min},
                             {"engrave-feed", 0.1, 1e6, &engraving_.feed_mm_per_min},
                             {"engrave-speed", 1, 1e6, &engraving_.speed},
-                            {"engrave-depth", 0.01, 1000, &engraving_.depth_mm}};
+                            {"engrave-depth", 0.01, 1000, &engraving_.depth_mm},
+                            {"pierce-diameter", 0.01, 100, &p.pierce_diameter_mm},
+                            {"heat-spread", 0, 1e4, &p.heat_spread_mm},
+                            {"joints-up-to", 0.1, 1e4, &p.joints.up_to_mm},
+                            {"joint-width", 0.05, 50, &p.joints.width_mm},
+                            {"slat-pitch", 1, 1000, &p.joints.slats.pitch_mm},
+                            {"tab-height", 0.01, 1000, &p.joints.tab_height_mm}};
   for (const Number& one : numbers)
     if (word.first == one.name) return number(word, one.low, one.high, *one.to);
   return {};
@@ -193,7 +204,16 @@ const std::vector<ExportWordHelp>& export_words() {
       {"plunge", "MM/MIN", "gcode, router: speed downwards"},
       {"engrave-feed", "MM/MIN", "gcode: speed along lines and texts on parts [they are not engraved]"},
       {"engrave-speed", "S", "gcode: the S word of engraving"},
-      {"engrave-depth", "MM", "gcode, router: depth of engraving below Z 0"}};
+      {"engrave-depth", "MM", "gcode, router: depth of engraving below Z 0"},
+      {"pierce-diameter", "MM", "gcode: what a pierce burns; kept clear of parts and of earlier cuts"},
+      {"heat-spread", "MM", "gcode: begin so far from the cut before, where there is a choice [0]"},
+      {"joints", "N|tipping", "gcode: joints on each part, or as many as keep it from tipping [none]"},
+      {"joints-of", "ID=N,...", "gcode: these placements have so many joints instead"},
+      {"joints-up-to", "MM", "gcode: joints on parts up to this size alone, corner to corner [all]"},
+      {"joint-width", "MM", "gcode: the material that a joint leaves"},
+      {"slat-pitch", "MM", "gcode, joints tipping: from one slat of the table to the next"},
+      {"slats", "x|y", "gcode, joints tipping: the axis along which slats run [y]"},
+      {"tab-height", "MM", "gcode, router: height of the tabs that joints are"}};
   return words;
 }
 

@@ -32,6 +32,8 @@ constexpr std::size_t kMostProcessesTold = 20;
 struct ProcessKey {
   const char *key, *word;
   bool is_number;
+  /// A number is as good as a text.
+  bool may_be_number = false;
 };
 constexpr std::array kProcessKeys{ProcessKey{"process", "process", false},
                                   ProcessKey{"post", "post", false},
@@ -47,7 +49,15 @@ constexpr std::array kProcessKeys{ProcessKey{"process", "process", false},
                                   ProcessKey{"safe_height_mm", "safe-height", true},
                                   ProcessKey{"engrave_feed_mm_per_min", "engrave-feed", true},
                                   ProcessKey{"engrave_speed", "engrave-speed", true},
-                                  ProcessKey{"engrave_depth_mm", "engrave-depth", true}};
+                                  ProcessKey{"engrave_depth_mm", "engrave-depth", true},
+                                  ProcessKey{"pierce_diameter_mm", "pierce-diameter", true},
+                                  ProcessKey{"heat_spread_mm", "heat-spread", true},
+                                  ProcessKey{"joints", "joints", false, true},
+                                  ProcessKey{"joints_up_to_mm", "joints-up-to", true},
+                                  ProcessKey{"joint_width_mm", "joint-width", true},
+                                  ProcessKey{"slat_pitch_mm", "slat-pitch", true},
+                                  ProcessKey{"slats", "slats", false},
+                                  ProcessKey{"tab_height_mm", "tab-height", true}};
 
 std::string process_key_of(const std::string& word) {
   const auto found = std::find_if(kProcessKeys.begin(), kProcessKeys.end(),
@@ -150,12 +160,16 @@ class ProcessReader {
     }
     // A value that is no number is refused like those out of range.
     std::string value;
-    if (known->is_number) {
+    if (known->is_number || (known->may_be_number && item.is_number())) {
       value = item.is_number() ? fmt::format("{}", item.number()) : name_of(item.kind());
     } else {
       const auto said = text(item);
       if (!said) return false;
       value = *said;
+      if (known->may_be_number && value.find_first_not_of("0123456789") == std::string::npos) {
+        complain(fmt::format("{} \"{}\": a number stands without quotation marks", known->key, value));
+        return false;
+      }
     }
     const ExportWord made{known->word, std::move(value)};
     if (const Result<void> taken = taker.take(made); !taken) {

@@ -11,7 +11,10 @@
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "profile_engraving.hpp"
+#include "profile_joints.hpp"
 #include "profile_leads.hpp"
+#include "profile_loose.hpp"
+#include "profile_options.hpp"
 #include "profile_order.hpp"
 #include "profile_path.hpp"
 #include "profile_proof.hpp"
@@ -33,13 +36,6 @@ double length_of(const std::vector<WrittenEdge>& edges, const Resolution& resolu
   double sum = 0;
   for (const WrittenEdge& edge : edges) sum += length_of(edge_mm(edge, resolution));
   return sum;
-}
-
-/// NaN fails every comparison, and so is out of every range.
-Result<void> check_range(const std::string& what, double value, double low, double high) {
-  if (value >= low && value <= high) return {};
-  return failure(ErrorCode::usage,
-                 fmt::format("{} is {:g}: from {:g} to {:g} is allowed", what, value, low, high));
 }
 
 Result<void> check_holes(const ProfileOptions& o) {
@@ -98,7 +94,9 @@ Result<void> check_options(const ProfileOptions& o) {
                     o.post.control));
   if (router && o.pierce_s > 0)
     return failure(ErrorCode::usage, "a router does not pierce: leave the pierce time out");
-  return check_holes(o);
+  LEKALO_CHECK(check_holes(o));
+  LEKALO_CHECK(check_pierce_and_order(o));
+  return check_joints(o);
 }
 
 /// A hole that is drawn with the diameter of a rule is not beyond it by the rounding of its part's turn. The
@@ -220,6 +218,39 @@ std::vector<WrittenEdge> begun_at(std::vector<WrittenEdge> path, std::size_t edg
   return path;
 }
 
+/// A path that is cut from one pierce on.
+struct Stretch {
+  const Start* start = nullptr;
+  std::vector<WrittenEdge> path;
+};
+
+/// The whole path, or its stretches between joints. A router cuts over the joints, at the height of tabs.
+std::vector<Stretch> stretches_of(const Cut& cut, const Starts& its, std::size_t first,
+                                  const ProfileOptions& options) {
+  const Start& start = its.choices[first];
+  const std::vector<WrittenEdge> path = begun_at(cut.path, start.edge);
+  if (options.process == Process::router) return {{&start, path}};
+  std::vector<Stretch> stretches;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    if (path[k].joint) continue;
+    if (k == 0 || path[k - 1].joint) {
+      const std::size_t edge = (start.edge + k) % path.size();
+      const auto own = std::find_if(its.choices.begin(), its.choices.end(),
+                                    [&](const Start& choice) { return choice.edge == edge; });
+      stretches.push_back({&*own, {}});
+    }
+    stretches.back().path.push_back(path[k]);
+  }
+  return stretches;
+}
+
+std::size_t joints_of(const std::vector<WrittenEdge>& path) {
+  std::size_t joints = 0;
+  for (std::size_t k = 0; k < path.size(); ++k)
+    if (path[k].joint && !path[k == 0 ? path.size() - 1 : k - 1].joint) ++joints;
+  return joints;
+}
+
 }  // namespace
 
 Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, const std::string& name,
@@ -231,21 +262,34 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, co
 
   // Step 5. The path is proved as it will be written, after starts_of has begun new edges in it.
   const KerfProof proof(parts, options);
+  const KerfsAround kerfs(cuts, options);
   ProfileProgram program;
   program.cuts_by_hole.resize(options.holes.size());
   std::vector<CutTerms> terms;
-  std::vector<Starts> starts;
-  for (Cut& cut : cuts) {
+  for (const Cut& cut : cuts) {
     const ProfilePart& part = parts[cut.part];
     terms.push_back(terms_of(part, cut, options));
-    starts.push_back(starts_of(cut.path, terms.back().lead_in_mm, proof, options));
     LEKALO_CHECK(proved_depth(parts, cut, cut.path, proof, options));
     const double left = left_over(cut.outline ? part.region.outer : part.region.holes[cut.hole], cut.path,
                                   resolution, 0.5 * options.kerf_mm);
     if (left > program.left_over_mm) program.left_over_mm = left, program.left_over_of = part.id;
   }
-  const std::vector<OrderedCut> order =
-      ordered_cuts(starts, enclosing_cuts(parts, cuts, resolution));  // step 6
+  OrderRules rules{enclosing_cuts(parts, cuts, resolution), {}, options.heat_spread_mm};
+  const std::vector<JointGround> no_grounds;
+  LEKALO_TRY(JointedCuts jointed,
+             place_joints(parts, cuts, rules.enclosing, {proof, kerfs, no_grounds}, options));
+  program.jointed_parts = jointed.parts;
+  program.unheld = jointed.unheld;
+  std::vector<Starts> starts;
+  for (std::size_t c = 0; c < cuts.size(); ++c)
+    starts.push_back(jointed.starts[c].empty() ? starts_of(cuts[c].path, c, terms[c].lead_in_mm,
+                                                           {proof, kerfs, jointed.grounds}, options)
+                                               : Starts{std::move(jointed.starts[c])});
+  LEKALO_CHECK(check_pierces(parts, cuts, starts, options));
+  LEKALO_TRY(rules.rings, loose_rings(parts, cuts, rules.enclosing, options));
+  std::vector<OrderedCut> order = ordered_cuts(starts, rules, kerfs, resolution);  // step 6
+  LEKALO_CHECK(check_crossings(parts, cuts, order, settle_starts(starts, options, order), options, program));
+  tell_heat(starts, order, kerfs, options, program);
 
   // Steps 7 and 8.
   ProfileWriter writer(name, options);
@@ -255,27 +299,29 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, co
     const Cut& cut = cuts[ordered.cut];
     const Starts& its = starts[ordered.cut];
     const CutTerms& on_terms = terms[ordered.cut];
-    const Start& start = its.choices[ordered.start];
-    const std::vector<WrittenEdge> path = begun_at(cut.path, start.edge);
-    std::vector<WrittenEdge> all = start.lead;
-    all.insert(all.end(), path.begin(), path.end());
-    LEKALO_TRY(const double deepest_mm, proved_depth(parts, cut, all, proof, options));
-    program.deepest_mm = std::max(program.deepest_mm, deepest_mm);
     const std::size_t first_line = writer.line_count() + 1;
     writer.comment(fmt::format("placement {} {}", parts[cut.part].id,
                                cut.outline ? "outline" : fmt::format("hole {}", cut.hole + 1)));
-    writer.cut(start.lead, path, on_terms.feed_mm_per_min);
+    for (const Stretch& stretch : stretches_of(cut, its, ordered.start, options)) {
+      const Start& start = *stretch.start;
+      std::vector<WrittenEdge> all = start.lead;
+      all.insert(all.end(), stretch.path.begin(), stretch.path.end());
+      LEKALO_TRY(const double deepest_mm, proved_depth(parts, cut, all, proof, options));
+      program.deepest_mm = std::max(program.deepest_mm, deepest_mm);
+      writer.cut(start.lead, stretch.path, on_terms.feed_mm_per_min);
+      program.travel_mm += geom::norm(resolution.mm(start.pierce) - here);
+      here = resolution.mm(stretch.path.back().to);
+      program.cut_mm += length_of(all, resolution);
+      if (on_terms.lead_in_mm > 0 && start.lead.empty())
+        ++program.bare_starts;
+      else if (start.lead_mm < on_terms.lead_in_mm)
+        ++program.shortened_leads;
+    }
     program.lines_of_cuts.push_back({parts[cut.part].id, first_line, writer.line_count()});
     if (writer.size() > kLongestProgram) return too_long();
-    program.travel_mm += geom::norm(resolution.mm(start.pierce) - here);
-    here = resolution.mm(start.on_contour);
-    program.cut_mm += length_of(all, resolution);
     ++program.cuts;
     if (on_terms.rule) ++program.cuts_by_hole[*on_terms.rule];
-    if (on_terms.lead_in_mm > 0 && start.lead.empty())
-      ++program.bare_starts;
-    else if (its.lead_mm < on_terms.lead_in_mm)
-      ++program.shortened_leads;
+    program.joints += joints_of(cut.path);
   }
   program.travel_mm += geom::norm(here);
   program.text = writer.finish();

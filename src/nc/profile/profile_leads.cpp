@@ -22,18 +22,6 @@ Point direction_at_start(const Edge& edge) {
   return (1 / geom::norm(way)) * way;
 }
 
-/// A lead that ends at `at`, where the path goes on in `direction`; the waste is on the left.
-std::vector<WrittenEdge> lead_to(WrittenPoint at, Point direction, double length, LeadShape shape,
-                                 const Resolution& resolution) {
-  const Point end = resolution.mm(at), waste = geom::perpendicular(direction);
-  Edge lead{EdgeKind::line, end + length * waste, end, {}};
-  if (shape == LeadShape::arc) {
-    const Point centre = end + length * waste;
-    lead = {EdgeKind::arc_ccw, centre - length * direction, end, centre};
-  }
-  return written_edges({lead}, resolution);
-}
-
 /// Splits the longest lines so that a start may lie away from corners.
 void split_lines(std::vector<WrittenEdge>& path, const Resolution& resolution, double least_mm) {
   std::vector<WrittenEdge> split;
@@ -50,37 +38,119 @@ void split_lines(std::vector<WrittenEdge>& path, const Resolution& resolution, d
   path = std::move(split);
 }
 
-}  // namespace
+/// A pierce that is nearer to its own contour than this would burn into the part.
+bool needs_room(const ProfileOptions& options) {
+  return 0.5 * options.pierce_diameter_mm > 0.5 * options.kerf_mm + options.tolerance_mm;
+}
 
-Starts starts_of(std::vector<WrittenEdge>& path, double lead_in_mm, const KerfProof& proof,
-                 const ProfileOptions& options) {
-  const Resolution resolution = resolution_of(options);
-  if (lead_in_mm > 0) split_lines(path, resolution, 4 * options.kerf_mm);
-  const std::size_t count = std::min(path.size(), kMostStarts);
-  const auto edge_at = [&](std::size_t k) { return k * path.size() / count; };
-  for (const double part : {1.0, 0.5, 0.25}) {
-    if (!(lead_in_mm > 0)) break;
-    Starts found{{}, part * lead_in_mm};
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t edge = edge_at(k);
-      const WrittenPoint at = path[edge].from;
+class StartFinder {
+ public:
+  StartFinder(std::vector<WrittenEdge>& path, std::size_t own, const Surroundings& around,
+              const ProfileOptions& options)
+      : path_(path), own_(own), around_(around), options_(options), resolution_(resolution_of(options)) {}
+
+  /// The starts with leads of the first of these lengths that has one which meets no kerf, or of the first
+  /// that has any; none where none has.
+  [[nodiscard]] Starts with_leads(const std::vector<double>& lengths, std::size_t most) const {
+    Starts first;
+    for (const double length : lengths) {
+      Starts found = of_length(length, most);
+      const bool is_free = std::any_of(found.choices.begin(), found.choices.end(),
+                                       [](const Start& start) { return start.met.empty(); });
+      if (is_free) return found;
+      if (first.choices.empty()) first = std::move(found);
+    }
+    return first;
+  }
+
+  [[nodiscard]] Starts bare() const {
+    Starts bare;
+    for (std::size_t k = 0; k < count(kMostStarts); ++k) {
+      const std::size_t edge = edge_at(k, kMostStarts);
+      const WrittenPoint at = path_[edge].from;
+      if (options_.pierce_diameter_mm > 0 &&
+          !around_.proof.disc_stays_out(at, 0.5 * options_.pierce_diameter_mm))
+        continue;
+      if (!keeps_off(around_.grounds, {}, at, options_)) continue;
+      bare.choices.push_back({{}, edge, at, at, around_.kerfs.met(own_, {}, at)});
+    }
+    return bare;
+  }
+
+ private:
+  [[nodiscard]] std::size_t count(std::size_t most) const { return std::min(path_.size(), most); }
+  [[nodiscard]] std::size_t edge_at(std::size_t k, std::size_t most) const {
+    return k * path_.size() / count(most);
+  }
+
+  [[nodiscard]] Starts of_length(double length, std::size_t most) const {
+    Starts found;
+    for (std::size_t k = 0; k < count(most); ++k) {
+      const std::size_t edge = edge_at(k, most);
+      const WrittenPoint at = path_[edge].from;
       // Both edges at a start go one way, because the path is smooth, in the middle of a stretch and at the
       // end of a corner's arc alike. Corners that point inwards are no exception that matters: the proof
       // decides.
-      auto lead = lead_to(at, direction_at_start(edge_mm(path[edge], resolution)), found.lead_mm,
-                          options.lead, resolution);
-      if (lead.size() != 1 || lead.back().to != at || !proof.stays_out(lead)) continue;
+      auto lead = lead_to(at, direction_at_start(edge_mm(path_[edge], resolution_)), length, options_.lead,
+                          resolution_);
+      if (lead.size() != 1 || lead.back().to != at || !around_.proof.stays_out(lead)) continue;
       const WrittenPoint pierce = lead.front().from;
-      found.choices.push_back({std::move(lead), edge, pierce, at});
+      if (options_.pierce_diameter_mm > 0 &&
+          !around_.proof.disc_stays_out(pierce, 0.5 * options_.pierce_diameter_mm))
+        continue;
+      if (!keeps_off(around_.grounds, lead, pierce, options_)) continue;
+      std::vector<std::size_t> met = around_.kerfs.met(own_, lead, pierce);
+      found.choices.push_back({std::move(lead), edge, pierce, at, std::move(met), length});
     }
-    if (!found.choices.empty()) return found;
+    return found;
   }
-  Starts bare;
-  for (std::size_t k = 0; k < count; ++k) {
-    const WrittenPoint at = path[edge_at(k)].from;
-    bare.choices.push_back({{}, edge_at(k), at, at});
+
+  std::vector<WrittenEdge>& path_;
+  std::size_t own_;
+  const Surroundings& around_;
+  const ProfileOptions& options_;
+  Resolution resolution_;
+};
+
+}  // namespace
+
+std::vector<WrittenEdge> lead_to(WrittenPoint at, Point direction, double length, LeadShape shape,
+                                 const Resolution& resolution) {
+  const Point end = resolution.mm(at), waste = geom::perpendicular(direction);
+  Edge lead{EdgeKind::line, end + length * waste, end, {}};
+  if (shape == LeadShape::arc) {
+    const Point centre = end + length * waste;
+    lead = {EdgeKind::arc_ccw, centre - length * direction, end, centre};
   }
-  return bare;
+  return written_edges({lead}, resolution);
+}
+
+std::vector<double> lead_lengths(double lead_in_mm, const ProfileOptions& options) {
+  std::vector<double> lengths;
+  const double least = least_lead_mm(options);
+  for (const double part : {1.0, 0.5, 0.25})
+    if (lead_in_mm > 0 && part * lead_in_mm >= least) lengths.push_back(part * lead_in_mm);
+  if (least > 0 && !lengths.empty() && lengths.back() > least) lengths.push_back(least);
+  return lengths;
+}
+
+double least_lead_mm(const ProfileOptions& options) noexcept {
+  return needs_room(options) ? 0.5 * (options.pierce_diameter_mm - options.kerf_mm) : 0;
+}
+
+Starts starts_of(std::vector<WrittenEdge>& path, std::size_t own, double lead_in_mm,
+                 const Surroundings& around, const ProfileOptions& options) {
+  const Resolution resolution = resolution_of(options);
+  if (lead_in_mm > 0) split_lines(path, resolution, 4 * options.kerf_mm);
+  const StartFinder finder(path, own, around, options);
+  const std::vector<double> lengths = lead_lengths(lead_in_mm, options);
+  Starts found = finder.with_leads(lengths, kMostStarts);
+  if (!found.choices.empty()) return found;
+  if (!needs_room(options)) return finder.bare();
+  // Few places have room for a disc in a crowd, so that many are looked at before the cut is refused.
+  constexpr std::size_t kManyStarts = 400;
+  for (int times = 0; times < 4; ++times) split_lines(path, resolution, 4 * options.kerf_mm);
+  return finder.with_leads(lengths, kManyStarts);
 }
 
 }  // namespace lekalo::nc

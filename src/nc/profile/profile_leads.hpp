@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "profile_around.hpp"
 #include "profile_path.hpp"
 #include "profile_proof.hpp"
 
@@ -12,19 +13,51 @@ struct Start {
   std::vector<WrittenEdge> lead;  ///< one edge, or none: pierced on the contour
   std::size_t edge = 0;           ///< the path begins at the first point of this edge
   WrittenPoint pierce, on_contour;
+  /// The cuts whose kerf lead or pierce meet, ascending: they should not be there yet.
+  std::vector<std::size_t> met;
+  double lead_mm = 0;  ///< the length or radius of the lead
+  bool behind_joint = false;
 };
 
 /// The starts of one cut.
 struct Starts {
-  std::vector<Start> choices;  ///< never empty; all with leads of one length, or none with a lead
-  double lead_mm = 0;          ///< their length; 0 where there was no room
+  /// All with leads of one length, or none with a lead; of a cut with joints one behind each. Empty where a
+  /// pierce of the stated diameter has no room.
+  std::vector<Start> choices;
 };
 
-/// Step 5 of docs/design/export.md: the longest leads, of full, half or a quarter of `lead_in_mm`, that stay
-/// out of every part. They come from the waste side, at up to kMostStarts places spread over the path. New
-/// edges begin in the middle of long ones, which changes `path`, as a curve, by rounding alone.
+/// The ground of a joint: a rectangle over the kerf, from the middle of the kerf, where its
+/// two ends stand apart, out into the sheet. No other kerf and no pierce may come into it, or the joint would
+/// hold on to nothing.
+struct JointGround {
+  geom::Point corners[4];
+};
+
+/// True when a lead and its pierce stay out of these grounds.
+[[nodiscard]] bool keeps_off(const std::vector<JointGround>& grounds, const std::vector<WrittenEdge>& lead,
+                             WrittenPoint pierce, const ProfileOptions& options);
+
+/// All that leads and pierces have to keep clear of.
+struct Surroundings {
+  const KerfProof& proof;
+  const KerfsAround& kerfs;
+  const std::vector<JointGround>& grounds;
+};
+
+/// A lead that ends at `at`, where the path goes on in this unit direction; the waste is on the left.
+[[nodiscard]] std::vector<WrittenEdge> lead_to(WrittenPoint at, geom::Point direction, double length,
+                                               LeadShape shape, const Resolution& resolution);
+/// The lengths of leads that are tried for this one, from the longest.
+[[nodiscard]] std::vector<double> lead_lengths(double lead_in_mm, const ProfileOptions& options);
+
+/// Step 5 of docs/design/export.md: the longest leads, of full, half or a quarter of `lead_in_mm`, or the
+/// shortest that a pierce needs, that stay out of every part, with their pierces. They come from the waste
+/// side, at up to kMostStarts places spread over the path, or at more where none of these has room for a
+/// pierce. Leads that meet no other kerf go before longer ones. New edges begin in the middle of long ones,
+/// which changes `path`, as a curve, by rounding alone.
+/// \param own  the number of the cut
 inline constexpr std::size_t kMostStarts = 12;
-[[nodiscard]] Starts starts_of(std::vector<WrittenEdge>& path, double lead_in_mm, const KerfProof& proof,
-                               const ProfileOptions& options);
+[[nodiscard]] Starts starts_of(std::vector<WrittenEdge>& path, std::size_t own, double lead_in_mm,
+                               const Surroundings& around, const ProfileOptions& options);
 
 }  // namespace lekalo::nc

@@ -25,6 +25,7 @@ struct Resolution {
 struct WrittenEdge {
   geom::EdgeKind kind = geom::EdgeKind::line;
   WrittenPoint from, to, centre;
+  bool joint = false;  ///< a joint stays here: the edge is not cut, or not down to the bottom
 };
 /// The edge in mm, within rounding of a double.
 [[nodiscard]] geom::Edge edge_mm(const WrittenEdge& edge, const Resolution& resolution) noexcept;

@@ -48,6 +48,12 @@ double distance_at_least(const Curve& a, const Curve& b) {
   return std::max(0.0, apart - reserve);
 }
 
+double distance_at_least(const Curve& curve, Point p) {
+  const double largest = std::max({largest_number(curve), std::abs(p.x), std::abs(p.y)});
+  const double reserve = 2 * geom::kEdgeDistanceError * largest + 1.5 * radii_difference(curve.edge);
+  return std::max(0.0, geom::norm(geom::nearest_on(curve, p) - p) - reserve);
+}
+
 KerfProof::KerfProof(const std::vector<ProfilePart>& parts, const ProfileOptions& options)
     : resolution_(resolution_of(options)),
       half_kerf_(0.5 * options.kerf_mm),
@@ -86,7 +92,7 @@ KerfProof::Finding KerfProof::look(const std::vector<WrittenEdge>& path) const {
   Finding finding;
   for (const WrittenEdge& edge : path) {
     const Curve curve = geom::make_curve(edge_mm(edge, resolution_));
-    edge_tree_->visit_meeting(grown(box_of(curve), half_kerf_ * (1 + 0x1p-40)), [&](std::uint32_t i) {
+    edge_tree_->visit_meeting(geom::grown(box_of(curve), half_kerf_ * (1 + 0x1p-40)), [&](std::uint32_t i) {
       const double deep = half_kerf_ - distance_at_least(curve, edges_[i]);
       if (!(deep <= finding.deepest_mm)) finding.deepest_mm = deep, finding.part = part_of_edge_[i];
     });
@@ -105,6 +111,17 @@ KerfProof::Finding KerfProof::look(const std::vector<WrittenEdge>& path) const {
 bool KerfProof::stays_out(const std::vector<WrittenEdge>& path) const {
   const Finding finding = look(path);
   return !finding.inside && finding.deepest_mm <= tolerance_;
+}
+
+bool KerfProof::disc_stays_out(WrittenPoint p, double radius) const {
+  const Point at = resolution_.mm(p);
+  std::size_t part = 0;
+  if (in_material(at, part)) return false;
+  bool out = true;
+  edge_tree_->visit_meeting_while(geom::grown({at, at}, radius * (1 + 0x1p-40)), [&](std::uint32_t i) {
+    return out = distance_at_least(edges_[i], at) >= radius - tolerance_;
+  });
+  return out;
 }
 
 }  // namespace lekalo::nc

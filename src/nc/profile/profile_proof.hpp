@@ -31,6 +31,8 @@ class KerfProof {
   [[nodiscard]] Finding look(const std::vector<WrittenEdge>& path) const;
   /// True when look() finds nothing beyond the tolerance.
   [[nodiscard]] bool stays_out(const std::vector<WrittenEdge>& path) const;
+  /// True when a disc about p lies outside of every part but for the tolerance.
+  [[nodiscard]] bool disc_stays_out(WrittenPoint p, double radius) const;
 
  private:
   [[nodiscard]] bool in_material(geom::Point p, std::size_t& part) const;
@@ -47,5 +49,7 @@ class KerfProof {
 /// The least distance of two edges, rounded down: below that of any of the curves that arcs may mean whose
 /// ends are not equally far from their centres.
 [[nodiscard]] double distance_at_least(const geom::Curve& a, const geom::Curve& b);
+/// The same for a point.
+[[nodiscard]] double distance_at_least(const geom::Curve& curve, geom::Point p);
 
 }  // namespace lekalo::nc

@@ -21,6 +21,9 @@ ProfileWriter::ProfileWriter(const std::string& name, const ProfileOptions& opti
     comment(fmt::format("holes up to {} lead {}{}", length(hole.up_to_diameter_mm),
                         length(hole.lead_in_mm.value_or(options.lead_in_mm)),
                         out_.feed(hole.feed_share * options.feed_mm_per_min, kInchFeedDecimals)));
+  if (options.pierce_diameter_mm > 0)
+    comment(fmt::format("pierces {} clear of parts and of earlier cuts", length(options.pierce_diameter_mm)));
+  if (options.joints.wanted()) comment(fmt::format("joints {}", length(options.joints.width_mm)));
   out_.lines(options.post.profile.modes);
   if (options.process != Process::router) return;
   out_.line("G0 Z" + length(options.safe_height_mm));
@@ -52,14 +55,34 @@ void ProfileWriter::cut_by_router(const std::vector<WrittenEdge>& lead, const st
                                   double feed) {
   const double pass = options_.pass_mm > 0 ? options_.pass_mm : options_.depth_mm;
   const auto passes = static_cast<int>(std::ceil(options_.depth_mm / pass * (1 - 1e-12)));
+  const double tabs = options_.depth_mm - options_.joints.tab_height_mm;
   for (int k = 1; k <= passes; ++k) {
     const double z = k == passes ? options_.depth_mm : k * pass;
     out_.line("G1 Z" + length(-z) + out_.feed(options_.plunge_mm_per_min, kInchFeedDecimals));
     // Later passes go down where the contour closes, in the kerf that is already there.
     if (k == 1) follow(lead, feed);
-    follow(path, k > 1 || lead.empty() ? std::optional(feed) : std::nullopt);
+    const std::optional<double> unsaid = k > 1 || lead.empty() ? std::optional(feed) : std::nullopt;
+    if (z > tabs)
+      follow_with_tabs(path, z, feed, unsaid.has_value());
+    else
+      follow(path, unsaid);
   }
   out_.line("G0 Z" + length(options_.safe_height_mm));
+}
+
+void ProfileWriter::follow_with_tabs(const std::vector<WrittenEdge>& path, double depth, double cut_feed,
+                                     bool says_feed) {
+  const double tabs = options_.depth_mm - options_.joints.tab_height_mm;
+  for (std::size_t k = 0; k < path.size();) {
+    std::size_t end = k;
+    while (end < path.size() && path[end].joint == path[k].joint) ++end;
+    if (k > 0)
+      out_.line("G1 Z" + length(path[k].joint ? -tabs : -depth) +
+                out_.feed(options_.plunge_mm_per_min, kInchFeedDecimals));
+    follow({path.begin() + static_cast<std::ptrdiff_t>(k), path.begin() + static_cast<std::ptrdiff_t>(end)},
+           k > 0 || says_feed ? std::optional(cut_feed) : std::nullopt);
+    k = end;
+  }
 }
 
 std::string ProfileWriter::finish() {

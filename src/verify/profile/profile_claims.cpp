@@ -4,9 +4,12 @@
 #include <cmath>
 #include <iterator>
 
+#include "contour_ring.hpp"
 #include "engraved_marks.hpp"
+#include "joint_check.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/verify/claims.hpp"
+#include "loose_check.hpp"
 #include "profile_moves.hpp"
 #include "verify/drawn/placed_sheet.hpp"
 #include "verify/layout/layout_document.hpp"
@@ -16,75 +19,11 @@
 namespace lekalo::verify {
 namespace {
 
-using Strokes = std::vector<Stroke>;
-
-/// A line or arc as pieces that are nearly straight: within `off` mm of their chords.
-void add_straight(const Stroke& edge, double off, Strokes& pieces) {
-  add_pieces(edge, edge.arc ? std::sqrt(8 * edge.radius * off) : kInfinity, pieces);
-}
-
-struct Extent {
-  Place low{kInfinity, kInfinity}, high{-low.x, -low.y};
-  void add(const Strokes& strokes) {
-    for (const Stroke& s : strokes) {
-      Place from, to;
-      box_of(s, from, to);
-      low = {std::min(low.x, from.x), std::min(low.y, from.y)};
-      high = {std::max(high.x, to.x), std::max(high.y, to.y)};
-    }
-  }
-  [[nodiscard]] bool holds(Place p, double margin) const {
-    return std::max({low.x - p.x, p.x - high.x, low.y - p.y, p.y - high.y}) <= margin;
-  }
-};
-
-/// The pieces of closed contours, the places near them, and which places they enclose.
-class Ring {
- public:
-  Ring(const std::vector<Strokes>& contours, double off) {
-    for (const Strokes& contour : contours)
-      for (const Stroke& edge : contour) {
-        add_pieces(edge, kInfinity, pieces);
-        add_straight(edge, off, straight_);
-      }
-    extent_.add(pieces);
-    index_ = StrokeIndex(extent_.low, extent_.high, 1 + length(extent_.high - extent_.low) / 300);
-    for (std::uint32_t i = 0; i < pieces.size(); ++i) index_.add(i, pieces[i]);
-  }
-
-  [[nodiscard]] bool is_near(Place p, double margin) const { return extent_.holds(p, margin); }
-  [[nodiscard]] double distance_of(Place p) const { return index_.nearest(p, pieces); }
-  [[nodiscard]] bool encloses(Place p) const {
-    if (!is_near(p, 0)) return false;
-    bool in = false;
-    for (const Stroke& s : straight_)
-      if (crosses_ray_to_the_right({false, true, s.from, s.to, {}, 0}, p)) in = !in;
-    return in;
-  }
-  [[nodiscard]] double area() const {
-    double twice = 0;
-    for (const Stroke& s : straight_) twice += cross(s.from - extent_.low, s.to - extent_.low);
-    return 0.5 * twice;
-  }
-  [[nodiscard]] std::vector<std::uint32_t> near(Place p, double reach) const {
-    std::vector<std::uint32_t> numbers;
-    index_.near(p, reach, numbers);
-    return numbers;
-  }
-
-  Strokes pieces;
-
- private:
-  Strokes straight_;
-  Extent extent_;
-  StrokeIndex index_;
-};
-
 /// A contour of a placed part that is to be cut.
 struct Wanted {
   std::uint64_t part = 0;
   std::size_t hole = 0;  ///< 0 for the outer contour, else the number of the hole
-  Ring ring;
+  ContourRing ring;
   bool cut = false;
   [[nodiscard]] std::string name() const {
     return hole == 0 ? fmt::format("the outline of placement {}", part)
@@ -95,9 +34,11 @@ struct Wanted {
 /// The closed part of a chain and the lead before it.
 struct Loop {
   std::size_t line = 0;
-  Ring ring;
+  ContourRing ring;
   std::size_t of = 0;  ///< the contour that it follows
 };
+
+constexpr std::size_t kFollowsNothing = static_cast<std::size_t>(-1);
 
 class ProfileCheck {
  public:
@@ -106,31 +47,37 @@ class ProfileCheck {
     std::vector<Strokes> all;
     for (const PlacedSheet::Part& part : sheet.parts) {
       for (std::size_t i = 0; i < part.contours.size(); ++i) {
-        wanted_.push_back({part.id, i, Ring({part.contours[i]}, 0.1 * half_), false});
+        wanted_.push_back({part.id, i, ContourRing({part.contours[i]}, 0.1 * half_), false});
         all.push_back(part.contours[i]);
       }
-      parts_.emplace_back(part.id, Ring(part.contours, 0.1 * half_));
+      parts_.emplace_back(part.id, ContourRing(part.contours, 0.1 * half_));
     }
     marks_.emplace(sheet);
     all_.emplace(all, 0.1 * half_);
   }
 
   ClaimReport checked(const std::vector<CutChain>& chains) {
+    for (const CutChain& chain : chains) deepest_ = std::max(deepest_, chain.depth);
+    stretches_.resize(wanted_.size());
+    std::vector<CutChain> cuts;
     for (const CutChain& chain : chains) {
       if (!chain.rapid && marks_->follows(chain)) {
         keep_before_cuts(chain);
         continue;
       }
+      cuts.push_back(chain);
       if (chain.rapid) report_.findings.push_back(fmt::format("line {}: a rapid motion cuts", chain.line));
       keep_out(chain);
-      follow(chain);
+      contour_of_.push_back(follow(chain));
     }
+    check_joints(cuts);
     for (const Wanted& wanted : wanted_)
       if (!wanted.cut) report_.findings.push_back(wanted.name() + " is not cut");
-    check_order();
+    if (check_order()) check_loose(cuts);
+    check_pierces(cuts);
     report_.notes.push_back(
-        fmt::format("{} cuts along {} contours of {} parts were rechecked for a kerf of {} mm",
-                    chains.size() - marks_->engravings(), wanted_.size(), parts_.size(), words_.kerf_mm));
+        fmt::format("{} cuts along {} contours of {} parts were rechecked for a kerf of {} mm", cuts.size(),
+                    wanted_.size(), parts_.size(), words_.kerf_mm));
     if (std::string note = marks_->note(); !note.empty()) report_.notes.push_back(std::move(note));
     return std::move(report_);
   }
@@ -171,29 +118,177 @@ class ProfileCheck {
       }
   }
 
-  /// Finds the contour that the closed part of a chain follows.
-  void follow(const CutChain& chain) {
+  /// The number of the contour that the closed part of a chain follows, or its stretch between joints.
+  std::size_t follow(const CutChain& chain) {
     const Place end = chain.edges.back().to;
     const auto first = std::find_if(chain.edges.begin(), chain.edges.end(),
                                     [&](const Stroke& s) { return s.from.x == end.x && s.from.y == end.y; });
-    if (first == chain.edges.end()) {
-      report_.findings.push_back(fmt::format("line {}: the cut is not closed", chain.line));
-      return;
-    }
-    Loop loop{chain.line, Ring({Strokes(first, chain.edges.end())}, 0.1 * half_), 0};
+    if (first == chain.edges.end()) return follow_stretch(chain);
+    Loop loop{chain.line, ContourRing({Strokes(first, chain.edges.end())}, 0.1 * half_), 0};
     for (std::size_t i = 0; i < wanted_.size(); ++i) {
       if (!follows(loop.ring, wanted_[i])) continue;
+      if (!is_through(chain)) return i;
       wanted_[i].cut = true;
       loop.of = i;
       loops_.push_back(std::move(loop));
-      return;
+      return i;
     }
     report_.findings.push_back(fmt::format("line {}: the cut follows no contour of a part", chain.line));
+    return kFollowsNothing;
+  }
+
+  /// With joints, what does not reach the bottom leaves them as tabs, and frees nothing.
+  [[nodiscard]] bool is_through(const CutChain& chain) const {
+    return words_.joint_width_mm == 0 || chain.depth >= deepest_ - kRounding;
+  }
+
+  /// The contour beside which a chain goes from its first edge on, or from its second, after a lead.
+  std::size_t follow_stretch(const CutChain& chain) {
+    if (words_.joint_width_mm == 0) {
+      report_.findings.push_back(fmt::format("line {}: the cut is not closed", chain.line));
+      return kFollowsNothing;
+    }
+    for (std::size_t begin = 0; begin < std::min<std::size_t>(2, chain.edges.size()); ++begin) {
+      Strokes edges(chain.edges.begin() + static_cast<std::ptrdiff_t>(begin), chain.edges.end()), pieces;
+      for (const Stroke& edge : edges) add_pieces(edge, kInfinity, pieces);
+      for (std::size_t i = 0; i < wanted_.size(); ++i) {
+        const ContourRing& ring = wanted_[i].ring;
+        if (!ring.is_near(edges[0].from, half_ + slack()) ||
+            ring.encloses(edges[0].from) != (wanted_[i].hole != 0) ||
+            !std::all_of(pieces.begin(), pieces.end(),
+                         [&](const Stroke& piece) { return stays_near(piece, ring); }))
+          continue;
+        if (is_through(chain)) stretches_[i].push_back({chain.line, std::move(edges)});
+        return i;
+      }
+    }
+    report_.findings.push_back(fmt::format("line {}: the cut follows no contour of a part", chain.line));
+    return kFollowsNothing;
+  }
+
+  /// Contours that are cut in stretches have joints between them, and nothing else enters these.
+  void check_joints(const std::vector<CutChain>& chains) {
+    std::vector<FoundJoint> joints;
+    std::size_t held = 0;
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+      if (wanted_[i].cut || stretches_[i].empty()) continue;
+      FoundJoints found = joints_of_contour(stretches_[i], wanted_[i].ring, wanted_[i].hole != 0,
+                                            wanted_[i].name(), words_, slack());
+      wanted_[i].cut = true;
+      ++held;
+      report_.findings.insert(report_.findings.end(), found.findings.begin(), found.findings.end());
+      joints.insert(joints.end(), found.joints.begin(), found.joints.end());
+    }
+    if (words_.joint_width_mm == 0) return;
+    for (const CutChain& chain : chains) {
+      if (!is_through(chain)) continue;
+      const Place pierce = chain.edges[0].from;
+      Strokes pieces;
+      for (const Stroke& edge : chain.edges) add_pieces(edge, kInfinity, pieces);
+      for (const FoundJoint& joint : joints) {
+        ask();
+        const bool kerf_leaves = std::all_of(pieces.begin(), pieces.end(), [&](const Stroke& piece) {
+          return leaves_joint(piece, half_, joint);
+        });
+        if (kerf_leaves && leaves_joint({false, true, pierce, pierce, {}, 0},
+                                        std::max(half_, 0.5 * words_.pierce_diameter_mm), joint))
+          continue;
+        report_.findings.push_back(
+            fmt::format("line {}: what is burnt enters the joint behind line {}", chain.line, joint.line));
+        break;
+      }
+    }
+    report_.notes.push_back(
+        fmt::format("joints of {} mm that were rechecked: {}, contours with joints: {}; whether parts would "
+                    "tip without them, "
+                    "or need more, was not",
+                    words_.joint_width_mm, joints.size(), held));
+  }
+
+  /// The disc of a pierce lies clear of every part, and it and the lead are clear of the kerfs before.
+  void check_pierces(const std::vector<CutChain>& chains) {
+    if (words_.pierce_diameter_mm == 0) return;
+    const double radius = 0.5 * words_.pierce_diameter_mm;
+    StrokeExtent extent;
+    for (const CutChain& chain : chains) extent.add(chain.edges);
+    StrokeIndex index(extent.low, extent.high, 1 + length(extent.high - extent.low) / 300);
+    Strokes there;
+    std::vector<std::size_t> contour_of_piece;
+    std::vector<std::uint32_t> near;
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+      const CutChain& chain = chains[c];
+      const Place pierce = chain.edges[0].from;
+      if (!(all_->distance_of(pierce) >= radius - words_.tolerance_mm - kRounding))
+        report_.findings.push_back(
+            fmt::format("line {}: the pierce of {} mm enters a part", chain.line, words_.pierce_diameter_mm));
+      Strokes led;
+      if (contour_of_[c] != kFollowsNothing && !is_beside(pierce, wanted_[contour_of_[c]].ring))
+        add_pieces(chain.edges[0], kInfinity, led);
+      bool meets = false;
+      const auto look = [&](const Stroke& piece, double reach) {
+        ask();
+        near.clear();
+        index.near(at_share(piece, 0.5), 0.5 * length(piece) + reach, near);
+        for (const std::uint32_t i : near) {
+          if (contour_of_piece[i] == contour_of_[c]) continue;
+          std::vector<Place> crossings;
+          add_crossings(piece, there[i], crossings);
+          meets = meets || !crossings.empty() || !(distance_apart(piece, there[i]) >= reach - kRounding);
+        }
+      };
+      look({false, true, pierce, pierce, {}, 0}, radius + half_);
+      for (const Stroke& piece : led) look(piece, 2 * half_);
+      if (meets)
+        report_.findings.push_back(
+            fmt::format("line {}: the pierce or its lead meets a kerf that is there before it", chain.line));
+      Strokes pieces;
+      for (const Stroke& edge : chain.edges) add_pieces(edge, kInfinity, pieces);
+      for (const Stroke& piece : pieces) {
+        index.add(static_cast<std::uint32_t>(there.size()), piece);
+        there.push_back(piece);
+        contour_of_piece.push_back(contour_of_[c]);
+      }
+    }
+    report_.notes.push_back(
+        fmt::format("{} pierces of {} mm were rechecked", chains.size(), words_.pierce_diameter_mm));
+  }
+
+  [[nodiscard]] bool is_beside(Place p, const ContourRing& ring) const {
+    return ring.distance_of(p) <= half_ + slack();
+  }
+
+  /// Looks for parts that several kerfs surround together: they are as loose as those that one does.
+  void check_loose(const std::vector<CutChain>& chains) {
+    LooseCheck loose(2 * half_);
+    std::vector<std::size_t> contour_of_cut;
+    std::vector<const CutChain*> cuts;
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+      if (!is_through(chains[c])) continue;
+      loose.add(chains[c].edges, contour_of_[c]);
+      contour_of_cut.push_back(contour_of_[c]);
+      cuts.push_back(&chains[c]);
+    }
+    if (cuts.empty() || !loose.kerfs_meet()) return;
+    std::vector<bool> begun(wanted_.size(), false);
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+      const std::size_t of = contour_of_cut[k];
+      if (of == kFollowsNothing || begun[of]) continue;
+      begun[of] = true;
+      if (loose.steps() > kMostLooseSteps) {
+        report_.unchecked.push_back(
+            "order: the cuts are too many to look for parts that several kerfs free together");
+        return;
+      }
+      if (!loose.is_loose(wanted_[of].ring.pieces[0].from, k, of)) continue;
+      report_.findings.push_back(fmt::format("line {}: {} is cut when the kerfs before it have made it loose",
+                                             cuts[k]->line, wanted_[of].name()));
+      return;
+    }
   }
 
   /// All of the loop lies within half a kerf of the contour, it runs on its waste side, and it is there
   /// wherever the middle of the kerf could be half a kerf from the contour.
-  [[nodiscard]] bool follows(const Ring& loop, const Wanted& wanted) const {
+  [[nodiscard]] bool follows(const ContourRing& loop, const Wanted& wanted) const {
     const Place start = loop.pieces[0].from, corner = wanted.ring.pieces[0].from;
     if (!wanted.ring.is_near(start, half_ + slack())) return false;
     if (wanted.hole == 0 ? !loop.encloses(corner) : !wanted.ring.encloses(start)) return false;
@@ -207,7 +302,7 @@ class ProfileCheck {
 
   /// Places within a distance of a line are a convex set, so that of a line only the ends are looked at.
   /// Other pieces are halved until their length does not matter.
-  [[nodiscard]] bool stays_near(const Stroke& piece, const Ring& ring) const {
+  [[nodiscard]] bool stays_near(const Stroke& piece, const ContourRing& ring) const {
     ask();
     const double reach = half_ + words_.tolerance_mm + kRounding;
     if (!piece.arc)
@@ -222,7 +317,7 @@ class ProfileCheck {
     return stays_near(until(piece, middle), ring) && stays_near(beginning(piece, middle), ring);
   }
 
-  [[nodiscard]] bool is_everywhere(const Ring& loop, const Wanted& wanted) const {
+  [[nodiscard]] bool is_everywhere(const ContourRing& loop, const Wanted& wanted) const {
     // The waste lies to the right of an outline that runs counter-clockwise, to the left of such a hole.
     const bool right = std::signbit(wanted.ring.area()) == (wanted.hole != 0);
     for (const Stroke& piece : wanted.ring.pieces) {
@@ -240,29 +335,34 @@ class ProfileCheck {
   }
 
   /// A part that a loop encloses would be loose after it. No contour comes near a loop of another, while the
-  /// loops of neighbours may share a line.
-  void check_order() {
+  /// loops of neighbours may share a line. Returns false after a finding.
+  bool check_order() {
     for (auto first = loops_.begin(); first != loops_.end(); ++first)
       for (auto later = std::next(first); later != loops_.end(); ++later)
         if (first->of != later->of && first->ring.encloses(wanted_[later->of].ring.pieces[0].from)) {
           report_.findings.push_back(fmt::format("line {}: {} is cut after {}, which encloses it",
                                                  later->line, wanted_[later->of].name(),
                                                  wanted_[first->of].name()));
-          return;
+          return false;
         }
+    return true;
   }
 
   /// The rounding of doubles where a program goes, mm.
   static constexpr double kRounding = 1e-7;
   static constexpr double kSampling = 1;  // mm
+  static constexpr std::size_t kMostLooseSteps = 2'000'000'000;
 
   double half_;
   const ProfileWords& words_;
   std::vector<Wanted> wanted_;
-  std::vector<std::pair<std::uint64_t, Ring>> parts_;
-  std::optional<Ring> all_;
+  std::vector<std::pair<std::uint64_t, ContourRing>> parts_;
+  std::optional<ContourRing> all_;
   std::optional<EngravedMarks> marks_;
   std::vector<Loop> loops_;
+  double deepest_ = 0;
+  std::vector<std::size_t> contour_of_;                 ///< by chain
+  std::vector<std::vector<ContourStretch>> stretches_;  ///< by contour
   ClaimReport report_;
 };
 

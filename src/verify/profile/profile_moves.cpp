@@ -183,7 +183,7 @@ class ProfileReader {
         !(std::abs(length(from - centre) - length(to - centre)) <= kArcRounding && length(from - centre) > 0))
       return complain("an arc whose ends do not lie on one circle");
     if (arc && from.x == to.x && from.y == to.y) return complain("an arc of a whole turn");
-    if (!going_on_) chains_.push_back({{}, line_, false});
+    if (!going_on_) chains_.push_back({{}, line_, false, z_ ? -*z_ : 0});
     going_on_ = true;
     CutChain& chain = chains_.back();
     chain.rapid = chain.rapid || motion_ == 0;

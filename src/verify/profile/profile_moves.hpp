@@ -15,6 +15,7 @@ struct CutChain {
   std::vector<Stroke> edges;  ///< an arc may have any sweep below a full turn
   std::size_t line = 0;       ///< of the program, where the cut begins
   bool rapid = false;         ///< true where G0 cuts
+  double depth = 0;           ///< below Z 0, mm; 0 in programs without Z
 };
 
 struct ProfileProgram {

@@ -1,0 +1,142 @@
+#include "loose_check.hpp"
+
+#include <numeric>
+#include <utility>
+
+#include "lekalo/base/stop.hpp"
+
+namespace lekalo::verify {
+namespace {
+
+constexpr double kLongestLoosePiece = 20;  // mm
+/// Kerfs that only touch leave nothing between them, and nothing is said of that.
+constexpr double kMeetingReserve = 1e-6;  // mm
+
+/// How often a straight way crosses the ray from p to the right: upwards counts 1, downwards -1.
+int windings(Place from, Place to, Place p) {
+  if ((from.y <= p.y) == (to.y <= p.y)) return 0;
+  const double x = from.x + (p.y - from.y) / (to.y - from.y) * (to.x - from.x);
+  if (!(x > p.x)) return 0;
+  return to.y > from.y ? 1 : -1;
+}
+
+/// The nearest places of two short pieces, within what an arc is off its chord.
+std::pair<Place, Place> nearest_places(const Stroke& a, const Stroke& b) {
+  std::vector<Place> crossings;
+  add_crossings(a, b, crossings);
+  if (!crossings.empty()) return {crossings[0], crossings[0]};
+  std::pair best{a.from, nearest_on(b, a.from)};
+  for (const std::pair<Place, Place>& other :
+       {std::pair{a.to, nearest_on(b, a.to)}, {nearest_on(a, b.from), b.from}, {nearest_on(a, b.to), b.to}})
+    if (length(other.second - other.first) < length(best.second - best.first)) best = other;
+  return best;
+}
+
+/// Ways between cuts, each with its windings: a tree, and what closes a loop in it.
+class WindingTree {
+ public:
+  explicit WindingTree(std::size_t count) : parent_(count), to_parent_(count, 0) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  /// Joins two cuts by a way with so many windings; true where there is a way with others already.
+  bool join(std::size_t a, std::size_t b, int way) {
+    const auto [root_a, from_a] = root_of(a);
+    const auto [root_b, from_b] = root_of(b);
+    if (root_a == root_b) return from_a != way + from_b;
+    parent_[root_a] = root_b;
+    to_parent_[root_a] = way + from_b - from_a;
+    return false;
+  }
+
+ private:
+  /// The root, and the windings of the way to it.
+  std::pair<std::size_t, int> root_of(std::size_t a) {
+    int way = 0;
+    while (parent_[a] != a) {
+      // Halving the path keeps later ways short.
+      const std::size_t up = parent_[a];
+      if (parent_[up] != up) {
+        to_parent_[a] += to_parent_[up];
+        parent_[a] = parent_[up];
+      }
+      way += to_parent_[a];
+      a = parent_[a];
+    }
+    return {a, way};
+  }
+
+  std::vector<std::size_t> parent_;
+  std::vector<int> to_parent_;
+};
+
+}  // namespace
+
+void LooseCheck::add(const Strokes& edges, std::size_t of) {
+  Cut cut{pieces_.size(), 0, of};
+  // Arcs are off their chords by little against the half kerf that p is away.
+  const double off = 0.05 * kerf_;
+  for (const Stroke& edge : edges)
+    add_pieces(edge,
+               edge.arc ? std::min(kLongestLoosePiece, std::sqrt(8 * edge.radius * off)) : kLongestLoosePiece,
+               pieces_);
+  cut.last = pieces_.size();
+  cut_of_piece_.resize(cut.last, cuts_.size());
+  cuts_.push_back(cut);
+  is_ready_ = false;
+}
+
+void LooseCheck::find_meetings() {
+  meetings_.clear();
+  StrokeExtent extent;
+  extent.add(pieces_);
+  StrokeIndex index(extent.low, extent.high, kLongestLoosePiece);
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
+    ask();
+    near.clear();
+    index.near(at_share(pieces_[i], 0.5), 0.5 * length(pieces_[i]) + kerf_, near);
+    for (const std::uint32_t j : near) {
+      const auto [on_i, on_j] = nearest_places(pieces_[i], pieces_[j]);
+      if (!(length(on_j - on_i) < kerf_ - kMeetingReserve)) continue;
+      meetings_.push_back({j, i, on_j, on_i});
+    }
+    index.add(i, pieces_[i]);
+  }
+  is_ready_ = true;
+}
+
+bool LooseCheck::kerfs_meet() {
+  if (!is_ready_) find_meetings();
+  // Neighbours along one cut meet always.
+  return std::any_of(meetings_.begin(), meetings_.end(), [&](const Meeting& meeting) {
+    return cuts_[cut_of_piece_[meeting.a]].of != cuts_[cut_of_piece_[meeting.b]].of ||
+           meeting.b > meeting.a + 3;
+  });
+}
+
+bool LooseCheck::is_loose(Place p, std::size_t before, std::size_t of) {
+  if (!is_ready_) find_meetings();
+  steps_ += pieces_.size() + meetings_.size();
+  ask();
+  const auto counts = [&](std::uint32_t piece) {
+    const std::size_t cut = cut_of_piece_[piece];
+    return cut < before && cuts_[cut].of != of;
+  };
+  // The windings from the beginning of each cut to the beginning of each of its pieces.
+  std::vector<int> along(pieces_.size(), 0);
+  for (std::size_t cut = 0; cut < before; ++cut)
+    for (std::size_t i = cuts_[cut].first + 1; i < cuts_[cut].last; ++i)
+      along[i] = along[i - 1] + windings(pieces_[i - 1].from, pieces_[i - 1].to, p);
+  WindingTree tree(cuts_.size());
+  for (const Meeting& meeting : meetings_) {
+    if (!counts(meeting.a) || !counts(meeting.b)) continue;
+    const Place from = pieces_[meeting.a].from, to = pieces_[meeting.b].from;
+    const int way = along[meeting.a] + windings(from, meeting.on_a, p) +
+                    windings(meeting.on_a, meeting.on_b, p) + windings(meeting.on_b, to, p) -
+                    along[meeting.b];
+    if (tree.join(cut_of_piece_[meeting.a], cut_of_piece_[meeting.b], way)) return true;
+  }
+  return false;
+}
+
+}  // namespace lekalo::verify
