@@ -18,7 +18,6 @@ class EngravedMarks {
 
   /// Says whether every edge of a chain lies on the marks that may be engraved, and counts it then.
   [[nodiscard]] bool follows(const CutChain& chain);
-  [[nodiscard]] std::size_t engravings() const noexcept { return chains_.size(); }
   /// A sentence about how many marks are engraved all along; empty where the layout has none.
   [[nodiscard]] std::string note() const;
 
