@@ -350,6 +350,8 @@ TEST(VerifyClaims, OneFigureOfAReportOfNestThatIsWrongIsNamed) {
   report = Json::parse(kNest);
   layout.at("/parts/0/demand") = 2, given.at("/parts/0/demand") = 2;
   EXPECT_EQ(said(), "unplaced says 1 of \"p\" and is to say 2\n");
+  report["unplaced"].push_back({{"part", "p"}, {"count", 0}, {"reason", "room"}});
+  EXPECT_EQ(said(), "r.json: field unplaced[1].count is 0");
 }
 
 /// A layout of an order: parts of 10 x 10 on a sheet of 100 x 100.

@@ -125,6 +125,25 @@ TEST(VerifyCutHistory, DwellsStandWhereTheToolIs) {
   }
 }
 
+// Doubles do not tell the square of such a way from 0, so that it has no piece that the clock knows.
+TEST(VerifyCutHistory, DwellsBeforeAWayThatIsTooShortAreAtTheirTime) {
+  const std::string begin = kBegin + "G1 X50 F1500\nG0 Z5\nG0 X0\nG4 P2\n";
+  const auto tiny = [](const char* digit) { return "G0 X0." + std::string(180, '0') + digit + "\n"; };
+  for (const std::string& program :
+       {begin + tiny("1"), begin + tiny("1") + "G4 P3\n" + tiny("2") + "G0 X9\n"}) {
+    const CutHistory history = run(program);
+    ASSERT_GT(history.pieces.size(), 2U);
+    double waited = 0;
+    for (std::size_t i = 1; i < history.pieces.size(); ++i) {
+      const CutPiece &before = history.pieces[i - 1], &piece = history.pieces[i];
+      EXPECT_NEAR(piece.start, before.start + before.seconds, 1e-9) << i;
+      if (piece.length == 0 && piece.from_z == piece.to_z) waited += piece.seconds;
+    }
+    EXPECT_NEAR(history.pieces.back().start + history.pieces.back().seconds, history.seconds, 1e-9);
+    EXPECT_EQ(waited, program.ends_with("X9\n") ? 5 : 2);
+  }
+}
+
 TEST(VerifyCutHistory, SaysHowFarItIs) {
   std::vector<Progress> told;
   const auto made = cut_history({"p.ngc", kBegin + "G1 X50 F1500\nG1 Y20\nG1 X20\n"}, {"pocket.json", kWide},

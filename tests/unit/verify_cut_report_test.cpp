@@ -258,6 +258,10 @@ TEST(VerifyCutReport, FilesHaveTheirRolesOnce) {
   Json other = report;
   other["inputs"].push_back({{"role", "other"}, {"path", "o"}, {"sha256", "x"}});
   EXPECT_EQ(judged(other), fmt::format(fmt::runtime(wrong), "other"));
+  // A stock is one of what heats up.
+  Json stock = report;
+  stock["inputs"].push_back({{"role", "stock"}, {"path", "o"}, {"sha256", "x"}});
+  EXPECT_EQ(judged(stock), fmt::format(fmt::runtime(wrong), "stock"));
   Json first = report;
   first["inputs"] = Json::array({other["inputs"].back(), report["inputs"][0], report["inputs"][1]});
   EXPECT_EQ(judged(first), fmt::format(fmt::runtime(wrong), "other"));

@@ -14,6 +14,7 @@
 #include "support/json.hpp"
 #include "support/json_paths.hpp"
 #include "support/prepared.hpp"
+#include "verify/claims/heat_fields.hpp"
 #include "verify/heat/cut_work.hpp"
 
 namespace lekalo::verify_heat_test {
@@ -163,8 +164,55 @@ TEST(VerifyHeat, AnOutlineIsThatOfItsFile) {
             std::string::npos);
   EXPECT_NE(said_of([](Json& d) { d["stock"]["outline"]["regions"]["units"] = "inch"; }).find("units"),
             std::string::npos);
+  // Its file is not named, though it is there.
+  Json without = honest;
+  without["inputs"].erase(2);
+  std::vector<verify::Document> files = files_of(job);
+  files.erase(files.begin() + 2);
+  const auto lost = verify::verify_heat_report({"r.json", without.dump()}, files);
+  ASSERT_FALSE(lost);
+  EXPECT_NE(lost.error().message.find("go together"), std::string::npos) << lost.error().message;
   for (const char* key : {"regions", "tolerance_mm", "drawing", "scan"})
     EXPECT_NE(said_of([&](Json& d) { d["stock"]["outline"].erase(key); }), "") << key;
+}
+
+// What a file means is known to a tolerance that stands in the result, and a note says it.
+TEST(VerifyHeat, TheToleranceOfAnOutlineIsNoted) {
+  const jobs::HeatResultJob job = outline_job();
+  Json document = Json::parse(jobs::heat_result(job).value().json);
+  const auto noted = [&](double tolerance) {
+    document["stock"]["outline"]["tolerance_mm"] = tolerance;
+    const auto report = judged(document, job);
+    return std::ranges::any_of(report.value().notes, [&](const std::string& note) {
+      return note.starts_with("stock.outline is within ");
+    });
+  };
+  EXPECT_FALSE(noted(0));
+  EXPECT_TRUE(noted(0.001));
+}
+
+TEST(VerifyHeat, FilesHaveTheirRolesOnce) {
+  const auto answer = [](const std::vector<std::string>& roles) {
+    Json document = *kHonest;
+    const jobs::HeatResultJob job = job_of(0.05, 0.2);
+    std::vector<verify::Document> files = files_of(job);
+    for (const std::string& role : roles) {
+      document["inputs"].push_back({{"role", role}, {"path", "o"}, {"sha256", "x"}});
+      files.push_back({"o", "{}"});
+    }
+    const auto report = verify::verify_heat_report({"r.json", document.dump()}, files);
+    return report ? std::string() : report.error().message;
+  };
+  const auto wrong = [&](const std::vector<std::string>& roles) {
+    return answer(roles) == "r.json: the files that it names have the role \"" + roles.back() +
+                                "\" twice, or no such report has it";
+  };
+  EXPECT_EQ(answer({}), "");
+  EXPECT_TRUE(wrong({"other"})) << answer({"other"});
+  EXPECT_TRUE(wrong({"program"})) << answer({"program"});
+  EXPECT_TRUE(wrong({"stock", "stock"})) << answer({"stock", "stock"});
+  EXPECT_TRUE(wrong({"corrected", "corrected"})) << answer({"corrected", "corrected"});
+  EXPECT_NE(answer({"stock"}).find("go together"), std::string::npos) << answer({"stock"});
 }
 
 TEST(VerifyHeat, WhatWasMeasuredIsHeldAgainstTheProgram) {
@@ -406,6 +454,79 @@ TEST(VerifyHeat, WhatStandsForNoToolNoBlockAndNoMaterialIsSaid) {
                      d["material"]["glass_c"] = Json::array({100, 120});
                    }),
                    " and is to be 100;"));
+}
+
+TEST(VerifyHeat, MeasurementsHaveAnUncertaintyAndARiseForEachCase) {
+  const auto uncertain = [](double kelvin) {
+    return said([&](Json& d) { d["measured"][0]["uncertainty_k"] = kelvin; });
+  };
+  EXPECT_TRUE(says(uncertain(0), "field measured[0].uncertainty_k is not above 0")) << uncertain(0);
+  EXPECT_FALSE(says(uncertain(1e-6), "above 0"));
+  const auto wrong = [](const Json& rises) {
+    return says(said([&](Json& d) { d["measured"][0]["rises_k"] = rises; }),
+                "field measured[0].rises_k is not a rise above 0 for each case");
+  };
+  EXPECT_TRUE(wrong({1, 2}) && wrong({1, 2, 3, 4}) && wrong(Json::array({1})) && wrong(Json::array()));
+  EXPECT_TRUE(wrong({0, 1, 2}) && wrong({1, 2, 0}) && wrong({1, -1, 2}));
+  EXPECT_FALSE(wrong({0.25, 0.5, 0.75}));
+  // One film is one case.
+  jobs::HeatResultJob job = measured_job();
+  job.heat.film = {20, 20};
+  const Json single = Json::parse(jobs::heat_result(job).value().json);
+  ASSERT_EQ(single["measured"][0]["rises_k"].size(), 1U);
+  const auto report = judged(single, job);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_TRUE(report->findings.empty()) << report->findings[0];
+}
+
+TEST(VerifyHeat, TheHeatThatAMeasurementSupportsIsToldToOnePartInAHundredMillion) {
+  const auto off_by = [](double part) {
+    return says(said([&](Json& d) {
+                  Json& m = d["measured"][0];
+                  // Much heat, of which written figures are a small part.
+                  m["rises_k"] = {1e-6, 1e-6, 1e-6};
+                  const Json& work = d["booked"]["work_j"];
+                  const double middle = (double(work[0]) + double(work[1])) / 2;
+                  const double high =
+                      double(m["temperature_c"]) + double(m["uncertainty_k"]) - double(d["ambient_c"]);
+                  m["supported_j"][1] = high * middle / 1e-6 * (1 + part);
+                }),
+                "measured[0].supported_j[1] is ");
+  };
+  EXPECT_FALSE(off_by(0.5e-8) || off_by(-0.5e-8));
+  EXPECT_TRUE(off_by(1.5e-8) && off_by(-1.5e-8));
+}
+
+/// Holds the figures of a program's work against what was found.
+struct Held : private verify::HeldFigures {
+  std::string said(const Json& written, const verify::BookedWork& found) {
+    const std::string text = written.dump();
+    verify::ReportFields fields(verify::parse_json(text, "r.json").value(), "", complaint_);
+    hold_booked(fields, found);
+    std::string all = complaint_;
+    for (const std::string& finding : claims_.findings) all += finding + "; ";
+    return all;
+  }
+};
+
+TEST(VerifyHeat, SumsOverPiecesAreToldToOnePartInABillion) {
+  const double sum = 1e6;
+  const verify::BookedWork found{sum, sum, sum, {0, sum}, {0, sum}, {0, sum}, {0, sum}, ""};
+  const Json honest{{"seconds", sum},
+                    {"cutting_seconds", sum},
+                    {"volume_mm3", sum},
+                    {"work_j", {0, sum}},
+                    {"into_workpiece_j", {0, sum}},
+                    {"carried_off_j", {0, sum}},
+                    {"greatest_power_w", {0, sum}}};
+  EXPECT_EQ(Held().said(honest, found), "");
+  for (const char* path : {"seconds", "cutting_seconds", "volume_mm3", "work_j/1", "into_workpiece_j/1",
+                           "carried_off_j/1", "greatest_power_w/1"})
+    for (const double off : {0.5e-9, 1.5e-9}) {
+      Json other = honest;
+      other.at(std::string("/") + path) = sum * (1 + off);
+      EXPECT_EQ(!Held().said(other, found).empty(), off > 1e-9) << path << off;
+    }
 }
 
 // What a command line would be told as its own fault is that of the result; what is wrong with a file is said

@@ -112,6 +112,19 @@ TEST(VerifyRims, OfATriangleThatIsHalfInTheRimTheOtherHalfIsLeft) {
   }
 }
 
+TEST(VerifyRims, OfALongTriangleBesideASmallFaceLittleIsTakenOff) {
+  // A square of 0.5 by 0.5 lies 0.1 beside the middle of 200 by 4.
+  solid::Mesh mesh = block({-100, 0, 0}, {100, 4, 4});
+  cases::append(mesh, block({-0.25, -0.6, 1.75}, {0.25, -0.1, 2.25}));
+  const SolidMesh part = checked(mesh);
+  Rims rims(part);
+  rims.add(at_level(part, 1, -0.1), 0.5);
+  const SolidMesh left = rims.rest(at_level(part, 1, 0));
+  const double reach = std::sqrt(0.25 - 0.01), pi = 3.141592653589793;
+  EXPECT_NEAR(area_of(left), 800 - (0.25 + 2 * reach + pi * reach * reach), 0.01);
+  EXPECT_LT(left.triangles.size(), 5000U);
+}
+
 /// Looks at points of a part one by one.
 void hold_points(std::size_t i, Random& random) {
   // Faces much smaller than the triangles about them, as large, and of several that meet.

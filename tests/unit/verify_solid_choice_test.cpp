@@ -48,9 +48,24 @@ TEST(SolidChoice, WhatIsTrueIsTaken) {
   Chosen none;
   none.inside = false, none.margin_found = none.largest = nullptr;
   EXPECT_EQ(none.told(), "unproved");
+  none.criterion = "even";
+  SolidResultFiles even = none.files();
+  even.result["choice"]["largest_found"] = even.result["choice"]["deviation"] = nullptr;
+  EXPECT_EQ(even.told(), "unproved");
   Chosen unbounded;
   unbounded.bound = nullptr;
   EXPECT_EQ(unbounded.told(), "unproved");
+}
+
+TEST(SolidChoice, WithoutAClearanceNothingIsHeldAgainstIt) {
+  SolidResultFiles lost = Chosen{}.files();
+  for (const char* field : {"clearance", "gap", "shortfall"}) lost.result[field] = nullptr;
+  EXPECT_TRUE(says(lost.told(), "inside is true, but there is no clearance")) << lost.told();
+  Chosen none;
+  none.inside = false, none.margin_found = none.largest = nullptr;
+  SolidResultFiles more = none.files();
+  more.result["clearance"] = 0.5;
+  EXPECT_TRUE(says(more.told(), "inside is false, but there is a clearance")) << more.told();
 }
 
 TEST(SolidChoice, NoMoreIsGivenUpThanIsSaid) {
@@ -145,6 +160,9 @@ TEST(SolidChoice, HowEvenAllowancesAreIsMeasured) {
   EXPECT_EQ(evened().told(), "unproved");
   for (const double wrong : {0.2499, 0.2501, 0.0})
     EXPECT_TRUE(says(evened(wrong).told(), "choice.deviation is said to be")) << evened(wrong).told();
+  // It is told to 2^-20 of the largest allowance.
+  EXPECT_EQ(evened(0.25 + 0.5 * 0x1p-20).told(), "unproved");
+  EXPECT_TRUE(says(evened(0.25 + 0x1p-20).told(), "choice.deviation is said to be"));
   // Without a target the mean is aimed at, and all of the top has that.
   EXPECT_EQ(evened(0, 0.7525, nullptr).told(), "unproved");
   EXPECT_TRUE(says(evened(0.25, 0.7525, nullptr).told(), "choice.deviation is said to be 0.25, but it is"))

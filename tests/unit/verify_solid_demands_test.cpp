@@ -378,13 +378,29 @@ TEST(SolidFeatures, FacesAreThoseOfAStepFile) {
   };
   EXPECT_EQ(by_colour("#0000ff"), (Numbers{0, 1, 6, 7}));
   EXPECT_EQ(by_colour("#FF8000"), (Numbers{2, 3, 8, 9, 10, 11}));
+  // Every digit of a colour counts, in capitals or not.
+  const std::vector<std::uint32_t> colours{0x0099ff, 0x9900aa, 0xaaff99, 0x00aaf0, 0xf99a0f, 0};
+  const auto of_colours = [&](const char* colour) {
+    return found(Json::array({Json{{"name", "a"}, {"colour", colour}}}),
+                 solid_files::step_mesh(cases::block({-5, -5, -5}, {5, 5, 5}), "0.5",
+                                        {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5}, std::vector<std::string>(6),
+                                        colours))[0];
+  };
+  EXPECT_EQ(of_colours("#0099ff"), (Numbers{0, 1}));
+  EXPECT_EQ(of_colours("#9900Aa"), (Numbers{2, 3}));
+  EXPECT_EQ(of_colours("#AaFf99"), (Numbers{4, 5}));
+  EXPECT_EQ(of_colours("#000000"), (Numbers{10, 11}));
   const auto in_colour = [](const char* colour) {
     return std::string(R"({"features": [{"name": "a", "colour": ")") + colour + "\"}]}";
   };
   EXPECT_TRUE(says(refused(in_colour("#000007"), coloured), "features[0] has no triangle of the part"));
   EXPECT_TRUE(says(refused(in_colour("#0000ff"), part), "features[0] has no triangle of the part"));
-  EXPECT_TRUE(
-      says(refused(in_colour("#ff80"), coloured), "field features[0].colour is no colour like #ff8000"));
+  EXPECT_TRUE(says(refused(in_colour("#0000ff"), solid_files::stl_binary(cases::block({0, 0, 0}, {1, 1, 1}))),
+                   "features[0] has no triangle of the part"));
+  for (const char* wrong : {"#ff80", "#ff80000", "0ff8000", "#ff800g", "#-f8000", ""})
+    EXPECT_TRUE(
+        says(refused(in_colour(wrong), coloured), "field features[0].colour is no colour like #ff8000"))
+        << wrong;
   std::string beyond = coloured;
   beyond.replace(beyond.find("16777216"), 8, "16777217");
   EXPECT_TRUE(says(read_solid({"part", beyond}).error().message, "its colour is not one"));

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "support/solid_files.hpp"
 #include "support/solids.hpp"
@@ -39,6 +41,35 @@ TEST(SolidReader, EveryFormatGivesTheSameCube) {
     EXPECT_EQ(reading(ply<float>(cube(), form)), closed);
     EXPECT_EQ(reading(ply<double>(cube(), form, true)), closed);
   }
+}
+
+TEST(SolidReader, ColoursAreThoseOfTheFacesOfAStepFile) {
+  const std::string closed = "closed, 8 vertices, 12 triangles";
+  const auto coloured = [](std::uint32_t one) {
+    return step_mesh(cube(), "0.5", {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1}, {"", ""}, {7, one});
+  };
+  const auto with = [](std::string text, const std::string& words, const std::string& others) {
+    return text.replace(text.find(words), words.size(), others);
+  };
+  const auto colours = [](const std::string& text) {
+    const auto read = read_solid({"s", text});
+    return read ? read->colours : std::vector<std::uint32_t>{~0U};
+  };
+  EXPECT_EQ(colours(coloured(0x1000000)), (std::vector<std::uint32_t>{7, 0x1000000}));
+  EXPECT_NE(reading(coloured(0x1000001)).find("its colour is not one"), std::string::npos);
+  EXPECT_NE(reading(with(coloured(0x1000001), "16777217", "red")).find("its colour is not one"),
+            std::string::npos);
+  EXPECT_NE(reading(with(coloured(0x1000001), "16777217", "-1")).find("its colour is not one"),
+            std::string::npos);
+  // What others write of colours, or what is none, is nobody's matter.
+  EXPECT_EQ(reading(with(coloured(0x1000001), "comment lekalo-step 1\n", "")), closed);
+  EXPECT_EQ(colours(with(coloured(7), "comment lekalo-step 1\n", "")), std::vector<std::uint32_t>{});
+  const std::string more = with(coloured(7), "end_header", "element more 1\nproperty int colour\nend_header");
+  EXPECT_EQ(reading(more + "-1\n"), closed);
+  EXPECT_EQ(colours(more + "9\n"), (std::vector<std::uint32_t>{7, 7}));
+  const std::string plain = step_mesh(cube(), "0.5", {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1}, {"", ""});
+  EXPECT_EQ(reading(with(plain, " kind", " colour")), closed);
+  EXPECT_EQ(colours(with(plain, " kind", " colour")), std::vector<std::uint32_t>{});
 }
 
 TEST(SolidReader, NumbersAreWhatIsWritten) {

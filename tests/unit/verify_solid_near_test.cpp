@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -123,6 +124,39 @@ TEST(SolidNear, AFaceThatLiesEvenlyDeepIsKnownAtOnce) {
   EXPECT_TRUE(farthest_of(placed, all_of(part), around, 1, 1e-6).open);
   EXPECT_FALSE(farthest_of(placed, all_of(part), around, 0.999, 1e-6).open);
   EXPECT_GT(farthest_of(placed, all_of(part), around, 0.999, 1e-6).low, 0.999);
+}
+
+/// A right-angled triangle at a height, whose short sides are so long.
+void add_level(SolidMesh& mesh, double z, double wide, double deep) {
+  const auto first = static_cast<std::uint32_t>(mesh.near.size());
+  for (const Near3& p : {Near3{0, 0, z}, {wide, 0, z}, {0, deep, z}}) mesh.near.push_back(p);
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  mesh.numbers.push_back(first / 3);
+}
+
+TEST(SolidNear, TrianglesHaveAsManyPointsAsTheirAreasSay) {
+  const SolidMesh blank = checked(block({-20, -20, -20}, {20, 20, 20}));
+  const PlacedSolid around(blank);
+  const auto deviation = [&](const SolidMesh& part, const std::vector<std::optional<double>>& targets) {
+    const Span found = deviation_of(PlacedSolid(part), all_of(part), targets, around);
+    EXPECT_LE(found.high - found.low, 1e-9);
+    return found.low;
+  };
+  SolidMesh part;
+  add_level(part, 18, 1, 1);  // 2 deep, a quarter of the area
+  add_level(part, 19, 1, 3);  // 1 deep
+  EXPECT_NEAR(deviation(part, {std::nullopt, std::nullopt}), std::sqrt(0.1875), 1e-9) << "1.25 is the mean";
+  EXPECT_NEAR(deviation(part, {1.0, std::nullopt}), std::sqrt(0.25), 1e-9);
+  EXPECT_NEAR(deviation(part, {2.0, 2.0}), std::sqrt(0.75), 1e-9);
+  // What has no area has no points, and where nothing has any the last triangle has all of them.
+  SolidMesh needles;
+  add_level(needles, 17, 1, 0);
+  EXPECT_NEAR(deviation(needles, {std::nullopt}), 0, 1e-9);
+  EXPECT_NEAR(deviation(needles, {1.0}), 2, 1e-9);
+  add_level(needles, 19, 1, 0);
+  EXPECT_NEAR(deviation(needles, {1.5, 3.0}), 2, 1e-9);
+  add_level(needles, 18, 1, 1);
+  EXPECT_NEAR(deviation(needles, {1.0, 3.0, 1.0}), 1, 1e-9);
 }
 
 /// The row of a certificate: a corner, three edges and a distance.

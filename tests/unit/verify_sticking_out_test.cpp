@@ -153,6 +153,15 @@ TEST(StickingOut, LargeShapesGetFewerPieces) {
   EXPECT_GE(found.high, 4);
 }
 
+TEST(StickingOut, AnOutlineOfALargeShapeGetsFewerPieces) {
+  // Its farthest point is on the outline of the part, and no piece there is ever known to stick out by no
+  // more.
+  std::vector<std::array<double, 2>> comb{{60, 60}, {-60, 60}};
+  for (int k = 0; k < 3994; ++k) comb.push_back({-60 + 0.03 * k, k % 2 == 0 ? -60.0 : -50.0});
+  const Shape blank = region(polygon(comb), {circle(5.3, 0, 0.7)}), part = region(box(0, 0, 10, 10));
+  EXPECT_TRUE(takes_at_most(2200 * 4001, part, blank, 0));
+}
+
 TEST(StickingOut, SquaresThatHoldNoFarthestPointAreLeftOut) {
   // Squares at the origin, which counts for nothing, and beside circles where the arcs are not.
   const Shape part = region(box(-7, -7, 7, 7));

@@ -25,6 +25,8 @@ namespace {
 constexpr double kPiece = 0.125;
 /// The heat may miss its balance by this part (docs/design/heat-walls.md).
 constexpr double kBalanced = 1e-3;
+/// What follows from measurements is told apart to this part: their rises stand to 1e-12 K.
+constexpr double kMeasured = 1e-8;
 
 class HeatReport : private HeldFigures {
  public:
@@ -211,8 +213,7 @@ class HeatReport : private HeldFigures {
     const CheckedRange heat = calibrated(found.into_j);
     heat_ = measured_.empty() ? work.middle() * cutting_.share.middle() : heat.middle();
     if (heat_ > 0) parts_ = {heat.least / heat_, heat.greatest / heat_};
-    // Rises stand to 1e-12 K.
-    const double summed = measured_.empty() ? kSummed : 10 * kSummed;
+    const double summed = measured_.empty() ? kSummed : kMeasured;
     hold("heat_parts", range_of(fields_, "heat_parts"), parts_, kFine + summed * parts_.greatest);
   }
 
@@ -252,7 +253,7 @@ class HeatReport : private HeldFigures {
     for (std::size_t i = 0; i < measured_.size(); ++i) {
       const CheckedRange found = supported_heat(measured_[i], ambient_, work_.middle());
       hold(fmt::format("measured[{}].supported_j", i), supported_[i], found,
-           kShown + 10 * kSummed * std::abs(found.greatest));
+           kShown + kMeasured * std::abs(found.greatest));
       heat = {std::max(heat.least, found.least), std::min(heat.greatest, found.greatest)};
     }
     if (!(heat.least <= heat.greatest)) find("measured: no heat supports all that was measured");
@@ -260,9 +261,9 @@ class HeatReport : private HeldFigures {
     if (!measured_.empty())
       share = {std::max(share.least, heat.least / work_.greatest),
                std::min(share.greatest, heat.greatest / work_.least)};
-    hold("calibrated.share", range_of(f, "share"), share, kFine + 10 * kSummed * share.greatest);
+    hold("calibrated.share", range_of(f, "share"), share, kFine + kMeasured * share.greatest);
     hold("calibrated.into_workpiece_j", range_of(f, "into_workpiece_j"), heat,
-         kShown + 10 * kSummed * std::abs(heat.greatest));
+         kShown + kMeasured * std::abs(heat.greatest));
     f.refuse_others();
     share_ = share;
     return heat;

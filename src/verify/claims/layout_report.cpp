@@ -370,7 +370,9 @@ class LayoutReport {
       ReportFields fields(item, path, complaint_);
       if (!complaint_.empty()) return;
       const std::string part = fields.text("part");
-      told[part] += static_cast<std::int64_t>(fields.index("count"));
+      const std::size_t count = fields.index("count");
+      if (count == 0) fields.complain(fmt::format("field {} is 0", fields.name("count")));
+      told[part] += static_cast<std::int64_t>(count);
       (void)fields.text("reason");
       fields.refuse_others();
     });
@@ -380,7 +382,7 @@ class LayoutReport {
       all += count;
       const auto found = told.find(written_.parts[p].id);
       const std::int64_t said = found == told.end() ? 0 : found->second;
-      if (said != count || (found != told.end() && count == 0))
+      if (said != count)
         claims_.findings.push_back(fmt::format("{} says {} of \"{}\" and is to say {}", of.name("unplaced"),
                                                said, written_.parts[p].id, count));
       if (found != told.end()) told.erase(found);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <charconv>
+#include <chrono>
 #include <cmath>
 #include <initializer_list>
 #include <iterator>
@@ -321,21 +324,19 @@ WrittenMaterial read_material(Members& members) {
 
 /// Says whether the calendar has a day that is written so: year, month and day with dashes between.
 bool is_in_calendar(std::string_view day) {
-  if (day.size() != 10 || day[4] != '-' || day[7] != '-') return false;
-  std::array<int, 8> digits{};
-  std::size_t count = 0;
-  for (const char c : day) {
-    if (c == '-') continue;
-    if (c < '0' || c > '9' || count == digits.size()) return false;
-    digits[count++] = c - '0';
-  }
-  if (count != digits.size()) return false;
-  const int year = ((digits[0] * 10 + digits[1]) * 10 + digits[2]) * 10 + digits[3];
-  const int month = digits[4] * 10 + digits[5], date = digits[6] * 10 + digits[7];
-  if (month < 1 || month > 12) return false;
-  const bool leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
-  constexpr std::array<int, 12> kDays{31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-  return date >= 1 && date <= kDays[static_cast<std::size_t>(month - 1)] + (month == 2 && leap ? 1 : 0);
+  std::string form(day);
+  std::ranges::replace_if(
+      form, [](unsigned char c) { return std::isdigit(c) != 0; }, '0');
+  if (form != "0000-00-00") return false;
+  int year{};
+  unsigned month{}, date{};
+  const char* const end = day.data() + day.size();
+  std::from_chars(day.data(), end, year);
+  std::from_chars(day.data() + 5, end, month);
+  std::from_chars(day.data() + 8, end, date);
+  return std::chrono::year_month_day(std::chrono::year(year), std::chrono::month(month),
+                                     std::chrono::day(date))
+      .ok();
 }
 
 WrittenPart read_part(Json item, const std::string& path, std::string& complaint, const Gaps& rules) {

@@ -115,10 +115,7 @@ MachineClock::MachineClock(const std::vector<Move>& moves, const SimulateOptions
     square_[i] = std::min(square_[i], square_[i - 1] + 2 * a * pieces_[i - 1].length);
   for (std::size_t i = square_.size() - 1; i-- > 0;)
     square_[i] = std::min(square_[i], square_[i + 1] + 2 * a * pieces_[i].length);
-  for (std::size_t i = 0; i < pieces_.size(); ++i) {
-    begins_.push_back(seconds_);
-    seconds_ += seconds_of(i);
-  }
+  for (std::size_t i = 0; i < pieces_.size(); ++i) begins_.push_back(begins_.back() + seconds_of(i));
 }
 
 double MachineClock::top_square(std::size_t i) const {
@@ -137,7 +134,7 @@ double MachineClock::seconds_of(std::size_t i) const {
 
 double MachineClock::seconds_at(std::size_t move, double share) const {
   const std::size_t first = first_piece_[move], end = first_piece_[move + 1];
-  if (first == end) return first < begins_.size() ? begins_[first] : seconds_;
+  if (first == end) return begins_[first];
   double whole = 0;
   for (std::size_t i = first; i < end; ++i) whole += pieces_[i].length;
   double way = share * whole;

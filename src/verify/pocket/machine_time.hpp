@@ -14,7 +14,7 @@ class MachineClock {
   MachineClock(const std::vector<Move>& moves, const SimulateOptions& options);
 
   /// Returns the seconds that the machine takes for all moves.
-  [[nodiscard]] double seconds() const { return seconds_; }
+  [[nodiscard]] double seconds() const { return begins_.back(); }
   /// Returns the seconds from the beginning of the first move to a share of the way of one, in [0, 1].
   /// Cost: the pieces of the move.
   [[nodiscard]] double seconds_at(std::size_t move, double share) const;
@@ -33,12 +33,12 @@ class MachineClock {
   [[nodiscard]] double top_square(std::size_t piece) const;
   [[nodiscard]] double seconds_of(std::size_t piece) const;
 
-  double acceleration_, seconds_ = 0;
+  double acceleration_;
   std::vector<std::size_t> first_piece_;  ///< by move, and one behind the last
   std::vector<Piece> pieces_;
   /// The square of the speed at the beginning of each piece and at the end of the last.
   std::vector<double> square_;
-  std::vector<double> begins_;  ///< seconds, by piece
+  std::vector<double> begins_{0.0};  ///< seconds, by piece, and the end of the last
 };
 
 /// Returns the seconds that a machine takes for all moves.

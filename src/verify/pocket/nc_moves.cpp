@@ -216,14 +216,11 @@ class ProgramReader {
   /// LinuxCNC and grbl count seconds. Haas and Fanuc count thousandths where there is no decimal point, and
   /// Fanuc's P never has one.
   [[nodiscard]] double dwell_of(const NcBlock& block) const {
-    for (const char letter : {'P', 'X', 'U'})
-      if (block[letter]) {
-        const bool pointless = block.pointless.find(letter) != std::string::npos;
-        const bool thousandths = (control_ == Control::fanuc && (letter == 'P' || pointless)) ||
-                                 (control_ == Control::haas && pointless);
-        return *block[letter] / (thousandths ? 1000 : 1);
-      }
-    return 0;
+    const char letter = block['P'] ? 'P' : block['X'] ? 'X' : 'U';
+    const bool pointless = block.pointless.find(letter) != std::string::npos;
+    const bool thousandths = (control_ == Control::fanuc && (letter == 'P' || pointless)) ||
+                             (control_ == Control::haas && pointless);
+    return *block[letter] / (thousandths ? 1000 : 1);
   }
 
   void set_plane(int tenths) {

@@ -265,7 +265,7 @@ class FeatureReader {
       if (feature.demand && !(*feature.within > feature.demand->minimum))
         fields.complain(fmt::format("field {} is not above the minimum", fields.name("maximum")));
     }
-    if (feature.demand && is_said(fields, "target")) feature.target = length(fields, "target");
+    if (is_said(fields, "target")) feature.target = length(fields, "target");
     if (has(fields, "rim") && !feature.finished)
       fields.complain(fmt::format("field {} is of what is not finished", fields.name("rim")));
     std::vector<std::uint32_t> triangles = triangles_of(fields);
@@ -407,12 +407,10 @@ class FeatureReader {
 
   std::vector<std::uint32_t> of_colour(Fields& fields) {
     const std::string text = fields.text("colour");
-    const bool is_hexadecimal =
-        text.size() == 7 && text[0] == '#' && std::all_of(text.begin() + 1, text.end(), [](char c) {
-          return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
-        });
-    std::uint32_t number = 0;
-    if (is_hexadecimal) std::from_chars(text.data() + 1, text.data() + 7, number, 16);
+    const bool is_hexadecimal = text.size() == 7 && text[0] == '#' &&
+                                text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+    std::uint32_t number{};
+    if (is_hexadecimal) std::from_chars(text.data() + 1, text.data() + text.size(), number, 16);
     if (!is_hexadecimal)
       fields.complain(fmt::format("field {} is no colour like #ff8000", fields.name("colour")));
     return is_hexadecimal ? finder_.coloured(number) : std::vector<std::uint32_t>{};

@@ -78,7 +78,7 @@ std::vector<SpreadPoint> spread_points(const PlacedSolid& part, const std::vecto
     for (std::size_t corner = 0; corner < 3; ++corner)
       for (std::size_t axis = 0; axis < 3; ++axis)
         at[corner][axis] = mesh.enclosed(mesh.triangles[t][corner], axis);
-    all += 0.5 * middle_of(length(normal(at)));
+    all += middle_of(length(normal(at)));
     ends.push_back(all);
   }
   std::vector<SpreadPoint> made;
@@ -200,7 +200,8 @@ Span deviation_of(const PlacedSolid& part, const std::vector<std::uint32_t>& tri
     apart.push_back(nearest_to(one.at, blank).distance);
     if (!targets[one.triangle]) mean = mean + apart.back(), ++free;
   }
-  if (free > 0) mean = mean * (just(1) / just(free));
+  // Where no point is free, nothing reads it.
+  mean = mean * (just(1) / just(free));
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto& target = targets[points[k].triangle];
     squares = squares + squared(apart[k] - (target ? just(*target) : mean));
