@@ -129,9 +129,26 @@ def edges_of(region):
     return [edge for contour in contours_of(region) for edge in contour]
 
 
+def box_around(edge):
+    """A box in doubles in which an edge lies with room for roundings; of an arc that of its whole circle."""
+    if edge.arc:
+        low, high = [c - edge.r for c in edge.c], [c + edge.r for c in edge.c]
+    else:
+        low, high = map(min, edge.a, edge.b), map(max, edge.a, edge.b)
+    return [(float(l) - 1e-9 * (1 + abs(float(l))), float(h) + 1e-9 * (1 + abs(float(h)))) for l, h in zip(low, high)]
+
+
 def distance(edges, others):
-    """The least distance of two outlines."""
-    return min(between(e, f) for e in edges for f in others)
+    """The least distance of two outlines. Edges whose boxes are farther apart than what was found are not looked at."""
+    boxes = [list(map(box_around, outline)) for outline in (edges, others)]
+    pairs = sorted((math.hypot(*(max(l - high, low - h, 0.0) for (low, high), (l, h) in zip(a, b))), i, j)
+                   for i, a in enumerate(boxes[0]) for j, b in enumerate(boxes[1]))
+    least = between(edges[pairs[0][1]], others[pairs[0][2]])
+    for apart_at_least, i, j in pairs[1:]:
+        if apart_at_least > least:
+            break
+        least = min(least, between(edges[i], others[j]))
+    return least
 
 
 def is_inside(p, edges):

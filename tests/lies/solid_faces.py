@@ -13,9 +13,20 @@ from exact_bodies import of_segments
 from exact_solids import F, dot, normal, squared_distance, sub
 
 
+def ways_between(s, t):
+    """Of which the shortest is as long as two triangles are apart."""
+    return [(squared_distance, p, t) for p in s] + [(squared_distance, p, s) for p in t] + [
+        (of_segments, s[k - 1], s[k], t[j - 1], t[j]) for k in range(3) for j in range(3)]
+
+
 def of_triangles(s, t):
-    corners = [squared_distance(p, t) for p in s] + [squared_distance(p, s) for p in t]
-    return min(corners + [of_segments(s[k - 1], s[k], t[j - 1], t[j]) for k in range(3) for j in range(3)])
+    return min(measure(*way) for measure, *way in ways_between(s, t))
+
+
+def exactly_of_triangles(s, t):
+    """In fractions, of the ways that doubles show to be shortest."""
+    near = [measure(*way) for measure, *way in ways_between(*([list(map(float, p)) for p in one] for one in (s, t)))]
+    return min(measure(*way) for far, (measure, *way) in zip(near, ways_between(s, t)) if far <= min(near) + 1e-9)
 
 
 def farthest(triangles, surface, within):

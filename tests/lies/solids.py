@@ -1,6 +1,6 @@
 """Decides which changes of a placement of solids, or of its meshes, leave every claim true.
 
-All of it is computed in fractions; of pairs of triangles only those that doubles show to be nearest. What a leaf of
+All of it is computed in fractions; of triangles, their corners and sides only those that doubles show to be nearest. What a leaf of
 the certificate proves says tests/support/check_solid_certificate.py, which was written from docs/formats.md alone.
 """
 
@@ -25,7 +25,7 @@ import solid_faces
 import touches
 import truth
 from exact_solids import cross, dot, plus, sub, times
-from solid_faces import of_triangles
+from solid_faces import exactly_of_triangles, of_triangles
 
 INFORMATION = [r"/(seed|work|version|method|run|warnings|start|symmetry)(/.*)?$", r"/inputs/\d+/path$",
                r"/certificate_file/path$",
@@ -78,7 +78,8 @@ class Mesh:
     def __init__(self, triangles):
         self.all = triangles
         self.kept = [t for t in triangles if any(space.normal(t))]
-        self.boxes = [[(min(c), max(c)) for c in zip(*t)] for t in self.kept]
+        self.in_doubles = [[[float(c) for c in p] for p in t] for t in self.kept]
+        self.boxes = boxes(self.in_doubles)
         self.known = {}
         edges = collections.Counter(
             frozenset((tuple(t[k - 1]), tuple(t[k]))) for t in self.kept for k in range(3))
@@ -92,15 +93,21 @@ class Mesh:
         return self.known[key]
 
     def looked_at(self, p, radius, wanted):
-        """What space.ball_holds says, of the triangles whose boxes matter alone."""
-        near = [t for t, box in zip(self.kept, self.boxes)
-                if sum(max(low - x, x - high, 0) ** 2 for x, (low, high) in zip(p, box)) <= radius ** 2]
+        """What space.ball_holds says, of the triangles that doubles show to be near."""
+        at, most = [float(x) for x in p], float(radius) ** 2 * (1 + 1e-9) + 1e-9
+        near = [t for t, box, rough in zip(self.kept, self.boxes, self.in_doubles)
+                if sum(max(low - x, x - high, 0.0) ** 2 for x, (low, high) in zip(at, box)) <= most and
+                space.squared_distance(at, rough) <= most]
         squares = [space.squared_distance(p, t) for t in near]
         if any(square < radius ** 2 for square in squares):
             return False
-        above = [t for t, box in zip(self.kept, self.boxes)
-                 if all(low <= x <= high for x, (low, high) in zip(p[:2], box))]
-        return 0 in squares or space.inside(p, above) == wanted
+        return 0 in squares or space.inside(p, self.kept) == wanted
+
+    def plane_holds(self, plane):
+        key = tuple(plane)
+        if key not in self.known:
+            self.known[key] = proof.plane_holds(plane, self.all)
+        return self.known[key]
 
     def one_of_each_component(self):
         return [corners[0] for corners in components(self.kept)]
@@ -163,7 +170,7 @@ def least_allowance(part, blank, widths):
         allowance = math.sqrt(of_triangles(s, t)) - float(widths[j])
         least = min(least, allowance)
         near.append((allowance, i, j))
-    return min(root_of(of_triangles(part[i], blank[j])) - widths[j] for a, i, j in near if a <= least + 1e-9)
+    return min(root_of(exactly_of_triangles(part[i], blank[j])) - widths[j] for a, i, j in near if a <= least + 1e-9)
 
 
 def least_distance(part, blank):
@@ -183,7 +190,7 @@ def least_distance(part, blank):
         distance = of_triangles(near[0][i], near[1][j])
         least = min(least, distance)
         found.append((distance, i, j))
-    return min(of_triangles(part[i], blank[j]) for distance, i, j in found if distance <= least + 1e-9)
+    return min(exactly_of_triangles(part[i], blank[j]) for distance, i, j in found if distance <= least + 1e-9)
 
 
 # Scans. --------------------------------------------------------------------------------------------------------
@@ -566,7 +573,8 @@ class Solids:
             self.leaves[key] = any(m > 0 for *_, m in leaf) and proof.wrong_with(
                 leaf, cell, tree["quaternion"], certificate, faces.bounds(bound) if faces else [bound] * len(part.all),
                 part.all, blank.all, faces.datums if faces else [], faces and faces.within, fault=self.fault_of_body,
-                holds=lambda ball, _, wanted: (part if wanted else blank).ball_holds(ball, wanted)) is None
+                holds=lambda ball, _, wanted: (part if wanted else blank).ball_holds(ball, wanted),
+                bounds_all=lambda plane, _: blank.plane_holds(plane)) is None
         return self.leaves[key]
 
 

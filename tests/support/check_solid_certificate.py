@@ -11,7 +11,12 @@ from solid_demands import datums, demands, maxima, straight_off
 def read(path): return json.load(open(path), parse_float=F, parse_int=F)
 AXES = ("x", "y", "z", "turn_x", "turn_y", "turn_z")
 
-def wrong_with(leaf, cell, q, c, bounds, part, blank, held=(), within=None, holds=ball_holds, fault=fault_of_body):  # with a bound for each triangle of the part
+def plane_holds(plane, mesh):
+    *n, least = plane
+    return any(n) and all(dot(n, v) >= least for v in {tuple(v) for t in mesh for v in t})
+
+def wrong_with(leaf, cell, q, c, bounds, part, blank, held=(), within=None, holds=ball_holds, fault=fault_of_body,
+               bounds_all=plane_holds):  # with a bound for each triangle of the part
     forms, middle = [], [(lo + hi) / 2 for lo, hi in cell]
     def from_pivot(v): return turned(q, sub(v, c["pivot"]))
     def turn_there(v): return turned([F(1)] + middle[3:], turned(q, v))
@@ -54,7 +59,7 @@ def wrong_with(leaf, cell, q, c, bounds, part, blank, held=(), within=None, hold
             forms.append(form(m, p, times(b[:3], -1 / l), 1 / l, level, bend=l / 2))
         elif kind == "plane":
             *n, least = c["planes"][j]
-            if not any(n) or any(dot(n, v) < least for t in blank for v in t): return f"plane {j}"
+            if not bounds_all(c["planes"][j], blank): return f"plane {j}"
             nu = root(dot(n, n), a[3] + beta < 0)
             forms.append(height(m, p, times(n, 1 / nu), -least / nu - a[3] - beta))
         elif kind == "edges":
@@ -89,7 +94,10 @@ def wrong_with(leaf, cell, q, c, bounds, part, blank, held=(), within=None, hold
 def check(part, blank, result, certificate, features):
     part, blank, r = stl(part), stl(blank), read(result)
     c = r["certificate"] or read(certificate)["certificate"]
-    bounds, held, within = [r["upper_bound"]] * len(part), [], None
+    bounds, held, within, known = [r["upper_bound"]] * len(part), [], None, {}
+    def once(what, row, *more):  # of a ball and whose it is, or of a plane
+        if (key := (*row, *more[1:])) not in known: known[key] = what(row, *more)
+        return known[key]
     if r.get("demands"):
         held, of = datums(read(features), part), demands(read(features), part, r["min_allowance"])
         within = maxima(read(features), part)
@@ -102,7 +110,8 @@ def check(part, blank, result, certificate, features):
                 k = AXES.index(node[0])
                 if not cell[k][0] <= node[1] <= cell[k][1]: return "a split beside its box"
                 open_ += [cell[:k] + [half] + cell[k + 1:] for half in ([node[1], cell[k][1]], [cell[k][0], node[1]])]
-            elif wrong := wrong_with(node, cell, tree["quaternion"], c, bounds, part, blank, held, within): return wrong
+            elif wrong := wrong_with(node, cell, tree["quaternion"], c, bounds, part, blank, held, within,
+                                     lambda *ball: once(ball_holds, *ball), bounds_all=lambda *plane: once(plane_holds, *plane)): return wrong
         if open_: return "the tree ends early"
     return "proved"
 

@@ -32,9 +32,13 @@ def inside(p, mesh):  # straight up from p, which counts as moved by a trifle al
     def turn(a, b):
         e, w = sub(b, a), sub(p, a)
         return sign(e[0] * w[1] - e[1] * w[0]) or sign(e[0]) or -sign(e[1])
-    around = [(t, {turn(t[k], t[k - 2]) for k in range(3)}) for t in mesh]
+    def over(t):  # else no point of it is above or below p
+        return all(min(q[k] for q in t) <= p[k] <= max(q[k] for q in t) for k in (0, 1))
+    around = [(t, {turn(t[k], t[k - 2]) for k in range(3)}) for t in mesh if over(t)]
     return sum(sides == {-sign(dot(normal(t), sub(p, t[0])))} != {0} for t, sides in around) % 2 == 1
 
 def ball_holds(ball, mesh, wanted):
-    least = min(squared_distance(ball[:3], t) for t in mesh)
-    return least >= ball[3] ** 2 and (least == 0 or inside(ball[:3], mesh) == wanted)
+    p, square = ball[:3], ball[3] ** 2
+    def off(t): return sum(max(min(c) - x, x - max(c), 0) ** 2 for x, c in zip(p, zip(*t)))  # the box of t at least
+    squares = [squared_distance(p, t) for t in mesh if off(t) <= square]
+    return all(far >= square for far in squares) and (0 in squares or inside(p, mesh) == wanted)

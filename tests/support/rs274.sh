@@ -9,7 +9,10 @@
 # The cache is $LEKALO_RS274_DIR, or build/rs274 under the source tree.
 set -euo pipefail
 
-source_root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd)
+# Tests run this some thousand times: it starts no program that it can do without.
+here=${BASH_SOURCE[0]%/*}
+[ "$here" != "${BASH_SOURCE[0]}" ] || here=.
+source_root=$here/../..
 cache=${LEKALO_RS274_DIR:-$source_root/build/rs274}
 case $cache in /*) ;; *) cache=$PWD/$cache ;; esac
 root=$cache/root
@@ -58,13 +61,13 @@ prepare() {
 }
 
 run() {
-  local folder=$1 program=$2
+  local folder=$1 program=$2 IFS=:
   : >"$folder/rs274.var"
-  local libraries
-  libraries=$(printf '%s:' "$root"/usr/lib "$root"/usr/lib/linuxcnc "$root"/usr/lib/*-linux-gnu "$root"/lib/*-linux-gnu)
-  # HOME: LinuxCNC maps ~/.tool.mmap, and a second interpreter truncates it beneath the first.
-  HOME=$folder LD_LIBRARY_PATH=$libraries PYTHONHOME=$root/usr PYTHONDONTWRITEBYTECODE=1 \
-    timeout 60 "$root/usr/bin/rs274" -t "$root/tool.tbl" -v "$folder/rs274.var" -g -n 2 "$program" </dev/null
+  local libraries=("$root"/usr/lib "$root"/usr/lib/linuxcnc "$root"/usr/lib/*-linux-gnu "$root"/lib/*-linux-gnu)
+  # HOME: LinuxCNC maps ~/.tool.mmap, and a second interpreter truncates it beneath the first. Python keeps what it
+  # compiles of its library beside it, in the cache.
+  HOME=$folder LD_LIBRARY_PATH=${libraries[*]} PYTHONHOME=$root/usr PYTHONDONTWRITEBYTECODE= \
+    exec timeout 60 "$root/usr/bin/rs274" -t "$root/tool.tbl" -v "$folder/rs274.var" -g -n 2 "$program" </dev/null
 }
 
 case "${1-}" in
