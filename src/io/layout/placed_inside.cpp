@@ -85,8 +85,10 @@ std::string SheetMarks::left_out(const nc::ProfileProgram& program, bool engrave
     list += fmt::format("{}{} on layer {} ({})", list.empty() ? "" : ", ", count, excerpt(what.first),
                         what.second);
   }
-  return fmt::format("{} on the parts not cut: {}",
-                     all == 1 ? "1 line or text is" : fmt::format("{} lines and texts are", all), list);
+  return fmt::format(
+      "{} not cut: {}",
+      all == 1 ? "1 line or text on the parts is" : fmt::format("{} lines and texts on the parts are", all),
+      list);
 }
 
 }  // namespace lekalo::io::detail

@@ -153,6 +153,11 @@ class ExportCheck {
         return found;
       };
       const std::vector<const DrawnLine*> file = of_look(inner_of_file_), wanted = of_look(inner_);
+      if (wanted.empty() && !is_plot_) {
+        report_.findings.push_back(fmt::format("something is drawn on a layer \"{}\"{}", file.front()->layer,
+                                               look.second.empty() ? "" : " in " + look.second));
+        continue;
+      }
       const std::string where = look.second.empty() ? look.first : look.first + " in " + look.second;
       // A line of a plot that falls into one unit is drawn no less.
       if (file.size() != wanted.size())
