@@ -70,16 +70,15 @@ struct ProfileOptions {
   /// In ascending order of their diameters; the first that a hole fits is how it is cut.
   std::vector<HoleCut> holes;
   /// Nothing: no mark is engraved.
-  std::optional<Engraving> engraving {  /// The diameter of the disc that a pierce burns, from the kerf to
-                                        /// 100; not for routers. Every disc then
-    /// lies outside of every part, but for the tolerance, and clear of the kerfs of all cuts before. 0: it is
-    /// not known, and nothing is promised of it.
-    double pierce_diameter_mm = 0;
-    /// A cut begins at least so far from all of the cut before, where there is a choice, 0 to 10000; 0: the
-    /// shortest travels.
-    double heat_spread_mm = 0;
-    JointOptions joints;
-  };
+  std::optional<Engraving> engraving{};
+  /// The diameter of the disc that a pierce burns, from the kerf to 100; not for routers. Every disc then
+  /// lies outside of every part, but for the tolerance, and clear of the kerfs of all cuts before. 0: it is
+  /// not known, and nothing is promised of it.
+  double pierce_diameter_mm = 0;
+  /// A cut begins at least so far from all of the cut before, where there is a choice, 0 to 10000; 0: the
+  /// shortest travels.
+  double heat_spread_mm = 0;
+  JointOptions joints;
 };
 
 /// The lines of a program that cut one contour, its travel and its remark among them.
