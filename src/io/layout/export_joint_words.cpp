@@ -23,9 +23,13 @@ bool whole_number(std::string_view text, Whole& to) {
 
 Result<void> ExportWordTaker::joint_rule(const ExportWord& word) {
   nc::JointOptions& joints = request_.profile.joints;
-  joints.rule = word.second == "tipping" ? nc::JointRule::tipping : nc::JointRule::count;
-  if (joints.rule == nc::JointRule::tipping) return {};
-  if (whole_number(word.second, joints.count) && joints.count >= 1 && joints.count <= kMostJoints) return {};
+  std::size_t count = 0;
+  const bool is_count = whole_number(word.second, count) && count >= 1 && count <= kMostJoints;
+  if (is_count || word.second == "tipping") {
+    joints.rule = is_count ? nc::JointRule::count : nc::JointRule::tipping;
+    joints.count = count;
+    return {};
+  }
   return failure(ErrorCode::usage, fmt::format("{} {}: has to be tipping, or a whole number from 1 to {}",
                                                shown_(word.first), word.second, kMostJoints));
 }
@@ -85,14 +89,14 @@ void ExportWordTaker::complain_of_joints(std::vector<std::string>& complaints) c
     if (router && was_given("tab-height") && was_given("depth") && !(p.joints.tab_height_mm < p.depth_mm))
       complaints.push_back(fmt::format("{} {:g}: has to be below the depth of {:g} mm", shown_("tab-height"),
                                        p.joints.tab_height_mm, p.depth_mm));
-  } else {
+  } else if (!was_given("joints") && !was_given("joints-of")) {
     alone("joint-width", shown_("joints"));
     if (router) alone("tab-height", shown_("joints"));
   }
-  if (p.joints.rule == nc::JointRule::none) alone("joints-up-to", shown_("joints"));
+  if (!was_given("joints")) alone("joints-up-to", shown_("joints"));
   if (p.joints.rule == nc::JointRule::tipping) {
     needs("slat-pitch", "how far apart the slats of the table are, in mm");
-  } else {
+  } else if (p.joints.rule == nc::JointRule::count || !was_given("joints")) {
     alone("slat-pitch", shown_("joints") + " tipping");
     alone("slats", shown_("joints") + " tipping");
   }

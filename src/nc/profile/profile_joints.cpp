@@ -211,6 +211,9 @@ class JointFinder {
     for (std::size_t k = 0; k < count; ++k)
       if (auto place = place_at(begins[k * begins.size() / count], straight))
         made.push_back(*std::move(place));
+    std::stable_sort(made.begin(), made.end(), [](const JointPlace& a, const JointPlace& b) {
+      return a.start.met.empty() > b.start.met.empty();
+    });
     return made;
   }
 
@@ -279,17 +282,29 @@ class JointFinder {
   /// The longest lead behind the joint, like that of other cuts, but always a line: an arc would come out of
   /// the joint.
   [[nodiscard]] bool has_start(JointPlace& place, WrittenPoint at, Point way) const {
+    std::optional<Start> crossing;
     for (const double length : lead_lengths(options_.lead_in_mm, options_)) {
       auto lead = lead_to(at, way, length, LeadShape::line, resolution_);
       if (lead.size() != 1 || !around_.proof.stays_out(lead)) continue;
       const WrittenPoint pierce = lead.front().from;
       if (!is_clear(place, lead, pierce)) continue;
       auto met = around_.kerfs.met(number_, lead, pierce);
-      place.start = {std::move(lead), 0, pierce, at, std::move(met), length};
+      const bool is_free = met.empty();
+      Start start{std::move(lead), 0, pierce, at, std::move(met), length};
+      if (is_free) {
+        place.start = std::move(start);
+        return true;
+      }
+      if (!crossing) crossing = std::move(start);
+    }
+    // All leads behind joints are there in the end, so that order alone cannot keep pierces clear.
+    if (crossing && options_.pierce_diameter_mm == 0) {
+      place.start = *std::move(crossing);
       return true;
     }
     place.start = {{}, 0, at, at, around_.kerfs.met(number_, {}, at)};
-    return !(least_lead_mm(options_) > 0) && is_clear(place, {}, at);
+    return !(least_lead_mm(options_) > 0) && is_clear(place, {}, at) &&
+           (options_.pierce_diameter_mm == 0 || place.start.met.empty());
   }
   [[nodiscard]] bool is_clear(const JointPlace& place, const std::vector<WrittenEdge>& lead,
                               WrittenPoint pierce) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <memory>
 
 #include "lekalo/geom/boolean.hpp"
 #include "lekalo/geom/box_tree.hpp"
@@ -69,7 +70,7 @@ class LooseGroup {
         rings[members_[left[k]]].depth = depth;
         if (!on_rim[k]) deeper.push_back(left[k]);
       }
-      // The union of what is left has a rim, and it is somebody's.
+      // Where none has a free way to the rim, all of them border on it alike.
       if (deeper.size() == left.size()) break;
       left = std::move(deeper);
     }
@@ -109,28 +110,61 @@ class LooseGroup {
     }
   }
 
-  /// By place in `left`: whether an edge of a rim is one of the outline's, grown.
-  static std::vector<bool> on_rims(const std::vector<Region>& rims, const std::vector<Region>& grown_outlines,
-                                   const std::vector<std::size_t>& left) {
-    std::vector<geom::Curve> edges;
-    std::vector<std::size_t> owner;
-    std::vector<Box> boxes;
-    for (std::size_t k = 0; k < left.size(); ++k)
-      for (const geom::Edge& edge : grown_outlines[left[k]].outer) {
-        edges.push_back(geom::make_curve(edge));
-        boxes.push_back(geom::curve_box(edges.back()));
-        owner.push_back(k);
-      }
-    const geom::BoxTree tree(boxes);
+  /// By place in `left`: whether an edge of a rim is one of the outline's, grown, and no other kerf lies
+  /// between the two. Where the ways of two neighbours to the rim narrow, they may close before the outline.
+  [[nodiscard]] std::vector<bool> on_rims(const std::vector<Region>& rims,
+                                          const std::vector<Region>& grown_outlines,
+                                          const std::vector<std::size_t>& left) const {
+    const OwnedEdges grown_edges(
+        left, [&](std::size_t i) -> const geom::Contour& { return grown_outlines[i].outer; });
+    const OwnedEdges edges(left, [&](std::size_t i) -> const geom::Contour& { return outline(members_[i]); });
     std::vector<bool> on_rim(left.size(), false);
     for (const Region& rim : rims)
       for (const geom::Edge& edge : rim.outer) {
         const Point at = middle_of_edge(edge);
-        tree.visit_meeting(geom::grown({at, at}, kSamePlace), [&](std::uint32_t i) {
-          if (geom::norm(geom::nearest_on(edges[i], at) - at) <= kSamePlace) on_rim[owner[i]] = true;
+        grown_edges.tree->visit_meeting(geom::grown({at, at}, kSamePlace), [&](std::uint32_t i) {
+          const std::size_t owner = grown_edges.owner[i];
+          if (on_rim[owner] || geom::norm(geom::nearest_on(grown_edges.curves[i], at) - at) > kSamePlace)
+            return;
+          on_rim[owner] = is_way_free(edges, owner, at);
         });
       }
     return on_rim;
+  }
+
+  /// Edges of the outlines that are left, with the place of each in `left`.
+  struct OwnedEdges {
+    template <class Of>
+    OwnedEdges(const std::vector<std::size_t>& left, const Of& contour_of) {
+      std::vector<Box> boxes;
+      for (std::size_t k = 0; k < left.size(); ++k)
+        for (const geom::Edge& edge : contour_of(left[k])) {
+          curves.push_back(geom::make_curve(edge));
+          boxes.push_back(geom::curve_box(curves.back()));
+          owner.push_back(k);
+        }
+      tree = std::make_unique<geom::BoxTree>(boxes);
+    }
+    std::vector<geom::Curve> curves;
+    std::vector<std::size_t> owner;
+    std::unique_ptr<geom::BoxTree> tree;
+  };
+
+  /// Whether the straight way from a place on the rim to its outline keeps a kerf from all others.
+  [[nodiscard]] bool is_way_free(const OwnedEdges& edges, std::size_t owner, Point at) const {
+    const double kerf = options_.kerf_mm, reach = 2 * (kerf + options_.tolerance_mm);
+    Point nearest = at;
+    double least = reach;
+    edges.tree->visit_meeting(geom::grown({at, at}, reach), [&](std::uint32_t i) {
+      if (edges.owner[i] != owner) return;
+      const Point on = geom::nearest_on(edges.curves[i], at);
+      if (const double apart = geom::norm(on - at); apart < least) least = apart, nearest = on;
+    });
+    if (!(least < reach) || nearest == at) return false;
+    const geom::Curve way = geom::make_curve({geom::EdgeKind::line, at, nearest, {}});
+    return edges.tree->visit_meeting_while(geom::grown(geom::curve_box(way), kerf), [&](std::uint32_t i) {
+      return edges.owner[i] == owner || geom::closest_points(way, edges.curves[i]).distance >= kerf;
+    });
   }
 
   const std::vector<ProfilePart>& parts_;

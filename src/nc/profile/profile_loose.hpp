@@ -18,10 +18,10 @@ struct Ring {
 };
 
 /// By cut. The outlines that nothing or the same hole encloses are taken together: the union of these, each
-/// grown by the kerf, is what is no longer sheet when all are cut. An outline on the rim of this union has
-/// depth 0; those that are on the rim once these are left away have depth 1, and so on. At every moment of an
-/// order from the depth outwards each outline that is still to be cut borders on the sheet, because it does
-/// when everything is cut but what comes later.
+/// grown by the kerf, is what is no longer sheet when all are cut. An outline on the rim of this union, with
+/// a way to it that no other kerf crosses, has depth 0; those that are on the rim once these are left away
+/// have depth 1, and so on. At every moment of an order from the depth outwards each outline that is still to
+/// be cut borders on the sheet, because it does when everything is cut but what comes later.
 ///
 /// Kerfs count as met where they come nearer than a tolerance. Fails as geom::united does. Cost: that of the
 /// union, for each depth; nothing where no kerfs meet.
