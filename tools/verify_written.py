@@ -111,8 +111,8 @@ def checks(argv, stdout, status):
             found.append([out])
         elif is_json(stdout, "lekalo-heat"):
             found.append(["{}"])
-    elif command in ("check", "show", "simulate", "pocket"):
-        if is_json(stdout, "lekalo-check", "lekalo-show", "lekalo-simulate", "lekalo-pocket"):
+    elif command in ("check", "show", "simulate", "pocket", "quote"):
+        if is_json(stdout, "lekalo-check", "lekalo-show", "lekalo-simulate", "lekalo-pocket", "lekalo-quote"):
             if command != "pocket" or out:
                 found.append(["{}"])
     elif command == "export" and out and os.path.isfile(out) and os.path.isfile(argv[1]):
