@@ -154,12 +154,14 @@ TEST_F(StockCommand, AnOrderThatIsKilledIsAllocatedWithItsLayoutOrNotAtAll) {
     program.send_after_work(SIGKILL, 0.004 * i);
     (void)program.wait();
     expect_true();
-    for (const Json& one : book()["orders"])
+    const Json now = book();
+    for (const Json& one : now["orders"])
       if (one["id"] == order) {
         EXPECT_EQ(stock({"cancel", "shop", order}).status, 0);
       }
   }
-  for (const Json& item : book()["items"]) EXPECT_EQ(item["state"], "free");
+  const Json left = book();
+  for (const Json& item : left["items"]) EXPECT_EQ(item["state"], "free");
 }
 
 TEST_F(StockCommand, BadInputGetsOneSentenceAndChangesNothing) {
@@ -183,7 +185,7 @@ TEST_F(StockCommand, BadInputGetsOneSentenceAndChangesNothing) {
       {{"stock", "list", "text"}, 3, "no stock file"},
       {{"stock", "check", "broken"}, 3, "damaged"},
       {{"stock", "list", "."}, 3, "a plain file"},
-      {{"stock", "cut", "shop", "B9"}, 3, "there is no order \"B9\""},
+      {{"stock", "cut", "shop", "B9"}, 3, "there is no order 'B9'"},
       {{"stock", "cancel", "shop", "A2"}, 3, "what was cut does not come back"},
       {{"stock", "cut", "shop", "A2"}, 3, "was cut already"},
       {{"stock", "allocate", "shop", "A1", "A1.json"}, 3, "order A1 is allocated already"},

@@ -94,6 +94,30 @@ def holds_still(context, stock):
                for order in stock["orders"] for one in order["layouts"])
 
 
+def keeps_rules(stock):
+    """Each remnant has its rectangle, which satisfies the rule of the order that cut its sheet."""
+    items = {item["id"]: item for item in stock["items"]}
+    rules = {order["id"]: order["remnant_min"] for order in stock["orders"]}
+    for item in stock["items"]:
+        if item["from"]:
+            x0, y0, x1, y1 = item["rectangle"]
+            rule = rules[items[item["from"]]["order"]]
+            sides = sorted((x1 - x0, y1 - y0))
+            if x0 >= x1 or y0 >= y1 or sides[0] < min(rule.values()) or sides[1] < max(rule.values()):
+                return False
+    return True
+
+
+def says_less(before, after, change):
+    """A rectangle within the one before, or a rule that asks for less, leaves true what was."""
+    found = re.match(r"/items/(\d+)/rectangle/", change.path)
+    if found:
+        old, new = (stock["items"][int(found[1])]["rectangle"] for stock in (before, after))
+        if not (old[0] <= new[0] and old[1] <= new[1] and new[2] <= old[2] and new[3] <= old[3]):
+            return False
+    return (found or re.match(r"/orders/\d+/remnant_min/", change.path)) and keeps_rules(after)
+
+
 def oracle(context):
     before = json.loads(context.text)
 
@@ -102,7 +126,13 @@ def oracle(context):
             return "information"
         after = truth.document_of(change)
         try:
-            # Only what stands in layouts may be otherwise: everything else follows from something.
+            # Nothing depends on an order that was cancelled.
+            order = re.match(r"/orders/(\d+)(/id)?$", change.path)
+            if order and before["orders"][int(order[1])]["state"] == "cancelled":
+                return "information"
+            if after is not None and says_less(before, after, change):
+                return True
+            # Else only what stands in layouts may be otherwise: everything follows from something.
             if after is None or "/layout/" not in change.path or not holds_still(context, after):
                 return None
             return "information" if same_places(after) == same_places(before) else True

@@ -189,7 +189,7 @@ TEST_F(Stock, WhatIsNoLayoutToCutIsRefused) {
   EXPECT_TRUE(says(error_of(file.allocate("", {squares_on(sheet("steel"))})), "is no id of an order"));
   EXPECT_TRUE(
       says(error_of(file.allocate("A1", {squares_on(sheet("steel"), 2)})), "it needs 2 of its stock piece"));
-  EXPECT_TRUE(says(error_of(file.cut("B7", {})), "there is no order \"B7\""));
+  EXPECT_TRUE(says(error_of(file.cut("B7", {})), "there is no order 'B7'"));
   EXPECT_TRUE(says(error_of(file.add({}, layout::RemnantRule{400 * mm, 100 * mm, 0})), "large enough"));
   EXPECT_EQ(count(StockState::free), 1u);
 }

@@ -186,6 +186,7 @@ class StockReport {
       ReportFields fields(value, path, complaint_);
       ItemUse use;
       use.order = fields.text("id"), use.state = fields.text("state");
+      if (use.order.empty()) fields.complain(fmt::format("field {}.id is empty", path));
       if (!ids.insert(use.order).second) fields.complain(fmt::format("{} has the id of another order", path));
       const Json rule = fields.get("remnant_min");
       if (use.state == "cut")
