@@ -70,7 +70,7 @@ class LooseGroup {
         rings[members_[left[k]]].depth = depth;
         if (!on_rim[k]) deeper.push_back(left[k]);
       }
-      // Where none has a free way to the rim, all of them border on it alike.
+      // If none has a free way to the rim, all of them border on it alike.
       if (deeper.size() == left.size()) break;
       left = std::move(deeper);
     }
@@ -150,7 +150,7 @@ class LooseGroup {
     std::unique_ptr<geom::BoxTree> tree;
   };
 
-  /// Whether the straight way from a place on the rim to its outline keeps a kerf from all others.
+  /// Says whether the straight way from a place on the rim to its outline keeps a kerf from all others.
   [[nodiscard]] bool is_way_free(const OwnedEdges& edges, std::size_t owner, Point at) const {
     const double kerf = options_.kerf_mm, reach = 2 * (kerf + options_.tolerance_mm);
     Point nearest = at;
