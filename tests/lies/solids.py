@@ -295,6 +295,11 @@ def place(pose, p):
     return plus(space.turned(quaternion(pose), p), [pose[axis] for axis in "xyz"])
 
 
+def placed(document, triangles):
+    at = {p: place(document, list(p)) for p in {tuple(p) for t in triangles for p in t}}
+    return [[at[tuple(p)] for p in t] for t in triangles]
+
+
 def between(before, after):
     """A quaternion of the turn that comes after one rotation to give another."""
     return space.product(after, before[:1] + times(before[1:], -1))
@@ -471,7 +476,7 @@ class Solids:
         return self.measured[key]
 
     def clearance_holds(self, document, part, blank, scan):
-        there = [[place(document, p) for p in t] for t in part.kept]
+        there = placed(document, part.kept)
         if not document["inside"]:
             # A corner outside is enough, and what else there may be is not excused.
             return any(not space.inside(p, blank.kept) for t in there[:48] for p in t)
@@ -495,13 +500,13 @@ class Solids:
                 space.inside(place(document, p), blank.kept) is False for t in sum(groups.values(), [])[:48] for p in t)
         key = part, blank, str(groups), tuple(document["quaternion"]), tuple(document[axis] for axis in "xyz")
         if key not in self.margins:
-            there = [[place(document, p) for p in t] for t in part.kept]
+            there = placed(document, part.kept)
 
             def sticks_out(p):
                 return not space.inside(p, there) and all(space.squared_distance(p, t) > 0 for t in there)
             found = {}
             for demand, triangles in groups.items():
-                of = [[place(document, p) for p in t] for t in triangles]
+                of = placed(document, triangles)
                 least = least_distance(of, blank.kept)
                 lies_in = least and all(space.inside(corners[0], blank.kept) for corners in components(of))
                 found[demand] = least if lies_in else None

@@ -1,10 +1,10 @@
 """Vectors and closed meshes in fractions, for what holds claims about solids against docs/formats.md."""
-import math, struct
+import math, operator, struct
 from fractions import Fraction as F
 
-def dot(a, b): return sum(x * y for x, y in zip(a, b))
-def plus(a, b): return [x + y for x, y in zip(a, b)]
-def sub(a, b): return [x - y for x, y in zip(a, b)]
+def dot(a, b): return sum(map(operator.mul, a, b))
+def plus(a, b): return list(map(operator.add, a, b))
+def sub(a, b): return list(map(operator.sub, a, b))
 def times(a, m): return [x * m for x in a]
 def cross(a, b): return [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3)]
 def normal(t): return cross(sub(t[1], t[0]), sub(t[2], t[0]))
@@ -25,7 +25,7 @@ def squared_distance(p, t):
     n = normal(t)
     if any(n) and all(dot(n, cross(sub(t[k - 2], t[k]), sub(p, t[k]))) >= 0 for k in range(3)):
         return dot(n, sub(p, t[0])) ** 2 / dot(n, n)
-    def way(w, e): return sub(w, times(e, min(max(dot(w, e) / (dot(e, e) or F(1)), F(0)), F(1))))
+    def way(w, e): return sub(w, times(e, min(max(dot(w, e) / (dot(e, e) or 1), 0), 1)))  # of doubles too
     return min(dot(w, w) for w in (way(sub(p, t[k]), sub(t[k - 2], t[k])) for k in range(3)))
 
 def inside(p, mesh):  # straight up from p, which counts as moved by a trifle along y and by less along x
