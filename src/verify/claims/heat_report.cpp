@@ -25,7 +25,7 @@ namespace {
 constexpr double kPiece = 0.125;
 /// The heat may miss its balance by this part (docs/design/heat-walls.md).
 constexpr double kBalanced = 1e-3;
-/// What follows from measurements is told apart to this part: their rises stand to 1e-12 K.
+/// Figures that follow from measurements are told apart to this part: rises stand to 1e-12 K.
 constexpr double kMeasured = 1e-8;
 
 class HeatReport : private HeldFigures {

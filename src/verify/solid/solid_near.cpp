@@ -200,7 +200,7 @@ Span deviation_of(const PlacedSolid& part, const std::vector<std::uint32_t>& tri
     apart.push_back(nearest_to(one.at, blank).distance);
     if (!targets[one.triangle]) mean = mean + apart.back(), ++free;
   }
-  // Where no point is free, nothing reads it.
+  // Nothing reads it where no point is free.
   mean = mean * (just(1) / just(free));
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto& target = targets[points[k].triangle];
