@@ -81,7 +81,7 @@ def inner_texts(path, ezdxf):
                 found.extend((a.dxf.text, a.dxf.insert) for a in entity.attribs if not a.is_invisible)
                 try:
                     walk(entity.virtual_entities(), depth + 1)
-                except (TypeError, ValueError):
+                except (ArithmeticError, TypeError, ValueError):
                     pass
             elif kind == "TEXT":
                 found.append((entity.dxf.text, entity.dxf.insert))
@@ -109,6 +109,7 @@ def main():
             drawings += 1
             # One piece of each part, turned by an angle of its own, every other mirrored.
             layout["placements"] = []
+            del layout["next_id"]
             for i, part in enumerate(layout["parts"]):
                 part["mirror"] = True
                 layout["placements"].append({"part": part["id"], "stock": layout["stocks"][0]["id"], "x": 20000 + 5000.0 * (i % 10),
@@ -144,7 +145,7 @@ def main():
             kept += sum(len(part.get("texts", ())) for part in layout["parts"])
             try:
                 there += len(inner_texts(path, ezdxf))
-            except (ezdxf.DXFError, OSError, UnicodeError):
+            except (ezdxf.DXFError, ArithmeticError, OSError, UnicodeError):
                 pass
     for fault in faults[:50]:
         print(fault)
