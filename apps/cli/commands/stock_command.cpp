@@ -92,7 +92,7 @@ Result<int> list_pieces(const StockOptions& o) {
 Result<std::vector<jobs::LayoutToCut>> layouts_of(const StockOptions& o) {
   std::vector<jobs::LayoutToCut> layouts;
   for (const std::string& path : o.layouts) {
-    LEKALO_TRY(jobs::Layout layout, read_layout_input({path, {}, o.reading}, {}));
+    LEKALO_TRY(jobs::Layout layout, read_layout_input({path, {}, o.reading, {}}, {}));
     layouts.push_back({io::as_utf8(path), std::move(layout.document)});
   }
   return layouts;
