@@ -5,10 +5,12 @@
 #include <signal.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 
 #include "cli_run.hpp"
+#include "support/schemas.hpp"
 
 namespace lekalo::test::stock_command_test {
 namespace {
@@ -72,6 +74,9 @@ TEST_F(StockCommand, TheRemnantOfOneOrderIsCutForTheNext) {
   ASSERT_EQ(list.status, 0) << list.err;
   write_bytes(folder_ / "shop.json", list.out);
   EXPECT_EQ(lekalo({"verify", "shop.json"}).status, 0);
+  if (!cases::python_with_jsonschema().empty()) {
+    EXPECT_EQ(cases::schema_verdicts("lekalo-stock-1.schema.json", {list.out}), Words{"ok"});
+  }
   EXPECT_TRUE(says(read_bytes(folder_ / "shop.svg"), "S2"));
   EXPECT_TRUE(says(stock({"list", "shop"}).out, "S2"));
 }

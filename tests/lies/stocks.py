@@ -132,6 +132,11 @@ def oracle(context):
                 return "information"
             if after is not None and says_less(before, after, change):
                 return True
+            # The order of a list says nothing.
+            if change.path in ("/items", "/orders") and \
+                    all(sorted(map(json.dumps, after[key])) == sorted(map(json.dumps, before[key])) for key in before
+                        if isinstance(before[key], list)):
+                return True
             # Else only what stands in layouts may be otherwise: everything follows from something.
             if after is None or "/layout/" not in change.path or not holds_still(context, after):
                 return None
