@@ -37,7 +37,7 @@ void check_twice(const Read& read, const Size& size) {
 }
 
 constexpr auto kCurves = [](const ReadDrawing& drawing) { return drawing.curves.size(); };
-constexpr auto kLines = [](const std::vector<DrawnLine>& lines) { return lines.size(); };
+constexpr auto kLines = [](const DrawnFile& file) { return file.lines.size() + file.texts.size(); };
 
 void try_tree(std::string_view bytes) {
   const auto value = parse_json(bytes, "tree.json");
