@@ -253,8 +253,7 @@ TEST(CliLayout, WrongWordsAreUsageErrors) {
       {{"export", "order.json", "-o", "./order.json"}, "would be replaced"},
       {{"shoe", "order.json"},
        "there is no command \"shoe\", only locate, verify, pocket, simulate, fit, heat, check, show, export, "
-       "edit, "
-       "nest"},
+       "quote, edit, nest, new, stock"},
   };
   const auto before = folder.files();
   for (const auto& [words, named] : wrong) {

@@ -86,7 +86,7 @@ TEST_F(StockCommand, NewTakesTheSameStockAndALayoutIsAllocatedByHand) {
       lekalo({"new", "--part", "large.svg=2", "--stock", "shop", "--gap", "5", "-o", "job.json"});
   ASSERT_EQ(made.status, 0) << made.err;
   ASSERT_EQ(lekalo({"nest", "job.json", "--work", "1000", "-o", "out.json"}).status, 0);
-  const Ran allocated = stock({"allocate", "shop", "A1", "out.json"});
+  const Ran allocated = stock({"take", "shop", "A1", "out.json"});
   ASSERT_EQ(allocated.status, 0) << allocated.err;
   EXPECT_EQ(book()["items"][0]["order"], "A1");
   EXPECT_EQ(stock({"cancel", "shop", "A1"}).status, 0);
@@ -193,11 +193,11 @@ TEST_F(StockCommand, BadInputGetsOneSentenceAndChangesNothing) {
       {{"stock", "cut", "shop", "B9"}, 3, "there is no order 'B9'"},
       {{"stock", "cancel", "shop", "A2"}, 3, "what was cut does not come back"},
       {{"stock", "cut", "shop", "A2"}, 3, "was cut already"},
-      {{"stock", "allocate", "shop", "A1", "A1.json"}, 3, "order A1 is allocated already"},
-      {{"stock", "allocate", "shop", "A3", "A1.json"}, 3, "is allocated to order A1"},
-      {{"stock", "allocate", "shop", "A3", "empty.json"}, 3, "nothing is placed"},
-      {{"stock", "allocate", "shop", "A3", "other.json"}, 3, "no piece of this stock file"},
-      {{"stock", "allocate", "shop", "A3", "gone.json"}, 3, "gone.json"},
+      {{"stock", "take", "shop", "A1", "A1.json"}, 3, "order A1 is allocated already"},
+      {{"stock", "take", "shop", "A3", "A1.json"}, 3, "is allocated to order A1"},
+      {{"stock", "take", "shop", "A3", "empty.json"}, 3, "nothing is placed"},
+      {{"stock", "take", "shop", "A3", "other.json"}, 3, "no piece of this stock file"},
+      {{"stock", "take", "shop", "A3", "gone.json"}, 3, "gone.json"},
       {{"stock", "add", "shop", "--remnant-min", "2000x100"}, 3, "large enough for a remnant of 2000x100 mm"},
       {{"stock", "add", "shop", "--sheet", "strip.json"}, 3, "is a strip"},
       {{"stock", "add", "shop", "--sheet", "gone.dxf"}, 3, "nor a file that is there"},
@@ -207,7 +207,7 @@ TEST_F(StockCommand, BadInputGetsOneSentenceAndChangesNothing) {
       {{"stock", "add", "shop"}, 2, "nothing is added"},
       {{"stock", "throw", "shop"}, 2, "is not one of add, list, allocate"},
       {{"stock", "cut", "shop"}, 2, "the id of the order is missing"},
-      {{"stock", "allocate", "shop", "A3"}, 2, "the layout is missing"},
+      {{"stock", "take", "shop", "A3"}, 2, "the layout is missing"},
       {{"stock", "check", "shop", "A1"}, 2, "does not take \"A1\""},
       {{"stock", "list", "shop", "--cost", "5"}, 2, "are for lekalo stock add"},
       {{"nest", "--part", "small.svg@oak:9", "--stock", "shop"}, 3, "there is no sheet of oak, 9 mm"},

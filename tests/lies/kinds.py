@@ -29,6 +29,10 @@ POCKET = {"units": "mm", "outer": [
     {"line": {"from": [40, 24], "to": [0, 24]}}, {"line": {"from": [0, 24], "to": [0, 0]}}]}
 SQUARE = '<svg xmlns="http://www.w3.org/2000/svg" width="30mm" height="30mm" viewBox="0 0 30 30">' \
          '<rect width="30" height="30"/></svg>'
+LETTERED = "\n".join(
+    ["0", "SECTION", "2", "ENTITIES", "0", "LWPOLYLINE", "8", "CUT", "90", "4", "70", "1", "10", "0", "20", "0", "10", "30", "20",
+     "0", "10", "30", "20", "20", "10", "0", "20", "20", "0", "LINE", "8", "BEND", "62", "5", "10", "2", "20", "3", "11", "28",
+     "21", "3", "0", "TEXT", "8", "NAME", "10", "5", "20", "8", "40", "3", "1", "N 7", "0", "ENDSEC", "0", "EOF", ""])
 ORDER = "file,quantity,material,thickness,customer,due,label\na.svg,1,steel,2,Orlova,2026-12-01,7\n" \
         "b.svg,2,birch,9,,,\nb.svg,1,steel,2,,2026-12-02,\n"
 SHEET = "steel 2 mm#1"
@@ -320,6 +324,10 @@ def of_layouts():
     steel = ["nest", "job-steel-2.json", "--work", "1000", "-o", "nested.json"]
     yield Kind("layout, of an order", [], [["new", "-o", "job.json"] + order, steel], "nested.json",
                ["verify", "nested.json", "--layout", "job-steel-2.json"], layouts.kept, step=step, written=made)
+    lettered = ["nest", "job.json", "--work", "1000", "-o", "nested.json"]
+    yield Kind("layout, with marks and texts", [],
+               [["new", "--part", "t.dxf", "--units", "mm", "--sheet", "60x50", "--gap", "1", "-o", "job.json"], lettered], "nested.json",
+               ["verify", "nested.json", "--layout", "job.json"], layouts.kept, step=step, written={"t.dxf": LETTERED})
     yield Kind("report of an order", [], [["nest", "-o", "out.json", "--work", "1000", "--json", ">r.json"] + order],
                "r.json", ["verify", "r.json"], lambda context: lambda change: None, base=1, written=made,
                inputs=["a.svg", "b.svg", "out-steel-2.json", "out-birch-9.json"])
@@ -428,6 +436,6 @@ def of_heat():
                [["pocket", "pocket.json", "--tool", "6", "--depth", "4", "--stepdown", "2", "-o", "p.ngc"],
                 ["heat", "p.ngc", "--pocket", "pocket.json", "--stock", "60x50x12", "--tool", "6", "--teeth", "3", "--spindle", "8000",
                  "--material", "6061-T6", "--share", "0.3", "--cutting-force", "700", "--force-exponent", "0.25", "--cooling", "20",
-                 "--voxel", "4", "--corrected", "c.ngc", "-o", "r.json"]], "r.json", ["verify", "r.json"],
+                 "--voxel", "3", "--corrected", "c.ngc", "-o", "r.json"]], "r.json", ["verify", "r.json"],
                lambda context: lambda change: None, base=1, inputs=["p.ngc", "pocket.json", "c.ngc"],
                written={"pocket.json": json.dumps(pocket)})

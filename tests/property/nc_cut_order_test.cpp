@@ -210,7 +210,12 @@ TEST(NcCutOrder, NothingIsCutThatSeveralKerfsHaveFreedTogether) {
   for (std::size_t index = 0; index < cases::case_count(4); ++index) {
     SCOPED_TRACE(fmt::format("seed {} case {}", cases::seed(), index));
     Random random(cases::seed(), 33000 + index);
-    const double kerf = 1, gap = random.below(4) == 0 ? 2.8 : random.uniform(1.05, 1.38), side = 7;
+    // Between 1.41 and 1.6 what is left between four corners is a throat that the cells cannot tell.
+    const auto kind = random.below(4);
+    const double kerf = 1, side = 7,
+                 gap = kind == 0   ? 2.8
+                       : kind == 1 ? random.uniform(1.6, 1.8)
+                                   : random.uniform(1.05, 1.38);
     const auto columns = 2 + random.below(4), rows = 2 + random.below(4);
     std::vector<ProfilePart> parts;
     std::vector<geom::Point> middles;
@@ -227,7 +232,7 @@ TEST(NcCutOrder, NothingIsCutThatSeveralKerfsHaveFreedTogether) {
     options.heat_spread_mm = random.below(2) == 0 ? 0 : 12;
     const auto made = profile_program(parts, "crowd", options);
     ASSERT_TRUE(made) << made.error().message;
-    BurntSheet sheet(60, 0.25);
+    BurntSheet sheet(60, 0.1);
     for (const Chain& chain : chains_of(made->text)) {
       ASSERT_TRUE(sheet.is_held(middles[chain.placement - 1])) << chain.contour << " was loose\n"
                                                                << made->text;

@@ -79,9 +79,9 @@ TEST(PartFile, ACrackThatChordsCloseLeavesNoHole) {
 }
 
 TEST(PartFile, LinesThatBoundNothingAreMarksOfTheirPart) {
-  const PartsFile file =
-      read(square(0, 0, 10) + R"(<path d="M2 2H8" stroke="blue"/>)" + square(20, 0, 10) +
-           R"(<path d="M22 2H28"/>)" + square(40, 0, 10) + R"(<path d="M42 3H48"/><path d="M90 2H95"/>)");
+  const PartsFile file = read(square(0, 0, 10) + R"(<path d="M2 2H8" stroke="blue"/>)" + square(20, 0, 10) +
+                              R"(<path d="M22 2H28" stroke="blue"/>)" + square(40, 0, 10) +
+                              R"(<path d="M42 3H48"/><path d="M90 2H95"/>)");
   EXPECT_EQ(told(file), "side_panel=2 \"cut\" 0 holes 1 marks, side_panel-2=1 \"cut\" 0 holes 1 marks, ");
   ASSERT_EQ(file.set_aside.size(), 1u);
   EXPECT_NE(file.set_aside[0].find("lies on no part"), std::string::npos) << file.set_aside[0];

@@ -146,7 +146,7 @@ Result<int> run_stock(const StockOptions& options) {
   switch (options.action) {
     case StockAction::add:
       return add_pieces(options);
-    case StockAction::allocate:
+    case StockAction::take:
       return allocate(options);
     case StockAction::cut:
       return cut(options);

@@ -190,7 +190,7 @@ struct StoreOptions {
   std::string file, output;  ///< output is empty for a check
 };
 
-enum class StockAction : std::uint8_t { add, list, allocate, cut, cancel, check };
+enum class StockAction : std::uint8_t { add, list, take, cut, cancel, check };
 struct StockOptions {
   StockAction action = StockAction::list;
   std::string file, order;

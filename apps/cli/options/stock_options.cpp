@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array kStockActions{
     Word<StockAction>{"add", StockAction::add},           Word<StockAction>{"list", StockAction::list},
-    Word<StockAction>{"allocate", StockAction::allocate}, Word<StockAction>{"cut", StockAction::cut},
+    Word<StockAction>{"take", StockAction::take}, Word<StockAction>{"cut", StockAction::cut},
     Word<StockAction>{"cancel", StockAction::cancel},     Word<StockAction>{"check", StockAction::check}};
 
 /// As typed.
@@ -25,7 +25,7 @@ struct StockWords {
 };
 
 bool wants_order(StockAction action) {
-  return action == StockAction::allocate || action == StockAction::cut || action == StockAction::cancel;
+  return action == StockAction::take || action == StockAction::cut || action == StockAction::cancel;
 }
 
 /// Complains of words and options that the action does not take, and of those that it lacks.
@@ -41,8 +41,8 @@ void require_fitting(WordReader& read, const StockWords& w, StockAction action) 
                fmt::format("--json and --picture are for lekalo stock list, not for {}", w.action));
   read.require(!wants_order(action) || !w.of.empty(),
                fmt::format("the id of the order is missing: lekalo stock {} FILE ORDER", w.action));
-  read.require(action != StockAction::allocate || w.of.size() > 1 || w.of.empty(),
-               "the layout is missing: lekalo stock allocate FILE ORDER LAYOUT");
+  read.require(action != StockAction::take || w.of.size() > 1 || w.of.empty(),
+               "the layout is missing: lekalo stock take FILE ORDER LAYOUT");
   const std::size_t most = !wants_order(action) ? 0 : action == StockAction::cancel ? 1 : w.of.size();
   read.require(w.of.size() <= most, fmt::format("lekalo stock {} does not take \"{}\"", w.action,
                                                 w.of.empty() ? "" : w.of.back()));
@@ -95,14 +95,14 @@ Typed add_stock_form(Form& form) {
   StockWords& w = *words;
   const OptionAdder add(form);
   add("action", w.action, list_of(kStockActions, "|"),
-      "Add pieces; list them; allocate what layouts use to an order; say that it was cut, or that it is not "
+      "Add pieces; list them; take what layouts use for an order; say that it was cut, or that it is not "
       "to be; "
       "check all")
       .required = true;
   add("file", w.file, "FILE", "The stock file; lekalo stock add makes it where there is none").required =
       true;
   add("of", w.of, "ORDER [LAYOUT...]",
-      "allocate: the order's id and its layouts; cut: its id, and layouts that were changed since; cancel: "
+      "take: the order's id and its layouts; cut: its id, and layouts that were changed since; cancel: "
       "its id");
   const OptionAdder adding(form, "Adding");
   adding(

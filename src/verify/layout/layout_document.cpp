@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <initializer_list>
 #include <iterator>
@@ -328,15 +327,14 @@ bool is_in_calendar(std::string_view day) {
   std::ranges::replace_if(
       form, [](unsigned char c) { return std::isdigit(c) != 0; }, '0');
   if (form != "0000-00-00") return false;
-  int year{};
-  unsigned month{}, date{};
+  int year{}, month{}, date{};
   const char* const end = day.data() + day.size();
   std::from_chars(day.data(), end, year);
   std::from_chars(day.data() + 5, end, month);
   std::from_chars(day.data() + 8, end, date);
-  return std::chrono::year_month_day(std::chrono::year(year), std::chrono::month(month),
-                                     std::chrono::day(date))
-      .ok();
+  const bool leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+  const int days = month == 2 ? 28 + (leap ? 1 : 0) : 30 + (month + month / 8) % 2;
+  return month >= 1 && month <= 12 && date >= 1 && date <= days;
 }
 
 WrittenPart read_part(Json item, const std::string& path, std::string& complaint, const Gaps& rules) {
