@@ -205,7 +205,7 @@ TEST_F(StockCommand, BadInputGetsOneSentenceAndChangesNothing) {
       {{"stock", "add", "shop", "--remnant-min", "5kg"}, 2, "--remnant-min: \"5kg\""},
       {{"stock", "add", "shop", "--sheet", "100x100", "--cost", "-1"}, 2, "--cost"},
       {{"stock", "add", "shop"}, 2, "nothing is added"},
-      {{"stock", "throw", "shop"}, 2, "is not one of add, list, allocate"},
+      {{"stock", "throw", "shop"}, 2, "is not one of add, list, take"},
       {{"stock", "cut", "shop"}, 2, "the id of the order is missing"},
       {{"stock", "take", "shop", "A3"}, 2, "the layout is missing"},
       {{"stock", "check", "shop", "A1"}, 2, "does not take \"A1\""},

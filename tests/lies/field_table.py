@@ -65,7 +65,7 @@ def main(lekalo, source):
                     faults.append(f"{kind.name}: {path}/{key} is not named in docs/formats.md")
     for table, keys in written.items():
         nested = {"kind", "a", "b", "stock", "copy", "feature", "amount_mm", "at", "direction", "part", "count", "parts", "remnant",
-                  "length", "unplaced", "reason", "name", "marks", "material", "thickness", "customer", "due", "label", "finish_mm", "rounds", "visits", "moved_um",
+                  "length", "unplaced", "reason", "name", "marks", "texts", "material", "thickness", "customer", "due", "label", "finish_mm", "rounds", "visits", "moved_um",
                   "from", "rectangle", "cost"}
         for key in sorted(tables[table] - keys - nested - OPTIONAL):
             faults.append(f"{table} names {key}, which no result has")
