@@ -10,6 +10,7 @@
 
 #include "io/drawing/layers.hpp"
 #include "io/layout/mark_words.hpp"
+#include "io/text/file_faults.hpp"
 #include "io/text/json_reader.hpp"
 #include "io/text/json_tree.hpp"
 #include "io/text/refusal.hpp"
@@ -23,7 +24,7 @@ using detail::JsonTree;
 using detail::JsonValue;
 
 constexpr std::string_view kLayersFormat = "lekalo-layers/1";
-constexpr std::size_t kMostLayerRows = 10'000, kMostLayerFaultsTold = 20;
+constexpr std::size_t kMostLayerRows = 10'000;
 
 constexpr std::array<std::pair<LayerRole, std::string_view>, 5> kLayerRoles{{{LayerRole::cut, "cut"},
                                                                              {LayerRole::mark, "mark"},
@@ -38,18 +39,12 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// Keeps every fault of a table, so that one reading of the sentence mends it.
 class LayerRulesReader {
  public:
   explicit LayerRulesReader(const std::string& name) : name_(name) {}
 
   Result<LayerRules> read(JsonValue root) {
-    if (root.kind() != JsonKind::object)
-      return refuse(name_, fmt::format("a table of layers is an object, not {}", name_of(root.kind())));
-    const auto format = root.find("format");
-    if (!format || !format->text_is(kLayersFormat))
-      return refuse(name_,
-                    fmt::format("this is no table of layers: \"format\" has to be \"{}\"", kLayersFormat));
+    LEKALO_CHECK(expect_format(root, name_, "table of layers", kLayersFormat));
     for (const JsonValue item : root)
       if (item.key() != "format" && item.key() != "layers")
         complain(fmt::format("there is no key {} beside \"format\" and \"layers\"", excerpt(item.key())));
@@ -58,32 +53,27 @@ class LayerRulesReader {
       complain(fmt::format("\"layers\" has to be a list of 1 to {} rows", kMostLayerRows));
     else
       for (const JsonValue item : *list) row(item);
-    if (complained_ > kMostLayerFaultsTold)
-      complaints_ += fmt::format("; and {} more", complained_ - kMostLayerFaultsTold);
-    if (!complaints_.empty()) return refuse(name_, complaints_);
+    LEKALO_CHECK(faults_.refused(name_));
     return LayerRules{name_, std::move(rows_)};
   }
 
  private:
-  void complain(const std::string& what) {
-    if (++complained_ > kMostLayerFaultsTold) return;
-    complaints_ += (complaints_.empty() ? "" : "; ") + where_ + what;
-  }
+  void complain(const std::string& what) { faults_.add(what); }
 
   void row(JsonValue json) {
     ++number_;
-    where_ = fmt::format("row {}: ", number_);
+    faults_.where = fmt::format("row {}: ", number_);
     if (json.kind() == JsonKind::object)
       take(json);
     else
       complain(fmt::format("an object is needed, not {}", name_of(json.kind())));
-    where_.clear();
+    faults_.where.clear();
   }
 
   void take(JsonValue json) {
     LayerRule rule;
     bool has_role = false;
-    const std::size_t before = complained_;
+    const std::size_t before = faults_.count();
     for (const JsonValue item : json) {
       const std::string_view key = item.key();
       if (key == "name")
@@ -98,7 +88,7 @@ class LayerRulesReader {
         complain(fmt::format("there is no key {}; known are name, colour, line_type and role", excerpt(key)));
     }
     if (!has_role) complain("role is missing: what the layer is, one of cut, mark, engrave, bend and ignore");
-    if (complained_ > before) return;
+    if (faults_.count() > before) return;
     if (all_since_ != 0)
       complain(fmt::format("row {} names no layer and so fits all, so this row never counts; put it before",
                            all_since_));
@@ -140,8 +130,8 @@ class LayerRulesReader {
   }
 
   const std::string& name_;
-  std::string complaints_, where_;
-  std::size_t complained_ = 0, number_ = 0, all_since_ = 0;
+  FileFaults faults_;
+  std::size_t number_ = 0, all_since_ = 0;
   std::vector<LayerRule> rows_;
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> first_;
 };

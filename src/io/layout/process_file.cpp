@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "export_word_taker.hpp"
+#include "io/text/file_faults.hpp"
 #include "io/text/json_reader.hpp"
 #include "io/text/json_tree.hpp"
 #include "io/text/refusal.hpp"
@@ -25,8 +26,6 @@ using detail::JsonValue;
 
 constexpr std::string_view kProcessFormat = "lekalo-process/1";
 constexpr std::size_t kMostProcesses = 10'000, kMostHoleRows = 100;
-/// So many faults, or processes, are told one by one.
-constexpr std::size_t kMostProcessesTold = 20;
 
 /// A key of an entry and the word of an export that it stands for.
 struct ProcessKey {
@@ -69,18 +68,12 @@ std::string described_process(const CutProcess& process) {
   return fmt::format("{}, {} mm ({})", process.material, process.thickness_mm, process.kind);
 }
 
-/// Keeps every fault of a file, so that one reading of the sentence mends it.
 class ProcessReader {
  public:
   explicit ProcessReader(const std::string& name) : name_(name) {}
 
   Result<ProcessFile> read(JsonValue root) {
-    if (root.kind() != JsonKind::object)
-      return refuse(name_, fmt::format("a file of processes is an object, not {}", name_of(root.kind())));
-    const auto format = root.find("format");
-    if (!format || !format->text_is(kProcessFormat))
-      return refuse(name_,
-                    fmt::format("this is no file of processes: \"format\" has to be \"{}\"", kProcessFormat));
+    LEKALO_CHECK(expect_format(root, name_, "file of processes", kProcessFormat));
     for (const JsonValue item : root)
       if (item.key() != "format" && item.key() != "processes")
         complain(fmt::format("there is no key {} beside \"format\" and \"processes\"", excerpt(item.key())));
@@ -89,21 +82,16 @@ class ProcessReader {
       complain(fmt::format("\"processes\" has to be a list of 1 to {} entries", kMostProcesses));
     else
       for (const JsonValue item : *list) entry(item);
-    if (complained_ > kMostProcessesTold)
-      complaints_ += fmt::format("; and {} more", complained_ - kMostProcessesTold);
-    if (!complaints_.empty()) return refuse(name_, complaints_);
+    LEKALO_CHECK(faults_.refused(name_));
     return ProcessFile{name_, std::move(processes_)};
   }
 
  private:
-  void complain(const std::string& what) {
-    if (++complained_ > kMostProcessesTold) return;
-    complaints_ += (complaints_.empty() ? "" : "; ") + where_ + what;
-  }
+  void complain(const std::string& what) { faults_.add(what); }
 
   void entry(JsonValue json) {
     const std::size_t number = ++entries_;
-    where_ = fmt::format("entry {}: ", number);
+    faults_.where = fmt::format("entry {}: ", number);
     CutProcess process;
     if (json.kind() != JsonKind::object)
       complain(fmt::format("an object is needed, not {}", name_of(json.kind())));
@@ -114,7 +102,7 @@ class ProcessReader {
     if (!is_new && !process.material.empty() && !process.kind.empty() && process.thickness_mm > 0)
       complain(fmt::format("{} is entry {} already", described_process(process), place->second));
     processes_.push_back(std::move(process));
-    where_.clear();
+    faults_.where.clear();
   }
 
   void take(JsonValue json, CutProcess& process) {
@@ -209,11 +197,11 @@ class ProcessReader {
   void take_holes(JsonValue list, double feed, CutProcess& process) {
     if (list.kind() != JsonKind::list || list.size() > kMostHoleRows)
       return complain(fmt::format("holes has to be a list of at most {} rows", kMostHoleRows));
-    const std::string entry = where_;
+    const std::string entry = faults_.where;
     double before = 0;
     std::size_t row = 0;
     for (const JsonValue item : list) {
-      where_ = fmt::format("{}, row {} of holes: ", entry.substr(0, entry.size() - 2), ++row);
+      faults_.where = fmt::format("{}, row {} of holes: ", entry.substr(0, entry.size() - 2), ++row);
       if (item.kind() != JsonKind::object) {
         complain(fmt::format("an object is needed, not {}", name_of(item.kind())));
         continue;
@@ -224,7 +212,7 @@ class ProcessReader {
         complain(fmt::format("up_to_diameter_mm {}: has to be above that of the row before", up_to));
       before = std::max(before, up_to);
     }
-    where_ = entry;
+    faults_.where = entry;
   }
 
   nc::HoleCut hole_of(JsonValue json, double feed) {
@@ -248,8 +236,8 @@ class ProcessReader {
   }
 
   const std::string& name_;
-  std::string complaints_, where_;
-  std::size_t complained_ = 0, entries_ = 0;
+  FileFaults faults_;
+  std::size_t entries_ = 0;
   bool unknown_told_ = false;
   std::vector<CutProcess> processes_;
   std::map<std::tuple<std::string, double, std::string>, std::size_t> first_;
@@ -264,7 +252,7 @@ std::string processes_there(const ProcessFile& file, const std::string& material
   std::size_t told = 0, left = 0;
   for (const CutProcess& process : file.processes) {
     if (knows_material && process.material != material) continue;
-    if (told == kMostProcessesTold) {
+    if (told == FileFaults::kMostTold) {
       ++left;
       continue;
     }

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "io/text/file_faults.hpp"
 #include "io/text/json_reader.hpp"
 #include "io/text/json_tree.hpp"
 #include "io/text/refusal.hpp"
@@ -26,8 +27,6 @@ using detail::JsonValue;
 
 constexpr std::string_view kRatesFormat = "lekalo-rates/1";
 constexpr std::size_t kMostRatedMaterials = 10'000, kMostPrintedLines = 12;
-/// So many faults, or materials, are told one by one.
-constexpr std::size_t kMostRatesTold = 20;
 constexpr double kHighestRate = 1e9;
 /// A side of a stock is that of a sheet of the file within this, mm: sheets are sold by whole millimetres.
 constexpr double kSameSide = 0.5;
@@ -40,18 +39,12 @@ constexpr std::array kRuleNames{RuleName{"exact stop", nc::JunctionRule::exact_s
                                 RuleName{"exact path", nc::JunctionRule::exact_path},
                                 RuleName{"junction deviation", nc::JunctionRule::deviation}};
 
-/// Keeps every fault of a file, so that one reading of the sentence mends it.
 class RatesReader {
  public:
   explicit RatesReader(const std::string& name) : name_(name) { rates_.name = name; }
 
   Result<Rates> read(JsonValue root) {
-    if (root.kind() != JsonKind::object)
-      return refuse(name_, fmt::format("a file of rates is an object, not {}", name_of(root.kind())));
-    const auto format = root.find("format");
-    if (!format || !format->text_is(kRatesFormat))
-      return refuse(name_,
-                    fmt::format("this is no file of rates: \"format\" has to be \"{}\"", kRatesFormat));
+    LEKALO_CHECK(expect_format(root, name_, "file of rates", kRatesFormat));
     known(root, {"format", "currency", "decimals", "issuer", "terms", "machine", "rates", "margin_percent",
                  "tax_percent", "materials"});
     currency(root);
@@ -62,17 +55,12 @@ class RatesReader {
     machine(root);
     hourly(root);
     materials(root);
-    if (complained_ > kMostRatesTold)
-      complaints_ += fmt::format("; and {} more", complained_ - kMostRatesTold);
-    if (!complaints_.empty()) return refuse(name_, complaints_);
+    LEKALO_CHECK(faults_.refused(name_));
     return std::move(rates_);
   }
 
  private:
-  void complain(const std::string& what) {
-    if (++complained_ > kMostRatesTold) return;
-    complaints_ += (complaints_.empty() ? "" : "; ") + where_ + what;
-  }
+  void complain(const std::string& what) { faults_.add(what); }
 
   void known(JsonValue object, std::initializer_list<std::string_view> keys) {
     for (const JsonValue item : object) {
@@ -184,7 +172,7 @@ class RatesReader {
   void machine(JsonValue root) {
     const auto found = object(root, "machine", "how fast it moves");
     if (!found) return;
-    where_ = "machine: ";
+    faults_.where = "machine: ";
     known(*found, {"rapid_mm_per_min", "acceleration_mm_per_s2", "junctions", "junction_deviation_mm",
                    "settle_s", "setup_s_once", "setup_s_per_sheet"});
     nc::MachineModel& model = rates_.machine;
@@ -197,7 +185,7 @@ class RatesReader {
     };
     rates_.setup_once_ms = milliseconds("setup_s_once");
     rates_.setup_per_sheet_ms = milliseconds("setup_s_per_sheet");
-    where_.clear();
+    faults_.where.clear();
   }
 
   void junctions(JsonValue machine) {
@@ -221,13 +209,13 @@ class RatesReader {
   void hourly(JsonValue root) {
     const auto found = object(root, "rates", "what an hour, a pierce and a metre cost");
     if (!found) return;
-    where_ = "rates: ";
+    faults_.where = "rates: ";
     known(*found, {"per_hour", "setup_per_hour", "per_pierce", "per_m_cut"});
     rates_.per_hour = rate(*found, "per_hour", kHighestRate, true).value_or(0);
     rates_.setup_per_hour = rate(*found, "setup_per_hour", kHighestRate, false).value_or(rates_.per_hour);
     rates_.per_pierce = rate(*found, "per_pierce", kHighestRate, false).value_or(0);
     rates_.per_m_cut = rate(*found, "per_m_cut", kHighestRate, false).value_or(0);
-    where_.clear();
+    faults_.where.clear();
   }
 
   void materials(JsonValue root) {
@@ -236,13 +224,13 @@ class RatesReader {
       return complain(fmt::format("materials has to be a list of 1 to {} entries", kMostRatedMaterials));
     std::size_t entry = 0;
     for (const JsonValue item : *list) {
-      where_ = fmt::format("material {}: ", ++entry);
+      faults_.where = fmt::format("material {}: ", ++entry);
       if (item.kind() == JsonKind::object)
         material(item, entry);
       else
         complain(fmt::format("an object is needed, not {}", name_of(item.kind())));
     }
-    where_.clear();
+    faults_.where.clear();
   }
 
   void material(JsonValue json, std::size_t entry) {
@@ -300,8 +288,7 @@ class RatesReader {
 
  private:
   const std::string& name_;
-  std::string complaints_, where_;
-  std::size_t complained_ = 0;
+  FileFaults faults_;
   Rates rates_;
   std::map<std::tuple<std::string, std::int64_t, double, double>, std::size_t> first_;
 };
@@ -319,7 +306,7 @@ Result<const MaterialRate*> find_rate(const Rates& rates, const layout::Material
   std::string there;
   std::size_t told = 0;
   for (const MaterialRate& rate : rates.materials) {
-    if (told++ < kMostRatesTold) there += (told == 1 ? "" : "; ") + RatesReader::described_rate(rate);
+    if (told++ < FileFaults::kMostTold) there += (told == 1 ? "" : "; ") + RatesReader::described_rate(rate);
     if (rate.material != material.name || rate.thickness != material.thickness) continue;
     if (!rate.sheet)
       by_area = &rate;
@@ -329,7 +316,7 @@ Result<const MaterialRate*> find_rate(const Rates& rates, const layout::Material
       return &rate;
   }
   if (by_area != nullptr) return by_area;
-  if (told > kMostRatesTold) there += fmt::format("; and {} more", told - kMostRatesTold);
+  if (told > FileFaults::kMostTold) there += fmt::format("; and {} more", told - FileFaults::kMostTold);
   return failure(
       ErrorCode::bad_input,
       fmt::format("{}: there is no rate for {}{}; there are: {}", rates.name, layout::words_of(material),
