@@ -145,6 +145,14 @@ TEST(VerifyMarks, AMarkAfterItsPartIsCutOutIsRefused) {
       << late;
 }
 
+TEST(VerifyMarks, AMarkAsDeepAsTheCutsIsRefused) {
+  const std::string program = exported(sample(), "gcode", kRouter).files[0].bytes;
+  const std::string deeper = replaced(program, "Z-0.3", "Z-6");
+  EXPECT_NE(told(program_report(deeper, sample(), 3)).find("a mark is engraved as deep as parts are cut out"),
+            std::string::npos)
+      << deeper;
+}
+
 TEST(VerifyMarks, MarksThatLeaveTheirPartAreNotEngraved) {
   Json layout = sample();
   layout["parts"][0]["marks"] = {

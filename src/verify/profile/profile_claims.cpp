@@ -62,7 +62,7 @@ class ProfileCheck {
     std::vector<CutChain> cuts;
     for (const CutChain& chain : chains) {
       if (!chain.rapid && marks_->follows(chain)) {
-        keep_before_cuts(chain);
+        check_engraving(chain);
         continue;
       }
       cuts.push_back(chain);
@@ -78,6 +78,8 @@ class ProfileCheck {
     report_.notes.push_back(
         fmt::format("{} cuts along {} contours of {} parts were rechecked for a kerf of {} mm", cuts.size(),
                     wanted_.size(), parts_.size(), words_.kerf_mm));
+    if (by_power_)
+      report_.notes.push_back("how deep the beam engraves follows from its power, which was not rechecked");
     if (std::string note = marks_->note(); !note.empty()) report_.notes.push_back(std::move(note));
     return std::move(report_);
   }
@@ -108,8 +110,13 @@ class ProfileCheck {
         report_.findings.push_back(fmt::format("line {}: the cut begins in placement {}", chain.line, id));
   }
 
-  /// A part that was cut out may have moved, so that its marks come before.
-  void keep_before_cuts(const CutChain& chain) {
+  /// A part that was cut out may have moved, so that its marks come before. What is as deep as the cuts is
+  /// one.
+  void check_engraving(const CutChain& chain) {
+    if (chain.depth > 0 && chain.depth >= deepest_ - kRounding)
+      report_.findings.push_back(
+          fmt::format("line {}: a mark is engraved as deep as parts are cut out", chain.line));
+    by_power_ = by_power_ || chain.depth == 0;
     for (const Loop& loop : loops_)
       if (loop.ring.encloses(chain.edges[0].from)) {
         report_.findings.push_back(
@@ -361,6 +368,7 @@ class ProfileCheck {
   std::optional<EngravedMarks> marks_;
   std::vector<Loop> loops_;
   double deepest_ = 0;
+  bool by_power_ = false;                               ///< marks are engraved without a Z
   std::vector<std::size_t> contour_of_;                 ///< by chain
   std::vector<std::vector<ContourStretch>> stretches_;  ///< by contour
   ClaimReport report_;
