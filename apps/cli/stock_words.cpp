@@ -8,15 +8,7 @@
 
 namespace lekalo::cli {
 
-std::string item_text(const jobs::StockItem& item) {
-  const geom::GridBox box = geom::bounds(item.stock.outline.polygon);
-  const geom::Point size = geom::mm_from_grid(box.high - box.low);
-  std::string text = fmt::format("  {:<6} {:g} x {:g} mm, {:.4f} m2, {}, cost {:g}", name_of(item), size.x,
-                                 size.y, geom::area_mm2(item.stock.outline.polygon) * 1e-6,
-                                 layout::words_of(item.stock.material), item.stock.cost);
-  if (item.state == jobs::StockState::allocated) text += ", allocated to order " + item.order;
-  return text + '\n';
-}
+std::string item_text(const jobs::StockItem& item) { return "  " + jobs::words_of(item) + '\n'; }
 
 std::string sums_text(const std::vector<jobs::StockSums>& sums) {
   std::string text;

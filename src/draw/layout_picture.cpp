@@ -88,15 +88,21 @@ class LayoutComposer {
 
   Scene compose() && {
     scene_.title = "lekalo: " + picture_.name;
-    scene_.description =
-        fmt::format("{} placed, {}, density {:.2f} %", counted(document_.placements.size(), "part"),
-                    counted(picture_.violations.size(), "violation"), 100 * picture_.completeness.density);
+    const std::string pieces = counted(picture_.pieces.size(), "piece");
+    scene_.description = is_stock() ? pieces
+                                    : fmt::format("{} placed, {}, density {:.2f} %",
+                                                  counted(document_.placements.size(), "part"),
+                                                  counted(picture_.violations.size(), "violation"),
+                                                  100 * picture_.completeness.density);
     scene_.items.push_back(PathItem{{kLayoutPage.ring()}, true, filled(kPaper), {"page", ""}});
     sheet_.text(8, 11, 190, picture_.name, {.size = 4.6, .bold = true, .kind = "title"});
     const bool valid = picture_.violations.empty();
-    sheet_.text(289, 11, 90, valid ? "no violations" : counted(picture_.violations.size(), "violation"),
+    const std::string verdict = valid ? "no violations" : counted(picture_.violations.size(), "violation");
+    sheet_.text(289, 11, 90, is_stock() ? pieces : verdict,
                 {.size = 3.8,
-                 .colour = valid ? kGood : kBad,
+                 .colour = is_stock() ? kInk
+                           : valid    ? kGood
+                                      : kBad,
                  .anchor = Anchor::end,
                  .bold = true,
                  .kind = "verdict"});
@@ -106,6 +112,8 @@ class LayoutComposer {
   }
 
  private:
+  [[nodiscard]] bool is_stock() const { return !picture_.pieces.empty(); }
+
   struct Framed {
     layout::Sheet sheet;
     geom::Box box;  ///< mm, of what is shown
@@ -340,6 +348,10 @@ class LayoutComposer {
   }
 
   void draw_tables() {
+    if (is_stock()) {
+      pieces_table({8, kTables, 281, 54});
+      return;
+    }
     const bool bad = !picture_.violations.empty();
     const Rect left{8, kTables, 88, 54}, middle{103, kTables, 90, 54}, right{200, kTables, 89, 54};
     sheets_table(left);
@@ -386,11 +398,7 @@ class LayoutComposer {
         sheet_.heading(column, column.y, fmt::format("Parts: {} placed", document_.placements.size()));
     rows(column, y, document_.parts.size(), [&](std::size_t i, double at) {
       const layout::Part& part = document_.parts[i];
-      const Rect swatch{column.x, at - 2, 2.6, 2.3};
-      scene_.items.push_back(PathItem{{swatch.ring()},
-                                      true,
-                                      fill_and_line(kPartFills[i % kPartFills.size()], 1, kPartLine, 0.15),
-                                      {"swatch", ""}});
+      swatch(column, at, i);
       std::string text = fmt::format("{}: {}", part.name.empty() ? part.id : part.name, c.placed[i].total());
       if (c.placed[i].mirrored > 0) text += fmt::format(" ({} mirrored)", c.placed[i].mirrored);
       if (c.missing[i] > 0) text += fmt::format(", {} missing", c.missing[i]);
@@ -398,6 +406,22 @@ class LayoutComposer {
       sheet_.text(column.x + 4, at, column.width - 4, text,
                   {.size = kReportSmall, .colour = c.missing[i] > 0 ? kDoubt : kInk});
     });
+  }
+
+  void pieces_table(const Rect& column) {
+    rows(column, sheet_.heading(column, column.y, "Pieces"), picture_.pieces.size(),
+         [&](std::size_t i, double at) {
+           swatch(column, at, i);
+           sheet_.text(column.x + 4, at, column.width - 4, picture_.pieces[i], {.size = kReportSmall});
+         });
+  }
+
+  /// The colour of a part beside its row.
+  void swatch(const Rect& column, double at, std::size_t part) {
+    scene_.items.push_back(PathItem{{Rect{column.x, at - 2, 2.6, 2.3}.ring()},
+                                    true,
+                                    fill_and_line(kPartFills[part % kPartFills.size()], 1, kPartLine, 0.15),
+                                    {"swatch", ""}});
   }
 
   void kits_table(const Rect& column) {

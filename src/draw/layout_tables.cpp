@@ -83,6 +83,12 @@ Table parts_table(const LayoutPicture& picture) {
   return table;
 }
 
+Table pieces_table(const LayoutPicture& picture) {
+  Table table{"Pieces", {{"piece", 273, Anchor::start}}, {}};
+  for (const std::string& piece : picture.pieces) table.rows.push_back({{piece}});
+  return table;
+}
+
 Table kits_table(const LayoutPicture& picture) {
   Table table{"Kits",
               {{"kit", 50, Anchor::start},
@@ -175,6 +181,8 @@ class Pages {
 
 std::vector<Scene> layout_tables(const LayoutPicture& picture) {
   Pages pages(picture.name);
+  pages.put(pieces_table(picture));
+  if (!picture.pieces.empty()) return std::move(pages).finish();
   pages.put(parts_table(picture));
   pages.put(kits_table(picture));
   pages.put(sheets_table(picture));

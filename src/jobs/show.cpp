@@ -1,6 +1,7 @@
 #include "lekalo/jobs/show.hpp"
 
 #include "jobs/document/report_document.hpp"
+#include "jobs/picture_bytes.hpp"
 #include "layout_json.hpp"
 #include "lekalo/draw/layout_picture.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"
@@ -23,16 +24,7 @@ std::string show_json(const Layout& layout, const Shown& shown) {
 Result<std::string> layout_picture(const layout::Document& document, std::string_view title,
                                    const std::vector<layout::Violation>& violations, PictureForm form) {
   const layout::Completeness completeness = layout::completeness(document);
-  const draw::LayoutPicture picture{io::as_utf8(title), document, completeness, violations};
-  switch (form) {
-    case PictureForm::svg:
-      break;
-    case PictureForm::png:
-      return draw::layout_png(picture);
-    case PictureForm::pdf:
-      return draw::layout_pdf(picture);
-  }
-  return draw::layout_svg(picture);
+  return picture_bytes({io::as_utf8(title), document, completeness, violations}, form);
 }
 
 }  // namespace lekalo::jobs

@@ -77,7 +77,9 @@ TEST_F(StockCommand, TheRemnantOfOneOrderIsCutForTheNext) {
   if (!cases::python_with_jsonschema().empty()) {
     EXPECT_EQ(cases::schema_verdicts("lekalo-stock-1.schema.json", {list.out}), Words{"ok"});
   }
-  EXPECT_TRUE(says(read_bytes(folder_ / "shop.svg"), "S2"));
+  const std::string picture = read_bytes(folder_ / "shop.svg");
+  EXPECT_TRUE(says(picture, "S2"));
+  EXPECT_FALSE(says(picture, "density") || says(picture, "violation")) << picture;
   EXPECT_TRUE(says(stock({"list", "shop"}).out, "S2"));
 }
 

@@ -74,10 +74,9 @@ Result<int> list_pieces(const StockOptions& o) {
   LEKALO_TRY(StockFile file, StockFile::open(o.file, StockOpening::find));
   LEKALO_TRY(const jobs::StockBook book, file.book());
   if (!o.picture.empty()) {
-    const layout::Document rack = jobs::rack_of(book);
-    if (rack.placements.empty())
-      return failure(ErrorCode::bad_input, fmt::format("{}: nothing is in it that could be drawn", o.file));
-    LEKALO_TRY(const std::string picture, picture_bytes(o.picture, o.file, rack, {}));
+    LEKALO_TRY(
+        const std::string picture,
+        jobs::stock_picture(book, o.file, jobs::picture_form(o.picture).value_or(jobs::PictureForm::svg)));
     LEKALO_CHECK(deliver(o.picture, picture));
   }
   if (o.json) return print(jobs::stock_book_json(book)).map([] { return kAllTrue; });

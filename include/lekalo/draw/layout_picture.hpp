@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct LayoutPicture {
   const layout::Document& document;
   const layout::Completeness& completeness;
   const std::vector<layout::Violation>& violations;
+  /// In a picture of stock: a line about each part of the document, in its order. Nothing is said of density,
+  /// demands and violations then.
+  std::span<const std::string> pieces = {};
 };
 
 [[nodiscard]] std::string layout_svg(const LayoutPicture& picture);

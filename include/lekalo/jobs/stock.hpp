@@ -10,6 +10,7 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/jobs/file.hpp"
 #include "lekalo/jobs/order_words.hpp"
+#include "lekalo/jobs/picture_form.hpp"
 #include "lekalo/layout/document.hpp"
 #include "lekalo/layout/remnant_outline.hpp"
 #include "lekalo/verify/claims.hpp"
@@ -80,6 +81,8 @@ inline constexpr std::int64_t kMostAdded = 10'000;
 [[nodiscard]] std::optional<layout::RemnantRule> remnant_rule_of(std::string_view word);
 /// Returns "300x200 mm" or "60000 mm2".
 [[nodiscard]] std::string words_of(const layout::RemnantRule& rule);
+/// Returns what a piece is, on one line: name, size, area, material, cost, and the order that has it.
+[[nodiscard]] std::string words_of(const StockItem& item);
 
 /// The sentence about a rule that no piece of a stock file is large enough for.
 [[nodiscard]] std::string rule_too_large(const layout::RemnantRule& rule);
@@ -144,8 +147,10 @@ struct StockSums {
 /// Rechecks a book through the independent checker, as the bytes of its document.
 [[nodiscard]] Result<verify::ClaimReport> check_book(const StockBook& book, const std::string& name);
 
-/// The pieces that are not gone, side by side in rows, as a layout that can be drawn: each is a part called
-/// after its name, on one sheet that is as large as they need.
-[[nodiscard]] layout::Document rack_of(const StockBook& book);
+/// The pieces that are not gone, side by side in rows on one page (draw/layout_picture.hpp), with a line
+/// about each. Fails with ErrorCode::bad_input where there are none, and as layout_picture does
+/// (jobs/show.hpp).
+[[nodiscard]] Result<std::string> stock_picture(const StockBook& book, const std::string& title,
+                                                PictureForm form);
 
 }  // namespace lekalo::jobs

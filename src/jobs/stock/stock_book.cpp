@@ -1,4 +1,4 @@
-// Everything that a stock file holds, as a document, as sums and as something to look at.
+// Everything that a stock file holds, as a document and as sums.
 
 #include <algorithm>
 #include <map>
@@ -146,50 +146,6 @@ std::string stock_book_json(const StockBook& book) {
 Result<verify::ClaimReport> check_book(const StockBook& book, const std::string& name) {
   const std::string bytes = stock_book_json(book);
   return verify::verify_stock({name, bytes});
-}
-
-layout::Document rack_of(const StockBook& book) {
-  constexpr std::int64_t kApart = 100 * geom::kGridPerMm;
-  layout::Document rack;
-  Int128 area = 0;
-  std::int64_t widest = 0;
-  std::vector<const StockItem*> items;
-  for (const StockItem& item : book.items) {
-    if (item.state == StockState::cut) continue;
-    items.push_back(&item);
-    const geom::GridBox box = geom::bounds(item.stock.outline.polygon);
-    area += Int128{box.high.x - box.low.x + kApart} * (box.high.y - box.low.y + kApart);
-    widest = std::max(widest, box.high.x - box.low.x);
-  }
-  // Rows about twice as long as all of them are high.
-  std::int64_t row_length = widest;
-  while (Int128{row_length} * row_length < 2 * area && row_length < geom::kGridLimit / 8)
-    row_length += row_length / 8 + 1;
-  geom::GridPoint next{0, 0};
-  std::int64_t row_height = 0, length = 0;
-  for (const StockItem* item : items) {
-    const geom::GridBox box = geom::bounds(item->stock.outline.polygon);
-    const std::int64_t width = box.high.x - box.low.x;
-    if (next.x > 0 && next.x + width > row_length) next = {0, next.y + row_height + kApart}, row_height = 0;
-    layout::Part part;
-    part.id = name_of(*item);
-    part.outline = {item->stock.outline.polygon, {}, 0};
-    part.demand = 1;
-    layout::Placement placement;
-    placement.id = rack.next_id++;
-    placement.part = static_cast<std::uint32_t>(rack.parts.size());
-    placement.at = next - box.low;
-    rack.parts.push_back(std::move(part));
-    rack.placements.push_back(placement);
-    row_height = std::max(row_height, box.high.y - box.low.y);
-    length = std::max(length, next.x + width);
-    next.x += width + kApart;
-  }
-  layout::Stock floor;
-  floor.id = "stock";
-  if (!items.empty()) floor.outline.polygon = geom::rectangle({{0, 0}, {length, next.y + row_height}});
-  rack.stocks.push_back(std::move(floor));
-  return rack;
 }
 
 }  // namespace lekalo::jobs

@@ -13,6 +13,7 @@
 #include "lekalo/io/text/length_word.hpp"
 #include "lekalo/jobs/stock.hpp"
 #include "lekalo/layout/job.hpp"
+#include "lekalo/layout/material_words.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -76,6 +77,16 @@ std::optional<layout::RemnantRule> remnant_rule_of(std::string_view word) {
     return layout::RemnantRule{0, 0, *area};
   }
   return std::nullopt;
+}
+
+std::string words_of(const StockItem& item) {
+  const geom::GridBox box = geom::bounds(item.stock.outline.polygon);
+  const geom::Point size = geom::mm_from_grid(box.high - box.low);
+  std::string text = fmt::format("{:<6} {:g} x {:g} mm, {:.4f} m2, {}, cost {:g}", name_of(item), size.x,
+                                 size.y, geom::area_mm2(item.stock.outline.polygon) * 1e-6,
+                                 layout::words_of(item.stock.material), item.stock.cost);
+  if (item.state == StockState::allocated) text += ", allocated to order " + item.order;
+  return text;
 }
 
 std::string words_of(const layout::RemnantRule& rule) {
