@@ -14,10 +14,10 @@ constexpr double kMeetingReserve = 1e-6;  // mm
 
 /// How often a straight way crosses the ray from p to the right: upwards counts 1, downwards -1.
 int windings(Place from, Place to, Place p) {
-  if ((from.y <= p.y) == (to.y <= p.y)) return 0;
+  const int upwards = static_cast<int>(from.y <= p.y) - static_cast<int>(to.y <= p.y);
+  if (upwards == 0) return 0;
   const double x = from.x + (p.y - from.y) / (to.y - from.y) * (to.x - from.x);
-  if (!(x > p.x)) return 0;
-  return to.y > from.y ? 1 : -1;
+  return x > p.x ? upwards : 0;
 }
 
 /// The nearest places of two short pieces, within what an arc is off its chord.
@@ -53,12 +53,10 @@ class WindingTree {
   std::pair<std::size_t, int> root_of(std::size_t a) {
     int way = 0;
     while (parent_[a] != a) {
-      // Halving the path keeps later ways short.
+      // Halving the path keeps later ways short; a root is its own parent, with no windings between.
       const std::size_t up = parent_[a];
-      if (parent_[up] != up) {
-        to_parent_[a] += to_parent_[up];
-        parent_[a] = parent_[up];
-      }
+      to_parent_[a] += to_parent_[up];
+      parent_[a] = parent_[up];
       way += to_parent_[a];
       a = parent_[a];
     }

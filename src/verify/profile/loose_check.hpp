@@ -30,11 +30,11 @@ class LooseCheck {
 
  private:
   struct Cut {
-    std::size_t first = 0, last = 0, of = 0;  ///< pieces, and what it follows
+    std::size_t first, last, of;  ///< pieces, and what it follows
   };
   /// Two pieces nearer than a kerf, and the nearest places on them.
   struct Meeting {
-    std::uint32_t a = 0, b = 0;
+    std::uint32_t a, b;
     Place on_a, on_b;
   };
   void find_meetings();
