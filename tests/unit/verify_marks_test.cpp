@@ -153,6 +153,38 @@ TEST(VerifyMarks, AMarkAsDeepAsTheCutsIsRefused) {
       << deeper;
 }
 
+TEST(VerifyMarks, WhatIsRecheckedOfEngravingsIsSaid) {
+  const auto notes = [](const Json& layout, const std::vector<io::ExportWord>& words, double kerf) {
+    const auto report = program_report(exported(layout, "gcode", words).files[0].bytes, layout, kerf);
+    EXPECT_EQ(told(report), "");
+    std::string text;
+    for (const std::string& note : report->notes) text += note + "\n";
+    return text;
+  };
+  const std::string power = "how deep the beam engraves follows from its power, which was not rechecked\n";
+  EXPECT_NE(notes(sample(), kLaser, 0.2).find(power), std::string::npos);
+  EXPECT_EQ(notes(sample(), kRouter, 3).find(power), std::string::npos) << "its depth was";
+  Json one = sample();
+  one["parts"][0].erase("texts");
+  Json bare = one;
+  bare["parts"][0].erase("marks");
+  one["parts"][0]["marks"] = {
+      {{"layer", "E"}, {"role", "engrave"}, {"edges", Json::array({cases::line_json(5, 5, 15, 5)})}}};
+  EXPECT_NE(notes(one, kLaser, 0.2).find("1 of 1 lines and texts on the parts are engraved all along"),
+            std::string::npos);
+  EXPECT_EQ(notes(bare, kLaser, 0.2).find("engrave"), std::string::npos);
+}
+
+TEST(VerifyMarks, ARapidMotionEngravesNothing) {
+  const std::string program = exported(sample(), "gcode", kLaser).files[0].bytes;
+  const std::size_t mark = program.find("(MARKS"), cut = program.find("\nG1 X", mark);
+  ASSERT_NE(cut, std::string::npos);
+  std::string rapid = program;
+  rapid.replace(cut, 4, "\nG0 ");
+  EXPECT_NE(told(program_report(rapid, sample(), 0.2)).find("a rapid motion cuts"), std::string::npos)
+      << rapid;
+}
+
 TEST(VerifyMarks, MarksThatLeaveTheirPartAreNotEngraved) {
   Json layout = sample();
   layout["parts"][0]["marks"] = {

@@ -425,6 +425,59 @@ TEST(VerifyProfile, TabsAreWhatIsCutLessDeep) {
   EXPECT_NE(judged_by(plate(), program(-6), with_joints(0.5)), "") << "nothing stays";
 }
 
+TEST(VerifyProfile, AStretchGoesAlongOneContourBehindALeadOfOneEdge) {
+  const auto led = [](const std::string& lead) { return "G0 X15.5 Y-4\nM3\n" + lead + kToTheJoint + "M5\n"; };
+  EXPECT_EQ(judged_by(plate(), led("G1 Y-0.5\n"), with_joints(0.5)), "");
+  EXPECT_EQ(judged_by(plate(), led("G1 Y-2\nG1 Y-0.5\n"), with_joints(0.5)),
+            "line 4: " + kNoContour + "\nthe outline of placement 1 is not cut\n");
+  // One edge alone is a stretch, too: a line that a joint of nearly all of the contour leaves.
+  EXPECT_NE(judged_by(plate(), "G0 X15.5 Y-0.5\nM3\nG1 X17\nM5\n", with_joints(0.5)), "");
+  // Beside the contour on the part's side, and one that leaves it.
+  const std::string in_part = judged_by(plate(), "G0 X5 Y0.5\nM3\nG1 X25\nM5\n", with_joints(0.5));
+  EXPECT_NE(in_part.find("line 4: " + kNoContour), std::string::npos) << in_part;
+  const std::string away = judged_by(plate(), "G0 X5 Y-0.5\nM3\nG1 X25\nY-3\nM5\n", with_joints(0.5));
+  EXPECT_EQ(away, "line 4: " + kNoContour + "\nthe outline of placement 1 is not cut\n");
+  // What a closed cut frees needs no stretches, and may be cut again in some.
+  const std::string closed = around(0, 0, 30, 30, 0.5);
+  EXPECT_EQ(judged_by(plate(), closed + "G0 X5 Y-0.5\nM3\nG1 X25\nM5\n", with_joints(0.5)), "");
+  EXPECT_EQ(judged_by(plate(), closed, with_joints(0.5)), "");
+}
+
+TEST(VerifyProfile, WhatIsNotCutToTheBottomIsNotCut) {
+  const auto at = [](double z, const std::string& way, const std::string& start) {
+    return "G0 Z5\n" + start + fmt::format("M3\nG1 Z{}\n", z) + way + "G0 Z5\nM5\n";
+  };
+  const auto ring = [&](double z) {
+    return at(-z, "G1 X23.5\nY23.5\nX16.5\nY16.5\n", "G0 X16.5 Y16.5\n") +
+           at(-z, way_round(10, 10, 20, 20, 0.5), "G0 X10 Y9.5\n");
+  };
+  const auto small = [&](double z) { return at(-z, way_round(50, 10, 10, 10, 0.5), "G0 X50 Y9.5\n"); };
+  EXPECT_EQ(judged(ring(2) + ring(6) + small(2) + small(6)), "");
+  EXPECT_EQ(judged(ring(6) + small(2)), "the outline of placement 2 is not cut\n");
+  EXPECT_EQ(judged(ring(2) + small(6)),
+            "the outline of placement 1 is not cut\nhole 1 of placement 1 is not cut\n");
+  // A pass before the last frees nothing, whatever it surrounds.
+  EXPECT_EQ(judged(at(-2, way_round(10, 10, 20, 20, 0.5), "G0 X10 Y9.5\n") + ring(6) + small(6)), "");
+}
+
+TEST(VerifyProfile, NoKerfOfANeighbourEntersAJoint) {
+  const auto beside = [](double x) {
+    cases::Json layout = cases::empty_layout();
+    cases::add_part(layout, "plate", cases::outline_json(cases::rectangle(0, 0, 30, 30)));
+    cases::place(layout, "plate", 0, 0);
+    cases::place(layout, "plate", x, 0);
+    return io::write_layout(io::read_layout(layout.dump(), "layout").value().document);
+  };
+  // The joint of the first is in the middle of its right side: half a kerf and the joint's width deep.
+  const std::string first =
+      "G0 X30.5 Y15.5\nM3\n" + kAbove + kLeft + "G1 X30\nG3 X30.5 Y0 I0 J0.5\nG1 Y14\nM5\n";
+  const auto both = [&](double x) {
+    return judged_by(beside(x), first + around(x, 0, 30, 30, 0.5), with_joints(0.5));
+  };
+  EXPECT_EQ(both(32.6), "");
+  EXPECT_EQ(both(32.4), "line 17: what is burnt enters the joint behind line 4\n");
+}
+
 TEST(VerifyProfile, PiercesAndLeadsMeetNoKerfThatIsThere) {
   ProfileWords words = with_joints(0, 2);
   const auto led = [](double x, double y, double size, double lead) {
@@ -441,8 +494,41 @@ TEST(VerifyProfile, PiercesAndLeadsMeetNoKerfThatIsThere) {
                      words);
   };
   EXPECT_EQ(said(32), "");
-  EXPECT_NE(said(31.8).find("the pierce or its lead meets a kerf that is there before it"),
-            std::string::npos);
+  const std::string meets = "the pierce or its lead meets a kerf that is there before it";
+  EXPECT_NE(said(31.8).find(meets), std::string::npos);
+  // A long lead that crosses what is there: in its middle, near its beginning, and with more behind it.
+  for (const double from : {-30.0, -2.0, 4.0}) {
+    const std::string long_lead =
+        judged_by(layout_text(),
+                  inside + led(50, 10, 10, 4) + fmt::format("G0 X{} Y9.5\nM3\nG1 X10\n", 62 - from) +
+                      way_round(10, 10, 20, 20, 0.5) + "M5\n",
+                  words);
+    EXPECT_NE(long_lead.find("line 25: " + meets), std::string::npos) << long_lead;
+  }
+  const std::string across = judged_by(
+      layout_text(),
+      led(10, 10, 20, 4) + "G0 X20 Y0\nM3\nG1 X20 Y16.5\nX23.5\nY23.5\nX16.5\nY16.5\nX20\nM5\n", words);
+  EXPECT_NE(across.find(meets), std::string::npos) << across;
+  // Without a lead the first edge is a cut like others, and neighbours may share its kerf.
+  cases::Json pair = cases::empty_layout();
+  cases::add_part(pair, "plate", cases::outline_json(cases::rectangle(0, 0, 10, 10)));
+  cases::place(pair, "plate", 0, 0);
+  cases::place(pair, "plate", 11, 0);
+  ProfileWords narrow = words;
+  narrow.pierce_diameter_mm = 1;
+  const std::string shared =
+      around(0, 0, 10, 10, 0.5) +
+      "G0 X21.5 Y10\nM3\nG3 X21 Y10.5 I-0.5 J0\nG1 X11\nG3 X10.5 "
+      "Y10 I0 J-0.5\nG1 Y0\nG3 X11 Y-0.5 I0.5 J0\nG1 X21\nG3 X21.5 Y0 I0 J0.5\nG1 Y10\nM5\n";
+  EXPECT_EQ(judged_by(pair.dump(), shared, narrow), "");
+  EXPECT_NE(
+      judged_by(pair.dump(), around(0, 0, 10, 10, 0.5) + around(11, 0, 10, 10, 0.5), narrow).find(meets),
+      std::string::npos)
+      << "it begins where the kerfs meet";
+  // What follows no contour has no lead.
+  EXPECT_NE(
+      judged_by(layout_text(), inside + "G0 X90 Y90\nM3\nG1 X95\nM5\n", words).find("the cut is not closed"),
+      std::string::npos);
 }
 
 TEST(VerifyProfile, WhatSeveralKerfsFreeTogetherIsLoose) {
@@ -461,6 +547,11 @@ TEST(VerifyProfile, WhatSeveralKerfsFreeTogetherIsLoose) {
   EXPECT_NE(said.find("the outline of placement 5 is cut when the kerfs before it have made it loose"),
             std::string::npos)
       << said;
+  // Each of the four beside it is needed, the first of all, too.
+  EXPECT_NE(judged_on(layout.dump(),
+                      cuts[1] + cuts[3] + cuts[5] + cuts[7] + cuts[0] + cuts[2] + cuts[6] + cuts[8] + cuts[4])
+                .find("the outline of placement 5 is cut when"),
+            std::string::npos);
   // With one neighbour left the middle still hangs on it.
   EXPECT_EQ(judged_on(layout.dump(), cuts[0] + cuts[1] + cuts[2] + cuts[3] + cuts[5] + cuts[6] + cuts[8] +
                                          cuts[4] + cuts[7]),

@@ -22,12 +22,11 @@ std::vector<const DrawnLine*> lines_to_engrave(const PlacedSheet& sheet) {
 
 }  // namespace
 
-EngravedMarks::EngravedMarks(const PlacedSheet& sheet)
-    : sheet_(sheet), marks_(lines_to_engrave(sheet)), has_marks_(!lines_to_engrave(sheet).empty()) {}
+EngravedMarks::EngravedMarks(const PlacedSheet& sheet) : sheet_(sheet), marks_(lines_to_engrave(sheet)) {}
 
 bool EngravedMarks::follows(const CutChain& chain) {
-  if (!has_marks_ || !std::all_of(chain.edges.begin(), chain.edges.end(),
-                                  [&](const Stroke& edge) { return marks_.holds(edge, kEngraved); }))
+  if (!std::all_of(chain.edges.begin(), chain.edges.end(),
+                   [&](const Stroke& edge) { return marks_.holds(edge, kEngraved); }))
     return false;
   chains_.push_back({"", chain.edges, false});
   return true;
@@ -41,7 +40,6 @@ std::string EngravedMarks::note() const {
   for (const PlacedSheet::Part& part : sheet_.parts)
     for (const PlacedInside& inside : part.inside) {
       ++all;
-      if (!inside.is_engraved || engraved.empty()) continue;
       const bool is_done = std::all_of(inside.lines.begin(), inside.lines.end(), [&](const DrawnLine& line) {
         return std::all_of(line.edges.begin(), line.edges.end(),
                            [&](const Stroke& edge) { return edges.holds(edge, kEngraved); });

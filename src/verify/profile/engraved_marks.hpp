@@ -24,7 +24,6 @@ class EngravedMarks {
  private:
   const PlacedSheet& sheet_;
   EdgeSet marks_;
-  bool has_marks_ = false;
   std::vector<DrawnLine> chains_;
 };
 

@@ -72,9 +72,8 @@ FoundJoints joints_of_contour(const std::vector<ContourStretch>& stretches, cons
 }
 
 bool leaves_joint(const Stroke& piece, double radius, const FoundJoint& joint) {
-  const Place centre = 0.5 * (joint.corners[0] + joint.corners[2]);
   const double reach = radius + length(piece) + length(joint.corners[2] - joint.corners[0]);
-  if (length(piece.from - centre) > reach) return true;
+  if (length(piece.from - joint.corners[0]) > reach) return true;
   for (std::size_t i = 0; i < 4; ++i) {
     const Stroke side{false, true, joint.corners[i], joint.corners[(i + 1) % 4], {}, 0};
     std::vector<Place> crossings;

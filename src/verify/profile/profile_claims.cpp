@@ -144,10 +144,9 @@ class ProfileCheck {
     return kFollowsNothing;
   }
 
-  /// With joints, what does not reach the bottom leaves them as tabs, and frees nothing.
-  [[nodiscard]] bool is_through(const CutChain& chain) const {
-    return words_.joint_width_mm == 0 || chain.depth >= deepest_ - kRounding;
-  }
+  /// What does not reach the bottom cuts nothing out: a pass before the last, or one that leaves joints as
+  /// tabs.
+  [[nodiscard]] bool is_through(const CutChain& chain) const { return chain.depth >= deepest_ - kRounding; }
 
   /// The contour beside which a chain goes from its first edge on, or from its second, after a lead.
   std::size_t follow_stretch(const CutChain& chain) {
@@ -197,7 +196,7 @@ class ProfileCheck {
         const bool kerf_leaves = std::all_of(pieces.begin(), pieces.end(), [&](const Stroke& piece) {
           return leaves_joint(piece, half_, joint);
         });
-        if (kerf_leaves && leaves_joint({false, true, pierce, pierce, {}, 0},
+        if (kerf_leaves && leaves_joint(line_between(pierce, pierce),
                                         std::max(half_, 0.5 * words_.pierce_diameter_mm), joint))
           continue;
         report_.findings.push_back(
@@ -243,7 +242,7 @@ class ProfileCheck {
           meets = meets || !crossings.empty() || !(distance_apart(piece, there[i]) >= reach - kRounding);
         }
       };
-      look({false, true, pierce, pierce, {}, 0}, radius + half_);
+      look(line_between(pierce, pierce), radius + half_);
       for (const Stroke& piece : led) look(piece, 2 * half_);
       if (meets)
         report_.findings.push_back(
@@ -275,12 +274,10 @@ class ProfileCheck {
       contour_of_cut.push_back(contour_of_[c]);
       cuts.push_back(&chains[c]);
     }
-    if (cuts.empty() || !loose.kerfs_meet()) return;
-    std::vector<bool> begun(wanted_.size(), false);
+    if (!loose.kerfs_meet()) return;
     for (std::size_t k = 0; k < cuts.size(); ++k) {
       const std::size_t of = contour_of_cut[k];
-      if (of == kFollowsNothing || begun[of]) continue;
-      begun[of] = true;
+      if (of == kFollowsNothing) continue;
       if (loose.steps() > kMostLooseSteps) {
         report_.unchecked.push_back(
             "order: the cuts are too many to look for parts that several kerfs free together");
