@@ -141,8 +141,8 @@ TEST(VerifyJointCheck, BordersBelongToWhatIsTrue) {
                                         {10.5, 10.5},
                                         {-10.5, 10.5},
                                         {-10.5, -10.5},
-                                        {-1.75, -10.5},
-                                        {-1.75, -12},
+                                        {-2, -10.5},
+                                        {-2, -12},
                                         {-0.5, -12},
                                         {-0.5, -10.5}})};
   EXPECT_EQ(says_with(short_of, 0.25), "");
@@ -198,6 +198,8 @@ TEST(VerifyJointCheck, AKerfOrADiscStaysOutOfAJoint) {
     EXPECT_EQ(leaves({-near, 1}, {-near, 1}), free) << "a disc " << near;
     EXPECT_EQ(leaves({-near, 1}, {-9, 1}), free) << "its end " << near;
     EXPECT_EQ(leaves({1, 3 + near}, {1, 99}), free) << near;
+    EXPECT_EQ(leaves({1, -near}, {1, -99}), free) << near;
+    EXPECT_EQ(leaves({2 + near, 1}, {99, 1}), free) << near;
   }
   EXPECT_TRUE(leaves({-0.5, -9}, {-0.5, 9}, 0.505)) << "just as far as the rounding lets it";
   EXPECT_FALSE(leaves({-9, 1}, {9, 1})) << "across";
@@ -205,6 +207,7 @@ TEST(VerifyJointCheck, AKerfOrADiscStaysOutOfAJoint) {
   EXPECT_FALSE(leaves({-9, 1}, {1, 1}, 0)) << "into it";
   EXPECT_FALSE(leaves({1, 1.5}, {9, 1.5}, 0)) << "out of it";
   EXPECT_FALSE(leaves({0.9, 1.5}, {1.1, 1.5}, 1));
+  EXPECT_FALSE(leaves({2.2, 3.2}, {2.2, 3.2})) << "a disc at the far corner";
   EXPECT_TRUE(leaves({-40, 1}, {-9, 1}));
   EXPECT_TRUE(leaves({30, 40}, {50, 60}, 20));
   EXPECT_FALSE(leaves({-40, 1}, {-9, 1}, 9.1)) << "a disc that is larger than the joint";

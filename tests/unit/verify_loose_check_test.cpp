@@ -96,6 +96,11 @@ TEST(VerifyLooseCheck, CutsMeetAnywhereAlongThem) {
   };
   EXPECT_TRUE(surround(closed(0.85), {15, 0}));
   EXPECT_FALSE(surround(closed(1.15), {15, 0}));
+  // An arc is no chord: what lies beside it lies on one side, all along.
+  for (int degrees = -34; degrees <= 38; ++degrees) {
+    EXPECT_TRUE(surround(closed(0.85), on_circle(29.4, degrees))) << degrees;
+    EXPECT_FALSE(surround(closed(0.85), on_circle(30.6, degrees))) << degrees;
+  }
 }
 
 TEST(VerifyLooseCheck, OneCutThatComesBackToItselfSurrounds) {
@@ -117,7 +122,8 @@ TEST(VerifyLooseCheck, CutsBeforeCountAndNoneOfTheContourItself) {
   EXPECT_FALSE(check.is_loose({0, 0}, 0, 6));
   EXPECT_FALSE(check.is_loose({0, 0}, 4, 8));
   EXPECT_FALSE(check.is_loose({0, 0}, 4, 9));
-  EXPECT_EQ(check.steps(), 5 * once);
+  EXPECT_FALSE(check.is_loose({0, 0}, 4, 7));
+  EXPECT_EQ(check.steps(), 6 * once);
   // What comes later is seen once it is there.
   LooseCheck growing(kKerf);
   const std::vector<Strokes> cuts = sides(0.9);

@@ -497,12 +497,15 @@ TEST(VerifyProfile, PiercesAndLeadsMeetNoKerfThatIsThere) {
   const std::string meets = "the pierce or its lead meets a kerf that is there before it";
   EXPECT_NE(said(31.8).find(meets), std::string::npos);
   // A long lead that crosses what is there: in its middle, near its beginning, and with more behind it.
-  for (const double from : {-30.0, -2.0, 4.0}) {
-    const std::string long_lead =
-        judged_by(layout_text(),
-                  inside + led(50, 10, 10, 4) + fmt::format("G0 X{} Y9.5\nM3\nG1 X10\n", 62 - from) +
-                      way_round(10, 10, 20, 20, 0.5) + "M5\n",
-                  words);
+  const std::string plate_cut = led(50, 10, 10, 4);
+  for (const auto& [from, before] : {std::pair(-30.0, inside + plate_cut),
+                                     {-2.0, inside + plate_cut},
+                                     {4.0, inside + plate_cut},
+                                     {-30.0, plate_cut + inside}}) {
+    const std::string long_lead = judged_by(layout_text(),
+                                            before + fmt::format("G0 X{} Y9.5\nM3\nG1 X10\n", 62 - from) +
+                                                way_round(10, 10, 20, 20, 0.5) + "M5\n",
+                                            words);
     EXPECT_NE(long_lead.find("line 25: " + meets), std::string::npos) << long_lead;
   }
   const std::string across = judged_by(
@@ -521,6 +524,12 @@ TEST(VerifyProfile, PiercesAndLeadsMeetNoKerfThatIsThere) {
       "G0 X21.5 Y10\nM3\nG3 X21 Y10.5 I-0.5 J0\nG1 X11\nG3 X10.5 "
       "Y10 I0 J-0.5\nG1 Y0\nG3 X11 Y-0.5 I0.5 J0\nG1 X21\nG3 X21.5 Y0 I0 J0.5\nG1 Y10\nM5\n";
   EXPECT_EQ(judged_by(pair.dump(), shared, narrow), "");
+  // Its first edge may end there, too.
+  const std::string up_to =
+      around(0, 0, 10, 10, 0.5) +
+      "G0 X21 Y10.5\nM3\nG1 X11\nG3 X10.5 Y10 I0 J-0.5\nG1 Y0\n"
+      "G3 X11 Y-0.5 I0.5 J0\nG1 X21\nG3 X21.5 Y0 I0 J0.5\nG1 Y10\nG3 X21 Y10.5 I-0.5 J0\nM5\n";
+  EXPECT_EQ(judged_by(pair.dump(), up_to, narrow), "");
   EXPECT_NE(
       judged_by(pair.dump(), around(0, 0, 10, 10, 0.5) + around(11, 0, 10, 10, 0.5), narrow).find(meets),
       std::string::npos)

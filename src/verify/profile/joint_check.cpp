@@ -40,8 +40,8 @@ FoundJoints joints_of_contour(const std::vector<ContourStretch>& stretches, cons
     }
     followed[next] = true;
     gaps.push_back({false, true, end, start, {}, 0});
-    const Place way = unit(start - end), middle = end + 0.5 * (start - end);
-    const Place left = middle + half * left_of(way), right = middle - half * left_of(way);
+    const Place way = unit(start - end);
+    const Place left = end + half * left_of(way), right = end - half * left_of(way);
     const Place waste =
         contour.distance_of(left) > contour.distance_of(right) ? left_of(way) : -1.0 * left_of(way);
     const double out = half + words.joint_width_mm;

@@ -116,7 +116,7 @@ class ProfileCheck {
     if (chain.depth > 0 && chain.depth >= deepest_ - kRounding)
       report_.findings.push_back(
           fmt::format("line {}: a mark is engraved as deep as parts are cut out", chain.line));
-    by_power_ = by_power_ || chain.depth == 0;
+    by_power_ = chain.depth == 0;
     for (const Loop& loop : loops_)
       if (loop.ring.encloses(chain.edges[0].from)) {
         report_.findings.push_back(
