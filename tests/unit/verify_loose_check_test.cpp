@@ -98,8 +98,8 @@ TEST(VerifyLooseCheck, CutsMeetAnywhereAlongThem) {
   EXPECT_FALSE(surround(closed(1.15), {15, 0}));
   // An arc is no chord: what lies beside it lies on one side, all along.
   for (int degrees = -34; degrees <= 38; ++degrees) {
-    EXPECT_TRUE(surround(closed(0.85), on_circle(29.4, degrees))) << degrees;
-    EXPECT_FALSE(surround(closed(0.85), on_circle(30.6, degrees))) << degrees;
+    EXPECT_TRUE(surround(closed(0.85), on_circle(29.48, degrees))) << degrees;
+    EXPECT_FALSE(surround(closed(0.85), on_circle(30.52, degrees))) << degrees;
   }
 }
 
