@@ -142,7 +142,12 @@ class Quoter {
     for (const std::string& note : machine.notes) quote_.notes.push_back(named(layout, note));
     for (const std::string& note : made.notes) quote_.notes.push_back(named(layout, note));
 
-    const layout::Completeness completeness = layout::completeness(layout.document);
+    // Strips are charged up to the length used, so that their remnants are looked for there, as of those
+    // without an end: what lies behind is not paid for and cannot be paid back.
+    layout::Document charged = layout.document;
+    for (layout::Stock& stock : charged.stocks)
+      if (stock.kind == layout::StockKind::strip) stock.open_length = true;
+    const layout::Completeness completeness = layout::completeness(charged);
     const std::int64_t missing =
         std::accumulate(completeness.missing.begin(), completeness.missing.end(), std::int64_t{0});
     if (missing > 0)

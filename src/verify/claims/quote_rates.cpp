@@ -20,8 +20,10 @@ WrittenPrice price_of(Json item, const std::string& path, std::string& complaint
   Fields fields(item, path, complaint);
   WrittenPrice price;
   price.material.name = fields.text("material");
-  const double thickness = approximate(fields.number("thickness_mm"));
-  price.material.thickness = steps_of(thickness, ToStep::nearest, 1e6).value_or(0);
+  if (const auto steps = steps_of(approximate(fields.number("thickness_mm")), ToStep::nearest, 1e6))
+    price.material.thickness = *steps;
+  else
+    fields.complain(fmt::format("field {} is above 1e6", fields.name("thickness_mm")));
   const bool by_sheet = !fields.get("per_sheet").text.empty();
   price.price = to_fraction(fields.number(by_sheet ? "per_sheet" : "per_m2"));
   if (by_sheet) {

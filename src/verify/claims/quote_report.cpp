@@ -20,7 +20,7 @@ namespace lekalo::verify {
 namespace {
 
 /// Sums of doubles over a million parts are nearer than this to the exact figure.
-constexpr double kQuotedSumRounding = 1e-12;
+constexpr double kQuotedSumRounding = 0x1p-40;
 /// Shares are whole units of a quantity's last decimal, and what they are shares of was rounded as well.
 const Fraction kShareRounding = 2, kChargeRounding = 1;
 /// A length that is written in thousandths, for each part of a sheet; and of all of it, by arcs whose ends
@@ -88,7 +88,7 @@ struct QuotedPart {
 
 /// The contours of an outline: a loop ends where the next one begins elsewhere.
 std::int64_t contours_of(const GridOutline& outline) {
-  std::int64_t contours = outline.edges.empty() ? 0 : 1;
+  std::int64_t contours = 1;
   for (std::size_t i = 1; i < outline.edges.size(); ++i)
     if (outline.edges[i].from != outline.edges[i - 1].to) ++contours;
   return contours;
@@ -161,9 +161,8 @@ class QuoteReport {
       } else if (role == "program") {
         programs_.push_back(files_[i]);
       } else if (role == "layout") {
-        Result<Kind> kind = kind_of(files_[i]);
         Result<WrittenLayout> layout =
-            kind && *kind == Kind::layout
+            kind_of(files_[i]) == Kind::layout
                 ? read_layout(files_[i])
                 : failure(ErrorCode::bad_input,
                           fmt::format("{} is in a form that the checker does not read", files_[i].name));
@@ -290,9 +289,10 @@ class QuoteReport {
         const auto step = steps_of(mm, ToStep::nearest, 1e6);
         if (step && static_cast<double>(*step) * kStep == mm) steps.push_back(*step);
       });
-      const bool is_box = steps.size() == 4;
-      const GridBox box = is_box ? GridBox{steps[0], steps[1], steps[2], steps[3]} : GridBox{};
-      if (!is_box || !is_free(box, figures, stock)) {
+      // An empty box is not free.
+      const GridBox box = steps.size() == 4 ? GridBox{steps[0], steps[1], steps[2], steps[3]} : GridBox{};
+      // Behind the length used a strip is not charged, so nothing is taken off for what is left there.
+      if (!is_free(box, figures, stock) || (stock.kind == "strip" && box.high_x > figures.last)) {
         finding(fmt::format("{} is no free rectangle", item.name("remnant")));
       } else {
         const std::int64_t width = box.high_x - box.low_x, height = box.high_y - box.low_y;
