@@ -58,10 +58,11 @@ std::string some_layout(Random& random) {
     document->document.parts.push_back(std::move(part));
   }
   cases::Json json = cases::Json::parse(io::write_layout(document->document));
+  json.erase("next_id");
   double x = 0;
   for (const char* id : {"a", "b"}) {
     place(json, id, x, random.uniform(-50, 50), random.uniform(0, 360))["mirrored"] = random.below(2) == 0;
-    x += 10'000;
+    x += 5000;
   }
   return json.dump();
 }
@@ -176,8 +177,8 @@ double farthest(const layout::Document& document, const std::vector<Point>& cut)
   for (const layout::Placement& placement : document.placements) {
     std::vector<Point> mine;
     for (const Point p : cut)
-      // Placements are 10 m apart, and parts within 2 m of their origin.
-      if (norm(p - geom::mm_from_grid(placement.at)) < 5000) mine.push_back(in_part(p, placement));
+      // Placements are 5 m apart, and parts within 2 m of their origin.
+      if (norm(p - geom::mm_from_grid(placement.at)) < 2500) mine.push_back(in_part(p, placement));
     const auto contours = contours_of(document.parts[placement.part].outline);
     for (const Point p : mine) {
       double least = 1e9;
@@ -228,14 +229,13 @@ TEST(KnifeProperty, TheTipOfADragKnifeFollowsTheOutlines) {
     const std::string text = some_layout(random);
     const auto read = io::read_layout(text, "layout");
     ASSERT_TRUE(read.has_value()) << read.error().message;
-    const double offset = random.uniform(0.1, 1.2);
-    const auto made = io::export_layout(
-        read->document, "x",
-        request_of({{"process", "drag-knife"},
-                    {"blade-offset", fmt::format("{}", offset)},
-                    {"overcut", fmt::format("{}", random.below(2) == 0 ? 0 : random.uniform(0, 2))},
-                    {"turn-above", fmt::format("{}", random.uniform(1, 15))},
-                    {"only", "CUT"}}));
+    const double offset = random.uniform(0.1, 1.2), overcut = i % 2 == 0 ? 0 : random.uniform(0, 2);
+    const auto made = io::export_layout(read->document, "x",
+                                        request_of({{"process", "drag-knife"},
+                                                    {"blade-offset", fmt::format("{}", offset)},
+                                                    {"overcut", fmt::format("{}", overcut)},
+                                                    {"turn-above", fmt::format("{}", random.uniform(1, 15))},
+                                                    {"only", "CUT"}}));
     ASSERT_TRUE(made.has_value()) << i << ": " << made.error().message;
     const std::string& plot = made->files[0].bytes;
     // The axis begins in front of the tip, towards +x.
@@ -254,12 +254,13 @@ TEST(KnifeProperty, TheTipOfADragKnifeFollowsTheOutlines) {
     words.only = {"CUT"};
     words.knife = KnifeWords{offset, 0, 0.1};
     EXPECT_EQ(told(verify_export({"p.plt", plot}, {"l", text}, words)), "") << i;
-    EXPECT_NE(told(verify_export({"p.plt", spoiled(plot, random)}, {"l", text}, words)), "") << i;
+    // What goes on beyond the end may lie on the outline wherever it is.
+    if (overcut == 0)
+      EXPECT_NE(told(verify_export({"p.plt", spoiled(plot, random)}, {"l", text}, words)), "") << i;
     words.knife->blade_offset = offset + 1;
     EXPECT_NE(told(verify_export({"p.plt", plot}, {"l", text}, words)), "") << i << ": another blade";
   }
   RecordProperty("worst_um", static_cast<int>(worst * 1000));
-  std::printf("tip within %.4f mm\n", worst);
 }
 
 TEST(KnifeProperty, ATangentialKnifeIsLiftedAtCorners) {
@@ -268,10 +269,10 @@ TEST(KnifeProperty, ATangentialKnifeIsLiftedAtCorners) {
     const std::string text = some_layout(random);
     const auto read = io::read_layout(text, "layout");
     ASSERT_TRUE(read.has_value()) << read.error().message;
-    const double above = random.uniform(5, 40);
+    const double above = random.uniform(5, 40), overcut = i % 2 == 0 ? 0 : random.uniform(0, 2);
     const auto made = io::export_layout(read->document, "x",
                                         request_of({{"process", "tangential-knife"},
-                                                    {"overcut", fmt::format("{}", random.uniform(0, 2))},
+                                                    {"overcut", fmt::format("{}", overcut)},
                                                     {"turn-above", fmt::format("{}", above)},
                                                     {"only", "CUT"}}));
     ASSERT_TRUE(made.has_value()) << i << ": " << made.error().message;
@@ -305,7 +306,9 @@ TEST(KnifeProperty, ATangentialKnifeIsLiftedAtCorners) {
     words.only = {"CUT"};
     words.knife = KnifeWords{0, kDegree * above, 0.1};
     EXPECT_EQ(told(verify_export({"p.plt", plot}, {"l", text}, words)), "") << i;
-    EXPECT_NE(told(verify_export({"p.plt", spoiled(plot, random)}, {"l", text}, words)), "") << i;
+    // What goes on beyond the end may lie on the outline wherever it is.
+    if (overcut == 0)
+      EXPECT_NE(told(verify_export({"p.plt", spoiled(plot, random)}, {"l", text}, words)), "") << i;
     if (corners == 0) continue;
     // Without the lifts it is no plot for this knife.
     std::string joined = plot;

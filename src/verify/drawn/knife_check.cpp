@@ -34,7 +34,8 @@ class NearLines {
       high = {std::max(high.x, to.x), std::max(high.y, to.y)};
     }
     if (pieces_.empty()) return;
-    index_ = StrokeIndex(low, high, 1e-3 + length(high - low) / 300);
+    // What a blade draws are pieces of hundredths of a millimetre.
+    index_ = StrokeIndex(low, high, 1e-3 + length(high - low) / 20'000);
     for (std::uint32_t i = 0; i < pieces_.size(); ++i) index_.add(i, pieces_[i]);
   }
 
@@ -48,6 +49,7 @@ class NearLines {
     const double off = to(middle);
     // Written so that a distance that is no number is far.
     if (!(off <= reach)) return middle;
+    if (is_along_one(piece, middle, reach)) return std::nullopt;
     // No place of the piece is farther from its middle than half its length.
     if (0.5 * length(piece) <= std::max(slack, reach - off)) return std::nullopt;
     const auto first = far(until(piece, middle), reach, slack);
@@ -55,6 +57,17 @@ class NearLines {
   }
 
  private:
+  /// Says whether a line has both ends within reach of one line, and so all of it.
+  [[nodiscard]] bool is_along_one(const Stroke& piece, Place middle, double reach) const {
+    if (piece.arc) return false;
+    std::vector<std::uint32_t> near;
+    index_.near(middle, reach, near);
+    return std::any_of(near.begin(), near.end(), [&](std::uint32_t i) {
+      return !pieces_[i].arc && distance(piece.from, pieces_[i]) <= reach &&
+             distance(piece.to, pieces_[i]) <= reach;
+    });
+  }
+
   std::vector<Stroke> pieces_;
   StrokeIndex index_;
 };
