@@ -29,7 +29,7 @@ struct KnifeOptions {
 
 /// One contour.
 struct KnifeCut {
-  /// What the axis follows with the blade down, in multiples of the step; of a drag knife one stroke. Between
+  /// The ways of the axis with the blade down, in multiples of the step; of a drag knife one stroke. Between
   /// two strokes the blade is lifted where it is.
   std::vector<std::vector<geom::Point>> strokes;
   /// The tip is never farther from the contour: a bound, at most a sixteenth of the tolerance too large.

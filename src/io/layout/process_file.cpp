@@ -113,7 +113,7 @@ class ProcessReader {
 
   void take(JsonValue json, CutProcess& process) {
     ExportRequest request;
-    // Which words an entry may have depends on its kind.
+    // The kind decides which words an entry may have.
     if (const auto kind = json.find("process"); kind && kind->kind() == JsonKind::text)
       if (detail::is_knife(std::string(kind->text()))) process.form = ExportForm::hpgl;
     request.form = process.form;

@@ -8,7 +8,7 @@
 
 namespace lekalo::nc::detail {
 
-/// What the axis of a knife follows with the blade down: places in multiples of the step, and for each the
+/// The way of the axis of a knife with the blade down: places in multiples of the step, and for each the
 /// edge of the contour that the tip is on.
 struct KnifeStroke {
   std::vector<geom::Point> points;

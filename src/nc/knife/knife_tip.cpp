@@ -48,7 +48,8 @@ double farthest_tip(const geom::Contour& contour, const KnifeStroke& stroke, con
                     Point& heading) {
   const double offset = options.offset_mm;
   const TipMeasure measure(contour, 4 * options.tolerance_mm);
-  // Where the blade turns, the tip is looked at so often that it is nowhere farther by more than half a step.
+  // The tip is looked at so often, where the blade turns, that it is nowhere farther by more than half a
+  // step.
   const double step = std::min(offset, options.tolerance_mm) / 8;
   double farthest = measure.off(stroke.points.front() - offset * heading, stroke.edges.front());
   for (std::size_t i = 1; i < stroke.points.size(); ++i) {

@@ -34,7 +34,7 @@ class NearLines {
       high = {std::max(high.x, to.x), std::max(high.y, to.y)};
     }
     if (pieces_.empty()) return;
-    // What a blade draws are pieces of hundredths of a millimetre.
+    // A blade draws pieces of hundredths of a millimetre.
     index_ = StrokeIndex(low, high, 1e-3 + length(high - low) / 20'000);
     for (std::uint32_t i = 0; i < pieces_.size(); ++i) index_.add(i, pieces_[i]);
   }
@@ -92,7 +92,7 @@ void hold_near(const std::vector<Stroke>& pieces, const std::vector<Stroke>& oth
     }
 }
 
-/// What the tip of a drag knife draws.
+/// Returns what the tip of a drag knife draws.
 std::vector<Stroke> drawn_by_blade(const std::vector<const DrawnLine*>& strokes, const KnifeWords& words,
                                    double within, ClaimReport& report) {
   TrailingBlade blade(words.blade_offset, within);
@@ -136,6 +136,7 @@ void hold_corners(const std::vector<const DrawnLine*>& strokes, const std::vecto
 void check_knife(const std::vector<const DrawnLine*>& strokes, const std::vector<const DrawnLine*>& contours,
                  const KnifeWords& words, ClaimReport& report) {
   const double slack = words.tolerance / 64;
+  const std::size_t before = report.findings.size();
   const bool drags = words.blade_offset > 0;
   if (drags && strokes.size() != contours.size())
     report.findings.push_back(fmt::format("layer CUT has {} strokes of the knife and is to have {}",
@@ -145,6 +146,7 @@ void check_knife(const std::vector<const DrawnLine*>& strokes, const std::vector
                             wanted = pieces_of(contours);
   hold_near(tips, wanted, words.tolerance, slack, "the tip of the knife leaves the outlines at", report);
   hold_near(wanted, tips, words.tolerance, slack, "the knife does not cut the outline at", report);
+  if (report.findings.size() > before) return;
   report.notes.push_back(fmt::format("the tip of the knife follows {} outlines within {} mm{}",
                                      contours.size(), words.tolerance,
                                      drags ? ", if the blade points along +x before the plot" : ""));
