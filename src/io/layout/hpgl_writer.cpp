@@ -102,11 +102,13 @@ class HpglWriter {
     const nc::KnifeCut made = knife_->cut(contour);
     tip_off_ = std::max(tip_off_, made.off_mm);
     // A sixteenth is left to whoever measures the written plot.
-    if (!(made.off_mm <= 15.0 / 16 * knife_options_.tolerance_mm) && trouble_.empty())
+    const double most = 15.0 / 16 * knife_options_.tolerance_mm;
+    if (!(made.off_mm <= most) && trouble_.empty())
       trouble_ = fmt::format(
-          "placement {}: the tip of the knife would leave the outline by {:.3f} mm, and {:g} mm are allowed; "
-          "allow more, or ask for finer chords",
-          part.placement->id, made.off_mm, knife_options_.tolerance_mm);
+          "placement {}: the tip of the knife would leave the outline by up to {:.4f} mm, which a tolerance "
+          "of "
+          "{:.4f} mm allows and {:g} mm do not; allow more, or ask for finer chords",
+          part.placement->id, made.off_mm, made.off_mm * 16 / 15 + 5e-5, knife_options_.tolerance_mm);
     for (const std::vector<Point>& stroke : made.strokes) line(stroke);
   }
 
