@@ -229,7 +229,7 @@ TEST(KnifeProperty, TheTipOfADragKnifeFollowsTheOutlines) {
     const std::string text = some_layout(random);
     const auto read = io::read_layout(text, "layout");
     ASSERT_TRUE(read.has_value()) << read.error().message;
-    const double offset = random.uniform(0.1, 1.2), overcut = i % 2 == 0 ? 0 : random.uniform(0, 2);
+    const double offset = random.uniform(0.05, 1.2), overcut = i % 2 == 0 ? 0 : random.uniform(0, 2);
     const auto made = io::export_layout(read->document, "x",
                                         request_of({{"process", "drag-knife"},
                                                     {"blade-offset", fmt::format("{}", offset)},

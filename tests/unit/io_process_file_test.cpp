@@ -327,7 +327,7 @@ TEST(ProcessFile, WhatIsWrongIsToldWithItsEntry) {
       {hole(3), "holes has to be a list of at most 100 rows"},
       {without(drag_knife(), "blade_offset_mm"),
        "blade_offset_mm is missing: how far a drag knife's tip is behind its axis, in mm"},
-      {with(drag_knife(), "blade_offset_mm", 11), "blade_offset_mm 11: has to be a number from 0.01 to 10"},
+      {with(drag_knife(), "blade_offset_mm", 11), "blade_offset_mm 11: has to be a number from 0.05 to 10"},
       {with(drag_knife(), "turn_above_deg", 0.5), "turn_above_deg 0.5: has to be a number from 1 to 90"},
       {with(drag_knife(), "overcut_mm", -1), "overcut_mm -1: has to be a number from 0 to 100"},
       {with(drag_knife(), "knife_tolerance_mm", 0.01),

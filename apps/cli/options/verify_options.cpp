@@ -59,7 +59,7 @@ Result<Command> to_verify(const VerifyWords& w) {
         !given || o.kerf.has_value(),
         fmt::format("{} is rechecked with --layout FILE and --kerf MM, the width of the cut", option));
   if (!w.blade_offset.empty())
-    read.number("--blade-offset", w.blade_offset, 0.01, 10.0, "a length from 0.01 to 10 mm",
+    read.number("--blade-offset", w.blade_offset, 0.05, 10.0, "a length from 0.05 to 10 mm",
                 o.blade_offset.emplace());
   if (!w.turn_above.empty())
     read.number("--turn-above", w.turn_above, 1.0, 90.0, "an angle from 1 to 90 degrees",

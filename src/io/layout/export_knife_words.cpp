@@ -39,7 +39,7 @@ Result<void> ExportWordTaker::process(const ExportWord& word) {
 }
 
 Result<void> ExportWordTaker::knife_number(const ExportWord& word) {
-  if (word.first == "blade-offset") return number(word, 0.01, 10, knife_.offset_mm);
+  if (word.first == "blade-offset") return number(word, 0.05, 10, knife_.offset_mm);
   if (word.first == "overcut") return number(word, 0, 100, knife_.overcut_mm);
   if (word.first == "knife-tolerance") return number(word, 0.02, 10, knife_.tolerance_mm);
   LEKALO_CHECK(number(word, 1, 90, knife_.turn_above));

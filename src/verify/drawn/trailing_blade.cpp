@@ -10,6 +10,9 @@ namespace {
 
 /// The cosine of 170 degrees between blade and motion.
 constexpr double kPushed = -0.985;
+constexpr double kRounded = 0.036;  ///< mm, a plotter unit in x and in y
+/// The tangent of half an angle that is as good as half a turn.
+constexpr double kOpposite = 1e8;
 
 }  // namespace
 
@@ -26,8 +29,10 @@ bool TrailingBlade::draw(Place from, Place to, std::vector<Stroke>& lines) {
   }
   const Place along = unit(to - from), left = left_of(along);
   const double cosine = dot(forward_, along), sine = dot(forward_, left);
-  if (cosine < kPushed) return false;
-  double half = sine / (1 + cosine);
+  // The part of the angle that nobody knows grows by a factor e over an offset: too much for a long way, and
+  // nothing for the unit by which rounding may put the axis back.
+  if (cosine < kPushed && way > std::max(0.5 * offset_, kRounded)) return false;
+  double half = std::clamp(sine / std::max(1 + cosine, 1e-16), -kOpposite, kOpposite);
   Place last = tip(from);
   for (double gone = 0; gone < way;) {
     // From here on the tip stays within offset * sin(phi) of the line, and so do the ends of its chord.

@@ -17,7 +17,8 @@ class TrailingBlade {
   TrailingBlade(double offset, double within);
 
   /// Adds the lines that the tip draws while the axis goes straight from one place to another with the blade
-  /// down. Returns false where the axis pushes the blade backwards, so that nobody knows how it turns.
+  /// down. Returns false where the axis pushes the blade backwards by more than half an offset and more
+  /// than a unit of rounding, so that nobody knows how it turns.
   [[nodiscard]] bool draw(Place from, Place to, std::vector<Stroke>& lines);
 
  private:
