@@ -112,7 +112,8 @@ Result<MachineRequest> machine_request(const Layout& layout, const ExportOptions
     std::string kind;
     for (const auto& [name, value] : choice->words)
       if (name == "process") kind = value;
-    LEKALO_TRY(const std::size_t index, io::find_process(file, choice->material, choice->thickness_mm, kind));
+    LEKALO_TRY(const std::size_t index,
+               io::find_process(file, choice->material, choice->thickness_mm, kind, choice->form));
     const io::CutProcess& process = file.processes[index];
     LEKALO_TRY(made.request, io::process_request(process, choice->words, choice->prefix));
     made.notes.push_back(fmt::format("the process is entry {} of {}: {}, {} mm ({})", index + 1, file.name,

@@ -46,6 +46,11 @@ TEST(ProcessSchema, AcceptsTheExampleAndWhatMayBeLeftOut) {
   held["processes"][5]["joint_width_mm"] = 3;
   held["processes"][5]["tab_height_mm"] = 1;
   texts.push_back(held.dump());
+  for (const char* field : {"turn_above_deg", "overcut_mm", "knife_tolerance_mm"}) {
+    Json less = example();
+    less["processes"][6].erase(field);
+    texts.push_back(less.dump());
+  }
   const auto said = cases::schema_verdicts(kSchema, texts);
   ASSERT_EQ(said.size(), texts.size());
   for (std::size_t i = 0; i < said.size(); ++i) {
@@ -95,7 +100,16 @@ TEST(ProcessSchema, RefusesWhatTheReaderRefuses) {
                              {"/processes/0/tab_height_mm", "1"},
                              {"/processes/5/tab_height_mm", "1"},
                              {"/processes/5/pierce_diameter_mm", "8"},
-                             {"/processes/5/pierce_s", "1"}}) {
+                             {"/processes/5/pierce_s", "1"},
+                             {"/processes/0/blade_offset_mm", "1"},
+                             {"/processes/0/overcut_mm", "1"},
+                             {"/processes/6/kerf_mm", "1"},
+                             {"/processes/6/holes", "[]"},
+                             {"/processes/6/blade_offset_mm", "0"},
+                             {"/processes/6/turn_above_deg", "91"},
+                             {"/processes/6/overcut_mm", "-1"},
+                             {"/processes/6/knife_tolerance_mm", "0.01"},
+                             {"/processes/7/blade_offset_mm", "1"}}) {
     Json changed = example();
     const std::string place = wrong.place;
     const std::size_t last = place.rfind('/');
@@ -104,8 +118,9 @@ TEST(ProcessSchema, RefusesWhatTheReaderRefuses) {
     texts.push_back(changed.dump());
   }
   const std::vector<std::pair<int, const char*>> needed{
-      {0, "material"}, {0, "thickness_mm"}, {0, "process"},  {0, "kerf_mm"},          {0, "feed_mm_per_min"},
-      {3, "speed"},    {5, "speed"},        {5, "depth_mm"}, {5, "plunge_mm_per_min"}};
+      {0, "material"},          {0, "thickness_mm"},   {0, "process"}, {0, "kerf_mm"},
+      {0, "feed_mm_per_min"},   {3, "speed"},          {5, "speed"},   {5, "depth_mm"},
+      {5, "plunge_mm_per_min"}, {6, "blade_offset_mm"}};
   for (const auto& [entry, field] : needed) {
     Json less = example();
     less["processes"][entry].erase(field);

@@ -102,6 +102,16 @@ TEST(CliExport, WrongCommandLinesAreRefusedInOneSentence) {
       {{"--format", "pdf", "--sheet", "s"}, "--sheet has no meaning for the form pdf"},
       {{"--format", "svg", "--sheet", "t"}, "there is no sheet t"},
       {{"--format", "hpgl", "--only", "CUTS"}, "the layers are CUT"},
+      {{"--format", "hpgl", "--overcut", "1"},
+       "--overcut has a meaning for knives alone: --process drag-knife or tangential-knife"},
+      {{"--format", "hpgl", "--process", "drag-knife"}, "--blade-offset is missing"},
+      {{"--format", "hpgl", "--process", "tangential-knife", "--blade-offset", "1"},
+       "--blade-offset has a meaning for drag knives alone"},
+      {{"--format", "hpgl", "--process", "laser"}, "--process laser has a meaning for the form gcode alone"},
+      {{"--format", "gcode", "--process", "drag-knife"},
+       "--process drag-knife has a meaning for the form hpgl alone"},
+      {{"--format", "gcode", "--blade-offset", "1"}, "--blade-offset has no meaning for the form gcode"},
+      {{"--format", "hpgl", "--process", "drag-knife", "--blade-offset", "nan"}, "--blade-offset nan"},
       {{"--format", "plt"}, "layout, placements, dxf, svg, pdf, labels, hpgl"}};
   for (const auto& [words, says] : wrong) {
     const Ran ran = run(folder.path(), Words{"export", "plates.json"} + words);

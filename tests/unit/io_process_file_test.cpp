@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/disk/files.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "support/json.hpp"
@@ -27,6 +28,9 @@ Json laser() {
 Json router() {
   return {{"material", "plywood"},   {"thickness_mm", 12}, {"process", "router"}, {"kerf_mm", 6},
           {"feed_mm_per_min", 1500}, {"speed", 18000},     {"depth_mm", 12.5},    {"plunge_mm_per_min", 300}};
+}
+Json drag_knife() {
+  return {{"material", "leather"}, {"thickness_mm", 2}, {"process", "drag-knife"}, {"blade_offset_mm", 0.5}};
 }
 Json with(Json entry, const char* key, const Json& value) {
   entry[key] = value;
@@ -58,7 +62,7 @@ TEST(ProcessFile, TheExampleIsRead) {
   ASSERT_TRUE(bytes) << bytes.error().message;
   const auto file = read_processes(*bytes, "shop.json");
   ASSERT_TRUE(file) << file.error().message;
-  ASSERT_EQ(file->processes.size(), 6U);
+  ASSERT_EQ(file->processes.size(), 8U);
   const CutProcess& plasma = file->processes[1];
   EXPECT_EQ(plasma.material, "steel");
   EXPECT_EQ(plasma.thickness_mm, 6);
@@ -99,6 +103,39 @@ TEST(ProcessFile, AnEntryIsTheWordsOfTheLine) {
   const auto jet = process_request(file_of({with(laser(), "process", "waterjet")}).processes.front(), {}, "");
   ASSERT_TRUE(jet) << jet.error().message;
   EXPECT_EQ(jet->profile.process, nc::Process::plasma);
+}
+
+TEST(ProcessFile, KnivesArePlots) {
+  Json drag = drag_knife();
+  drag["turn_above_deg"] = 10, drag["overcut_mm"] = 1.5, drag["knife_tolerance_mm"] = 0.2;
+  Json tangential = with(without(drag_knife(), "blade_offset_mm"), "process", "tangential-knife");
+  const ProcessFile file = file_of({with(laser(), "material", "leather"), drag, tangential});
+  const auto request = process_request(file.processes[1], {{"overcut", "2"}, {"only", "CUT"}}, "--");
+  ASSERT_TRUE(request) << request.error().message;
+  EXPECT_EQ(request->form, ExportForm::hpgl);
+  ASSERT_TRUE(request->knife);
+  EXPECT_EQ(request->knife->kind, nc::KnifeKind::drag);
+  EXPECT_EQ(request->knife->offset_mm, 0.5);
+  EXPECT_DOUBLE_EQ(request->knife->turn_above, kDegree * 10);
+  EXPECT_EQ(request->knife->overcut_mm, 2) << "the line says so";
+  EXPECT_EQ(request->knife->tolerance_mm, 0.2);
+  const auto turned = process_request(file.processes[2], {}, "--");
+  ASSERT_TRUE(turned) << turned.error().message;
+  EXPECT_EQ(turned->knife->kind, nc::KnifeKind::tangential);
+  EXPECT_DOUBLE_EQ(turned->knife->turn_above, kDegree * 20);
+  // Of one material each form finds its own.
+  EXPECT_EQ(find_process(file, "leather", 2, "").value(), 0U);
+  EXPECT_EQ(find_process(file, "leather", 2, "drag-knife", ExportForm::hpgl).value(), 1U);
+  const auto several = find_process(file, "leather", 2, "", ExportForm::hpgl);
+  ASSERT_FALSE(several);
+  EXPECT_EQ(several.error().message,
+            "shop.json: entries 2 and 3 are for leather, 2 mm: drag-knife and tangential-knife; say which "
+            "with --process");
+  const auto other = find_process(file, "leather", 2, "drag-knife");
+  ASSERT_FALSE(other);
+  EXPECT_EQ(
+      other.error().message,
+      "shop.json: the programs of leather, 2 mm (drag-knife) have the form hpgl, and gcode was asked for");
 }
 
 TEST(ProcessFile, WordsOfTheLineReplaceWhatTheEntrySays) {
@@ -234,7 +271,8 @@ TEST(ProcessFile, WhatIsWrongIsToldWithItsEntry) {
       {with(laser(), "pierce_s", 101), "pierce_s 101: has to be a number from 0 to 100"},
       {with(laser(), "lead_in_mm", 1001), "lead_in_mm 1001: has to be a number from 0 to 1000"},
       {with(laser(), "lead", "loop"), "lead loop: has to be one of line, arc"},
-      {with(laser(), "process", "saw"), "process saw: has to be one of laser, plasma, waterjet, router"},
+      {with(laser(), "process", "saw"),
+       "process saw: has to be one of laser, plasma, waterjet, router, drag-knife, tangential-knife"},
       {with(laser(), "process", 3), "process has to be a text of 1 to 1000 bytes without control characters"},
       {with(laser(), "post", "siemens"), "post siemens: has to be one of " + nc::post_names(", ", ", ")},
       {with(laser(), "post", ""), "post has to be a text of 1 to 1000 bytes without control characters"},
@@ -251,8 +289,8 @@ TEST(ProcessFile, WhatIsWrongIsToldWithItsEntry) {
        "engrave_feed_mm_per_min, "
        "engrave_speed, engrave_depth_mm, "
        "pierce_diameter_mm, "
-       "heat_spread_mm, joints, joints_up_to_mm, joint_width_mm, slat_pitch_mm, slats, tab_height_mm and "
-       "holes"},
+       "heat_spread_mm, joints, joints_up_to_mm, joint_width_mm, slat_pitch_mm, slats, tab_height_mm, "
+       "blade_offset_mm, turn_above_deg, overcut_mm, knife_tolerance_mm and holes"},
       {with(laser(), "depth_mm", 3), "depth_mm has a meaning for routers alone: process router"},
       {with(laser(), "safe_height_mm", 3), "safe_height_mm has a meaning for routers alone: process router"},
       {with(laser(), "post", "grbl"),
@@ -287,6 +325,18 @@ TEST(ProcessFile, WhatIsWrongIsToldWithItsEntry) {
       {with(with(with(router(), "joints", 2), "joint_width_mm", 3), "tab_height_mm", 100),
        "tab_height_mm 100: has to be below the depth of 12.5 mm"},
       {hole(3), "holes has to be a list of at most 100 rows"},
+      {without(drag_knife(), "blade_offset_mm"),
+       "blade_offset_mm is missing: how far a drag knife's tip is behind its axis, in mm"},
+      {with(drag_knife(), "blade_offset_mm", 11), "blade_offset_mm 11: has to be a number from 0.05 to 10"},
+      {with(drag_knife(), "turn_above_deg", 0.5), "turn_above_deg 0.5: has to be a number from 1 to 90"},
+      {with(drag_knife(), "overcut_mm", -1), "overcut_mm -1: has to be a number from 0 to 100"},
+      {with(drag_knife(), "knife_tolerance_mm", 0.01),
+       "knife_tolerance_mm 0.01: has to be a number from 0.02 to 10"},
+      {with(drag_knife(), "kerf_mm", 0.2), "kerf_mm has no meaning for the form hpgl"},
+      {with(drag_knife(), "holes", Json::array()), "holes has no meaning for knives: leave it out"},
+      {with(drag_knife(), "process", "tangential-knife"),
+       "blade_offset_mm has a meaning for drag knives alone: process drag-knife"},
+      {with(laser(), "overcut_mm", 1), "overcut_mm has no meaning for the form gcode"},
       {Json(7), "an object is needed, not a number"},
   };
   for (const Case& one : wrong)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "earlier_programs.hpp"
+#include "lekalo/base/angle.hpp"
 #include "lekalo/disk/files.hpp"
 #include "lekalo/jobs/verify_claims.hpp"
 #include "outputs.hpp"
@@ -43,6 +44,9 @@ Result<void> check_words(const VerifyOptions& o, Kind kind) {
       {"--pierce-diameter", o.pierce_diameter.has_value(), {Kind::program}},
       {"--joint-width", o.joint_width.has_value(), {Kind::program}},
       {"--tolerance", o.tolerance.has_value(), {Kind::program, Kind::hpgl}},
+      {"--blade-offset", o.blade_offset.has_value(), {Kind::hpgl}},
+      {"--turn-above", o.turn_above.has_value(), {Kind::hpgl}},
+      {"--knife-tolerance", o.knife_tolerance.has_value(), {Kind::hpgl}},
       {"--sheet", !o.export_words.sheet.empty(), {Kind::program, Kind::dxf, Kind::svg, Kind::hpgl}},
       {"--only", !o.export_words.only.empty(), {Kind::dxf, Kind::svg, Kind::hpgl}},
       {"--pocket", !o.pocket.empty(), {Kind::program, Kind::pocket_report, Kind::simulate_report}},
@@ -102,6 +106,9 @@ Result<int> verify_other(const VerifyOptions& o, const std::string& bytes, Kind 
                       o.tolerance.value_or(0.01),    o.machining.control,
                       o.pierce_diameter.value_or(0), o.joint_width.value_or(0)};
   beside.export_words.chord_tolerance = o.tolerance.value_or(0.02);
+  if (o.blade_offset || o.turn_above)
+    beside.export_words.knife = {o.blade_offset.value_or(0), kDegree * o.turn_above.value_or(0),
+                                 o.knife_tolerance.value_or(verify::KnifeWords().tolerance)};
   LEKALO_TRY(const jobs::VerifiedClaims verified, jobs::verify_claims({o.result, bytes}, beside, find));
   if (o.json) LEKALO_CHECK(print(verified.json));
   tell(words(verified, kind));

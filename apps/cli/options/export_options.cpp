@@ -52,13 +52,16 @@ Result<void> no_words(const std::vector<io::ExportWord>& given, const std::strin
 /// The process that the words ask for; nothing where they do not name a file.
 Result<std::optional<jobs::ProcessChoice>> to_process(const ExportWords& w,
                                                       std::vector<io::ExportWord> given) {
-  jobs::ProcessChoice process{{w.processes, {}}, w.material, 0, std::move(given), "--"};
+  jobs::ProcessChoice process{
+      {w.processes, {}}, w.material, 0,
+      std::move(given),  "--",       w.format == "hpgl" ? io::ExportForm::hpgl : io::ExportForm::gcode};
   WordReader reader;
   for (const auto& [option, word] :
        {std::pair{"--processes", &w.processes}, {"--material", &w.material}, {"--thickness", &w.thickness}}) {
     if (word->empty()) continue;
-    reader.require(w.format == "gcode", fmt::format("{} has no meaning for the form {}", option,
-                                                    w.format.empty() ? "layout" : w.format));
+    reader.require(
+        w.format == "gcode" || w.format == "hpgl",
+        fmt::format("{} has no meaning for the form {}", option, w.format.empty() ? "layout" : w.format));
     reader.require(!w.processes.empty(),
                    fmt::format("{} says which process to take, and --processes FILE from where", option));
   }
@@ -112,9 +115,10 @@ Typed add_export_form(Form& form) {
   const std::string machines = "For machines and other programs";
   add_words(form, machines, io::export_words(), words->machine);
   const OptionAdder add_process(form, machines);
-  add_process("--processes", words->processes, "FILE", "gcode: take from this file what is not given here");
-  add_process("--material", words->material, "NAME", "gcode: the material of the process to take");
-  add_process("--thickness", words->thickness, "MM", "gcode: the thickness of the process to take");
+  add_process("--processes", words->processes, "FILE",
+              "gcode, hpgl: take from this file what is not given here");
+  add_process("--material", words->material, "NAME", "gcode, hpgl: the material of the process to take");
+  add_process("--thickness", words->thickness, "MM", "gcode, hpgl: the thickness of the process to take");
   add_words(form, "For labels", jobs::label_words(), words->labels);
   form.footer =
       "Exit codes: 0 done, whatever rules are broken, 2 wrong command line, 3 a file cannot be read,\n"

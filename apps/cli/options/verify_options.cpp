@@ -17,6 +17,7 @@ namespace {
 struct VerifyWords {
   VerifyOptions options;
   std::string tool, stock_to_leave, top, kerf, tolerance, pierce_diameter, joint_width, only, control;
+  std::string blade_offset, turn_above, knife_tolerance;
   std::vector<std::string> after;
 };
 
@@ -57,6 +58,20 @@ Result<Command> to_verify(const VerifyWords& w) {
     read.require(
         !given || o.kerf.has_value(),
         fmt::format("{} is rechecked with --layout FILE and --kerf MM, the width of the cut", option));
+  if (!w.blade_offset.empty())
+    read.number("--blade-offset", w.blade_offset, 0.05, 10.0, "a length from 0.05 to 10 mm",
+                o.blade_offset.emplace());
+  if (!w.turn_above.empty())
+    read.number("--turn-above", w.turn_above, 1.0, 90.0, "an angle from 1 to 90 degrees",
+                o.turn_above.emplace());
+  if (!w.knife_tolerance.empty())
+    read.number("--knife-tolerance", w.knife_tolerance, 0.02, 10.0, "a length from 0.02 to 10 mm",
+                o.knife_tolerance.emplace());
+  read.require(!o.blade_offset || !o.turn_above,
+               "--blade-offset is for a plot of a drag knife, --turn-above for one of a tangential knife: "
+               "leave one out");
+  read.require(!o.knife_tolerance || o.blade_offset || o.turn_above,
+               "--knife-tolerance is rechecked with --blade-offset MM or --turn-above DEG");
   read_control(read, w.control, o.machining.control);
   read_layers(read, w.only, o.export_words.only);
   if (!read.complaint().empty()) return failure(ErrorCode::usage, read.complaint());
@@ -95,6 +110,11 @@ Typed add_verify_form(Form& form) {
   add("--pierce-diameter", w.pierce_diameter, "MM",
       "What a pierce of a profile program burns: rechecked to be clear of parts and of earlier cuts");
   add("--joint-width", w.joint_width, "MM", "The joints of a profile program: rechecked to stay, so wide");
+  add("--blade-offset", w.blade_offset, "MM",
+      "Of a plot for a drag knife: its tip is followed, so far behind the axis");
+  add("--turn-above", w.turn_above, "DEG",
+      "Of a plot for a tangential knife: it is lifted at sharper corners, as for export");
+  add("--knife-tolerance", w.knife_tolerance, "MM", "Of a plot for a knife, as for export [0.1]");
   add("--sheet", o.export_words.sheet, "SHEET", "The sheet of an export or a profile program, as for export");
   add("--only", w.only, "LAYER,...", "The layers of an export that has not all, as for export");
   add("--json", o.json, "Print the report as JSON on stdout");

@@ -28,7 +28,8 @@ struct ProcessChoice {
   double thickness_mm = 0;
   /// They replace what the process says. `process` among them chooses between several of one material.
   std::vector<io::ExportWord> words;
-  std::string prefix;  ///< before the names of words in sentences: "--" or ""
+  std::string prefix;                           ///< before the names of words in sentences: "--" or ""
+  io::ExportForm form = io::ExportForm::gcode;  ///< HPGL asks for a knife
 };
 
 struct ExportOptions {
@@ -38,8 +39,8 @@ struct ExportOptions {
   /// The name that placements give the file of their items; when it is empty, the layout's.
   std::string instance_name;
   io::ExportRequest machine;  ///< for LayoutForm::machine
-  /// G-code by this process, in place of `machine`. A note names its entry, and another each stock in use
-  /// that is of another material by the layout.
+  /// G-code or HPGL by this process, in place of `machine`. A note names its entry, and another each stock in
+  /// use that is of another material by the layout.
   std::optional<ProcessChoice> process{};
   LabelOptions labels{};  ///< for LayoutForm::labels
 };

@@ -146,18 +146,26 @@ struct NamedFile {
                                                         const SimulateOptions& options,
                                                         const std::vector<EarlierProgram>& earlier);
 
+/// The words of a plot for a knife that can be rechecked.
+struct KnifeWords {
+  double blade_offset = 0;  ///< mm, from the axis back to the tip; 0: the knife is tangential
+  double turn_above = 0;    ///< radians; a tangential knife is lifted at sharper corners
+  double tolerance = 0.1;   ///< mm, of the tip from the outlines
+};
+
 /// The words of an export besides its form.
 struct ExportWords {
-  std::string sheet;              ///< STOCK or STOCK#COPY; empty for all in use
-  std::vector<std::string> only;  ///< layers; empty for all
-  double chord_tolerance = 0.02;  ///< mm, of HPGL
+  std::string sheet;                  ///< STOCK or STOCK#COPY; empty for all in use
+  std::vector<std::string> only;      ///< layers; empty for all
+  double chord_tolerance = 0.02;      ///< mm, of HPGL
+  std::optional<KnifeWords> knife{};  ///< of HPGL: what the pen of CUT is, if it is no pen
 };
 
 /// Holds a DXF, SVG or HPGL export against its layout: on each layer as many outlines as it has, each on one
 /// of the layout's and each of the layout's on one of the file's, within 2e-6 mm (HPGL: half a unit, and the
-/// chord tolerance on arcs); marks run along grains. Labels are not claims. bad_input for a file with words
-/// that lekalo does not write there; usage for a plot without --sheet where several are in use. Cost: O(n log
-/// n) for outlines that do not crowd.
+/// chord tolerance on arcs; the tip of a knife within its own tolerance); marks run along grains. Labels are
+/// not claims. bad_input for a file with words that lekalo does not write there; usage for a plot without
+/// --sheet where several are in use. Cost: O(n log n) for outlines that do not crowd.
 [[nodiscard]] Result<ClaimReport> verify_export(const Document& document, const Document& layout,
                                                 const ExportWords& words);
 

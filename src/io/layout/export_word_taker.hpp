@@ -44,13 +44,24 @@ class ExportWordTaker {
   void complain_of_pierces(std::vector<std::string>& complaints) const;
   void complain_of_joints(std::vector<std::string>& complaints) const;
 
+  /// Words of knives: export_knife_words.cpp.
+  [[nodiscard]] Result<void> process(const ExportWord& word);
+  [[nodiscard]] Result<void> knife_number(const ExportWord& word);
+  void complete_knife(std::vector<std::string>& complaints);
+
   /// Takes the words for engraving into the request.
   void complete_engraving(std::vector<std::string>& complaints);
 
   ExportRequest& request_;
   Shown shown_;
   nc::Engraving engraving_;
+  nc::KnifeOptions knife_;
   std::vector<std::string> given_;
 };
+
+/// Says whether the word has a meaning for knives alone.
+[[nodiscard]] bool is_knife_word(const std::string& name);
+/// Says whether the value of the word `process` is a knife, whose programs are plots.
+[[nodiscard]] bool is_knife(const std::string& process);
 
 }  // namespace lekalo::io::detail

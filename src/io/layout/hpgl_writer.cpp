@@ -28,10 +28,17 @@ struct Units {
 
 class HpglWriter {
  public:
-  HpglWriter(const std::vector<std::string>& only, double chord_tolerance)
-      : only_(only), chord_tolerance_(chord_tolerance) {}
+  HpglWriter(const std::vector<std::string>& only, double chord_tolerance,
+             const std::optional<nc::KnifeOptions>& knife)
+      : only_(only), chord_tolerance_(chord_tolerance) {
+    if (!knife) return;
+    knife_options_ = *knife;
+    knife_options_.step_mm = kPlotterUnit;
+    knife_options_.chord_tolerance_mm = chord_tolerance;
+    knife_.emplace(knife_options_);
+  }
 
-  Result<std::string> write(const SheetShapes& sheet) {
+  Result<PlotText> write(const SheetShapes& sheet) {
     text_ = "IN;PA;";
     if (pen("SHEET")) region(sheet.material);
     if (pen("DEFECT"))
@@ -47,12 +54,14 @@ class HpglWriter {
     if (pen("LABEL"))
       for (const PlacedShape& part : sheet.parts) label(part);
     if (pen("CUT"))
-      for (const PlacedShape& part : sheet.parts) region(part.region);
+      for (const PlacedShape& part : sheet.parts) cut(part);
+    if (!trouble_.empty())
+      return failure(ErrorCode::bad_input, fmt::format("sheet {}: {}", sheet.name, trouble_));
     if (too_far_)
       return failure(ErrorCode::bad_input,
                      fmt::format("sheet {}: a coordinate lies beyond {:.0f} mm, further than plotters count",
                                  sheet.name, kMostUnits * kPlotterUnit));
-    return std::move(text_) + "\nPU;SP0;\n";
+    return PlotText{std::move(text_) + "\nPU;SP0;\n", tip_off_};
   }
 
  private:
@@ -80,6 +89,27 @@ class HpglWriter {
     for (const PlacedMark& mark : part.marks) line(points_of(mark.edges));
     for (const layout::PartText& text : part.texts)
       for (const geom::Ring& stroke : layout::text_strokes(text)) line(stroke);
+  }
+
+  /// Follows the contours of a part with the pen, or so that the knife does.
+  void cut(const PlacedShape& part) {
+    if (!knife_) return region(part.region);
+    for (const geom::Contour& hole : part.region.holes) knife_cut(part, hole);
+    knife_cut(part, part.region.outer);
+  }
+
+  void knife_cut(const PlacedShape& part, const geom::Contour& contour) {
+    const nc::KnifeCut made = knife_->cut(contour);
+    tip_off_ = std::max(tip_off_, made.off_mm);
+    // A sixteenth is left to whoever measures the written plot.
+    const double most = 15.0 / 16 * knife_options_.tolerance_mm;
+    if (!(made.off_mm <= most) && trouble_.empty())
+      trouble_ = fmt::format(
+          "placement {}: the tip of the knife would leave the outline by up to {:.4f} mm, which a tolerance "
+          "of "
+          "{:.4f} mm allows and {:g} mm do not; allow more, or ask for finer chords",
+          part.placement->id, made.off_mm, made.off_mm * 16 / 15 + 5e-5, knife_options_.tolerance_mm);
+    for (const std::vector<Point>& stroke : made.strokes) line(stroke);
   }
 
   /// Holes before the outline.
@@ -141,15 +171,19 @@ class HpglWriter {
 
   const std::vector<std::string>& only_;
   double chord_tolerance_;
+  nc::KnifeOptions knife_options_;
+  std::optional<nc::Knife> knife_;
+  double tip_off_ = 0;
+  std::string trouble_;
   bool too_far_ = false;
   std::string text_;
 };
 
 }  // namespace
 
-Result<std::string> hpgl_text(const SheetShapes& sheet, const std::vector<std::string>& only,
-                              double chord_tolerance) {
-  return HpglWriter(only, chord_tolerance).write(sheet);
+Result<PlotText> hpgl_text(const SheetShapes& sheet, const std::vector<std::string>& only,
+                           double chord_tolerance, const std::optional<nc::KnifeOptions>& knife) {
+  return HpglWriter(only, chord_tolerance, knife).write(sheet);
 }
 
 }  // namespace lekalo::io::detail

@@ -134,14 +134,24 @@ Result<Exported> drawing(const std::vector<SheetShapes>& sheets, const ExportReq
 
 Result<Exported> plotted(const std::vector<SheetShapes>& sheets, const ExportRequest& request) {
   Exported made;
+  double tip_off = 0;
   for (const SheetShapes& sheet : sheets) {
-    LEKALO_TRY(std::string text, detail::hpgl_text(sheet, request.only, request.chord_tolerance_mm));
-    made.files.push_back({sheet.name, std::move(text), {}});
+    LEKALO_TRY(detail::PlotText plot,
+               detail::hpgl_text(sheet, request.only, request.chord_tolerance_mm, request.knife));
+    made.files.push_back({sheet.name, std::move(plot.text), {}});
+    tip_off = std::max(tip_off, plot.tip_off_mm);
   }
   made.notes.push_back(
       fmt::format("corners lie within {:.3f} mm of where they are (plotter units of {:g} mm), chords within "
                   "{:g} mm of their arcs",
                   0.7072 * detail::kPlotterUnit, detail::kPlotterUnit, request.chord_tolerance_mm));
+  if (request.knife)
+    made.notes.push_back(fmt::format("the tip of the knife stays within {:.3f} mm of the outlines{}",
+                                     tip_off + 0.5e-3,
+                                     request.knife->kind == nc::KnifeKind::drag
+                                         ? "; before the plot the blade has to point along +x, its axis in "
+                                           "front of its tip"
+                                         : ""));
   return made;
 }
 
@@ -239,7 +249,7 @@ Result<Exported> export_layout(const layout::Document& document, const std::stri
   const std::vector<SheetShapes> shapes = detail::sheet_shapes(document, sheets, together, notes);
   const std::vector<layout::Violation> broken = layout::check(document);
   LEKALO_CHECK(check_joints_of(document, request.profile.joints));
-  if (request.form == ExportForm::gcode)
+  if (request.form == ExportForm::gcode || request.knife)
     for (const layout::Violation& violation : broken)
       if (violation.kind == layout::ViolationKind::overlap &&
           std::find(sheets.begin(), sheets.end(), layout::Sheet{violation.stock, violation.copy}) !=

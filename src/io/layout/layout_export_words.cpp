@@ -31,17 +31,12 @@ Result<void> ExportWordTaker::take(const ExportWord& word) {
   if (name == "unit")
     return choice(word, {{"mm", LengthUnit::millimetre}, {"inch", LengthUnit::inch}}, request_.unit);
   if (name == "post") return post(word);
-  if (name == "process")
-    return choice(word,
-                  {{"laser", nc::Process::laser},
-                   {"plasma", nc::Process::plasma},
-                   {"waterjet", nc::Process::plasma},
-                   {"router", nc::Process::router}},
-                  p.process);
+  if (name == "process") return process(word);
   if (name == "lead")
     return choice(word, {{"line", nc::LeadShape::line}, {"arc", nc::LeadShape::arc}}, p.lead);
   if (name == "tolerance" && request_.form == ExportForm::hpgl)
     return number(word, 1e-4, 10, request_.chord_tolerance_mm);
+  if (is_knife_word(name)) return knife_number(word);
   if (name == "slats") return choice(word, {{"x", true}, {"y", false}}, p.joints.slats.along_x);
   if (name == "joints") return joint_rule(word);
   if (name == "joints-of") return joints_of(word);
@@ -50,6 +45,7 @@ Result<void> ExportWordTaker::take(const ExportWord& word) {
 
 std::vector<std::string> ExportWordTaker::complete() {
   std::vector<std::string> complaints;
+  if (request_.form == ExportForm::hpgl) complete_knife(complaints);
   if (request_.form != ExportForm::gcode) return complaints;
   const auto needs = [&](const char* name, const char* why) {
     if (!was_given(name)) complaints.push_back(fmt::format("{} is missing: {}", shown_(name), why));
@@ -95,7 +91,8 @@ bool ExportWordTaker::fits_form(const std::string& name) const {
   if (name == "sheet") return true;
   if (name == "only") return !gcode;
   if (name == "unit") return gcode || request_.form == ExportForm::dxf;
-  if (name == "tolerance") return gcode || request_.form == ExportForm::hpgl;
+  if (name == "tolerance" || name == "process") return gcode || request_.form == ExportForm::hpgl;
+  if (is_knife_word(name)) return request_.form == ExportForm::hpgl;
   return gcode;
 }
 
@@ -195,7 +192,8 @@ const std::vector<ExportWordHelp>& export_words() {
       {"lead-in", "MM", "gcode: length of a lead, or radius of an arc [0: none]"},
       {"lead", "line|arc", "gcode: shape of a lead [line]"},
       {"post", nc::post_names("|", "|"), fmt::format("gcode: the control [{}]", nc::posts().front().name)},
-      {"process", "laser|plasma|waterjet|router", "gcode: the tool [laser]"},
+      {"process", "laser|plasma|waterjet|router|drag-knife|tangential-knife",
+       "gcode: the tool [laser]; hpgl: the knife [a pen]"},
       {"speed", "S", "gcode: the S word: speed of a spindle, power of a beam"},
       {"pierce", "S", "gcode: seconds to wait for the pierce [0]"},
       {"depth", "MM", "gcode, router: depth below Z 0"},
@@ -213,7 +211,11 @@ const std::vector<ExportWordHelp>& export_words() {
       {"joint-width", "MM", "gcode: the material that a joint leaves"},
       {"slat-pitch", "MM", "gcode, joints tipping: from one slat of the table to the next"},
       {"slats", "x|y", "gcode, joints tipping: the axis along which slats run [y]"},
-      {"tab-height", "MM", "gcode, router: height of the tabs that joints are"}};
+      {"tab-height", "MM", "gcode, router: height of the tabs that joints are"},
+      {"blade-offset", "MM", "hpgl, drag-knife: from the axis of the blade back to its tip"},
+      {"turn-above", "DEG", "hpgl, knives: corners to swivel [5], or to lift, turn and lower at [20]"},
+      {"overcut", "MM", "hpgl, knives: go on so far where a cut began [0]"},
+      {"knife-tolerance", "MM", "hpgl, knives: how far the tip may be from an outline [0.1]"}};
   return words;
 }
 

@@ -56,13 +56,19 @@ constexpr std::array kProcessKeys{ProcessKey{"process", "process", false},
                                   ProcessKey{"joint_width_mm", "joint-width", true},
                                   ProcessKey{"slat_pitch_mm", "slat-pitch", true},
                                   ProcessKey{"slats", "slats", false},
-                                  ProcessKey{"tab_height_mm", "tab-height", true}};
+                                  ProcessKey{"tab_height_mm", "tab-height", true},
+                                  ProcessKey{"blade_offset_mm", "blade-offset", true},
+                                  ProcessKey{"turn_above_deg", "turn-above", true},
+                                  ProcessKey{"overcut_mm", "overcut", true},
+                                  ProcessKey{"knife_tolerance_mm", "knife-tolerance", true}};
 
 std::string process_key_of(const std::string& word) {
   const auto found = std::find_if(kProcessKeys.begin(), kProcessKeys.end(),
                                   [&](const ProcessKey& key) { return word == key.word; });
   return found == kProcessKeys.end() ? word : found->key;
 }
+
+const char* form_of(ExportForm form) { return form == ExportForm::hpgl ? "hpgl" : "gcode"; }
 
 std::string described_process(const CutProcess& process) {
   return fmt::format("{}, {} mm ({})", process.material, process.thickness_mm, process.kind);
@@ -107,7 +113,10 @@ class ProcessReader {
 
   void take(JsonValue json, CutProcess& process) {
     ExportRequest request;
-    request.form = ExportForm::gcode;
+    // The kind decides which words an entry may have.
+    if (const auto kind = json.find("process"); kind && kind->kind() == JsonKind::text)
+      if (detail::is_knife(std::string(kind->text()))) process.form = ExportForm::hpgl;
+    request.form = process.form;
     detail::ExportWordTaker taker(request, process_key_of);
     // Without a kind of machine and a control nobody knows what else has to be given.
     bool kind_is_known = true;
@@ -134,7 +143,10 @@ class ProcessReader {
     if (!has_kind) complain("process is missing: the kind of machine");
     if (kind_is_known && has_kind)
       for (const std::string& complaint : taker.complete()) complain(complaint);
-    if (holes) take_holes(*holes, request.profile.feed_mm_per_min, process);
+    if (holes && process.form == ExportForm::hpgl)
+      complain("holes has no meaning for knives: leave it out");
+    else if (holes)
+      take_holes(*holes, request.profile.feed_mm_per_min, process);
   }
 
   /// Takes a key that stands for a word of an export; false after a complaint.
@@ -269,17 +281,24 @@ Result<ProcessFile> read_processes(std::string_view bytes, const std::string& na
 }
 
 Result<std::size_t> find_process(const ProcessFile& file, const std::string& material, double thickness_mm,
-                                 const std::string& kind) {
+                                 const std::string& kind, ExportForm form) {
   std::vector<std::size_t> fits;
   for (std::size_t i = 0; i < file.processes.size(); ++i) {
     const CutProcess& process = file.processes[i];
-    if (process.material == material && process.thickness_mm == thickness_mm &&
+    if (process.form == form && process.material == material && process.thickness_mm == thickness_mm &&
         (kind.empty() || process.kind == kind))
       fits.push_back(i);
   }
   if (fits.size() == 1) return fits.front();
   const std::string wanted =
       fmt::format("{}, {} mm{}", material, thickness_mm, kind.empty() ? "" : fmt::format(" ({})", kind));
+  if (fits.empty())
+    for (const CutProcess& process : file.processes)
+      if (process.form != form && process.material == material && process.thickness_mm == thickness_mm &&
+          (kind.empty() || process.kind == kind))
+        return failure(ErrorCode::usage,
+                       fmt::format("{}: the programs of {} have the form {}, and {} was asked for", file.name,
+                                   described_process(process), form_of(process.form), form_of(form)));
   if (fits.empty())
     return failure(ErrorCode::usage, fmt::format("{}: there is no process for {}; there are: {}", file.name,
                                                  wanted, processes_there(file, material)));
@@ -303,7 +322,7 @@ Result<ExportRequest> process_request(const CutProcess& process, const std::vect
   std::copy_if(process.words.begin(), process.words.end(), std::back_inserter(all),
                [&](const ExportWord& word) { return !is_given(word.first); });
   all.insert(all.end(), words.begin(), words.end());
-  LEKALO_TRY(ExportRequest request, read_export_words(ExportForm::gcode, all, prefix));
+  LEKALO_TRY(ExportRequest request, read_export_words(process.form, all, prefix));
   request.profile.holes = process.holes;
   if (is_given("lead-in"))
     for (nc::HoleCut& hole : request.profile.holes) hole.lead_in_mm.reset();

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "knife_check.hpp"
 #include "lekalo/verify/claims.hpp"
 #include "lekalo/verify/layout.hpp"
 #include "line_match.hpp"
@@ -57,13 +58,17 @@ class ExportCheck {
         likeness_(likeness),
         is_plot_(is_plot) {}
 
-  ClaimReport checked(const std::vector<PlacedSheet>& sheets, const std::vector<std::string>& only) {
+  ClaimReport checked(const std::vector<PlacedSheet>& sheets, const std::vector<std::string>& only,
+                      const std::optional<KnifeWords>& knife) {
     std::size_t outlines = 0;
     take_inside(sheets, only.empty() || std::find(only.begin(), only.end(), "MARK") != only.end());
     for (const char* layer : kLayersOfLines) {
       const bool asked = only.empty() || std::find(only.begin(), only.end(), layer) != only.end();
       if (layer == std::string_view("MARK"))
         compare_marks(sheets, asked);
+      else if (knife && layer == std::string_view("CUT"))
+        check_knife(on_layer(file_, layer),
+                    asked ? on_layer(wanted_, layer) : std::vector<const DrawnLine*>(), *knife, report_);
       else
         outlines += compare(layer, asked);
     }
@@ -261,7 +266,7 @@ Result<ClaimReport> verify_export(const Document& document, const Document& layo
   const Likeness likeness =
       kind == Kind::hpgl ? Likeness{kPlotted, words.chord_tolerance} : Likeness{kDrawn, 0};
   return ExportCheck(std::move(file), std::move(wanted), likeness, kind == Kind::hpgl)
-      .checked(sheets, words.only);
+      .checked(sheets, words.only, words.knife);
 }
 
 }  // namespace lekalo::verify

@@ -9,6 +9,7 @@
 #include "lekalo/base/error.hpp"
 #include "lekalo/base/units.hpp"
 #include "lekalo/layout/document.hpp"
+#include "lekalo/nc/knife.hpp"
 #include "lekalo/nc/profile.hpp"
 
 namespace lekalo::io {
@@ -31,6 +32,7 @@ struct ExportRequest {
   LengthUnit unit = LengthUnit::millimetre;  ///< DXF and G-code only
   double chord_tolerance_mm = 0.02;          ///< HPGL only
   nc::ProfileOptions profile;                ///< G-code only
+  std::optional<nc::KnifeOptions> knife{};   ///< HPGL only: what the pen of CUT is, if it is no pen
 };
 
 /// A word of a command line or of a request, as its name and its value: ("kerf", "0.2").

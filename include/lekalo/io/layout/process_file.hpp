@@ -17,9 +17,10 @@ namespace lekalo::io {
 /// One entry: how one material of one thickness is cut by one kind of machine.
 struct CutProcess {
   std::string material;
-  double thickness_mm = 0;  ///< 0.001 to 1000
-  std::string kind;         ///< the word for --process of lekalo export
-  /// All that the entry says, its kind among it, as words of an export as G-code. They are complete.
+  double thickness_mm = 0;              ///< 0.001 to 1000
+  std::string kind;                     ///< the word for --process of lekalo export
+  ExportForm form = ExportForm::gcode;  ///< of its programs: HPGL for knives
+  /// All that the entry says, its kind among it, as words of an export in its form. They are complete.
   std::vector<ExportWord> words;
   std::vector<nc::HoleCut> holes;
 };
@@ -34,15 +35,17 @@ struct ProcessFile {
 /// wrong, each with the number of its entry. Cost: O(bytes), but for a logarithm.
 [[nodiscard]] Result<ProcessFile> read_processes(std::string_view bytes, const std::string& name);
 
-/// Returns the index of the one process for the material and thickness, which are compared exactly.
+/// Returns the index of the one process for the material and thickness, which are compared exactly, whose
+/// programs have this form.
 /// \param kind  laser, plasma and so on; empty: any, if there is one only
 ///
 /// Fails with ErrorCode::usage and one sentence: none fits, with those that are there; or several fit, with
 /// all of them. Cost: O(processes).
 [[nodiscard]] Result<std::size_t> find_process(const ProcessFile& file, const std::string& material,
-                                               double thickness_mm, const std::string& kind);
+                                               double thickness_mm, const std::string& kind,
+                                               ExportForm form = ExportForm::gcode);
 
-/// Returns the request for G-code that the process and the words give. A word replaces what the process says:
+/// Returns the request that the process and the words give. A word replaces what the process says:
 /// the length of leads that of holes, too; feeds of holes are shares of whichever feed holds.
 ///
 /// Fails like read_export_words.
