@@ -47,14 +47,15 @@ def lanes():
 ALUMINIUM = ["--material", "6061-T6", "--share", "1", "--wear", "1.5", "--cooling", "100"]
 CASES = {
     "shallow": dict(stock=(60, 50, 16), pocket=(30, 20), islands=[], levels=[-4], feed=500,
-                    ways=[lanes(), ring((3, 3), (27, 17))], words=ALUMINIUM, mesh=1.34, step=0.6),
+                    ways=[lanes(), ring((3, 3), (27, 17))], words=ALUMINIUM, voxel=2, mesh=1.34, step=0.6),
     "island": dict(stock=(70, 60, 16), pocket=(44, 34), islands=[((16, 12), (28, 22))], levels=[-4], feed=600,
                    ways=[ring((3.5, 3.5), (40.5, 30.5)), ring((8, 6), (36, 28)), ring((12.5, 8.5), (31.5, 25.5)),
                          ring((3, 3), (41, 31)), ring((13, 9), (31, 25))],
-                   words=["--material", "C45", "--share", "0.4", "--wear", "1.5", "--cooling", "200"], mesh=1.6,
-                   step=0.6),
+                   words=["--material", "C45", "--share", "0.4", "--wear", "1.5", "--cooling", "200"], voxel=1,
+                   mesh=1.6, step=0.6),
     "deep": dict(stock=(60, 50, 20), pocket=(30, 20), islands=[], levels=[-4, -8, -12], feed=500,
-                 ways=[lanes(), ring((3, 3), (27, 17))], words=ALUMINIUM + ["--hold", "plate"], mesh=1.34, step=0.6),
+                 ways=[lanes(), ring((3, 3), (27, 17))], words=ALUMINIUM + ["--hold", "plate"], voxel=1, mesh=1.34,
+                 step=0.6),
 }
 
 
@@ -75,17 +76,9 @@ def pocket_of(case):
     return json.dumps(dict({"units": "mm", "outer": outer}, **({"holes": holes} if holes else {})))
 
 
-def even(marks, most):
-    """Places from the least mark to the greatest, through all of them, none further apart than `most`."""
-    places = [marks[0]]
-    for a, b in zip(marks, marks[1:]):
-        parts = max(1, math.ceil((b - a) / most - ALIKE))
-        places += [a + (b - a) * (k + 1) / parts for k in range(parts)]
-    return places
-
-
 def fine_at(marks, size):
-    """The same, with steps that grow from each mark to the middle between two."""
+    """Places from the least mark to the greatest, through all of them, whose steps grow from each mark to the middle
+    between two."""
     places = [marks[0]]
     for a, b in zip(marks, marks[1:]):
         half = growing(a, (a + b) / 2, size)
@@ -112,7 +105,7 @@ class Mesh:
                  for a in (0, 1)] + [sorted({0.0} | {float(z) for z in case["levels"]})]
         self.at = []
         for axis in range(3):
-            inner = fine_at(marks[axis], size) if axis < 2 else even(marks[axis], size)
+            inner = fine_at(marks[axis], size)
             below = growing(inner[0], low[axis], size)[::-1]
             above = growing(inner[-1], high[axis], size) if high[axis] > inner[-1] + ALIKE else []
             self.at.append(below + inner + above)
@@ -449,7 +442,11 @@ def followed(case, words, folder):
     material, wear = (case["words"][case["words"].index(option) + 1] for option in ("--material", "--wear"))
     source = run([words.heat_cuts] + files + [stock, str(TOOL), str(TEETH), str(RPM), material, wear])
     result = run([words.lekalo, "heat", files[0], "--pocket", files[1], "--stock", stock, "--tool", str(TOOL),
-                  "--teeth", str(TEETH), "--spindle", str(RPM), "--json"] + case["words"])
+                  "--teeth", str(TEETH), "--spindle", str(RPM), "--voxel", str(case["voxel"]), "--json"]
+                 + case["words"])
+    # A place every two millimetres along a wall, at all its heights.
+    heights = len({w["at_mm"][2] for w in result["walls"]})
+    result["walls"] = [w for i, w in enumerate(result["walls"]) if i // heights * case["voxel"] % 2 == 0]
     return source, result
 
 

@@ -114,5 +114,23 @@ TEST(JobsHeatControls, WhatAControlReadsOtherwiseIsToldWithItsLine) {
   EXPECT_NE(found.error().message.find("decimal point"), std::string::npos) << found.error().message;
 }
 
+TEST(JobsHeatControls, VoxelsThatAreTooLargeForTheMaterialAreNamed) {
+  const auto says = [](double conductivity, double pitch) {
+    HeatResultJob asked;
+    asked.heat = job_of("linuxcnc", LengthUnit::millimetre);
+    asked.heat.pitch = pitch;
+    asked.heat.material.values[static_cast<std::size_t>(heat::Property::conductivity)] = {conductivity,
+                                                                                          conductivity};
+    const auto made = heat_result(asked);
+    if (!made) return made.error().message;
+    for (const std::string& warning : made->warnings)
+      if (warning.find("ahead of the tool") != std::string::npos) return warning;
+    return std::string();
+  };
+  const std::string slow = says(45, 4);
+  EXPECT_NE(slow.find("and voxels of 4 mm are larger"), std::string::npos) << slow;
+  EXPECT_EQ(says(450, 4), "") << "copper";
+}
+
 }  // namespace
 }  // namespace lekalo::jobs::jobs_heat_controls_test

@@ -144,7 +144,7 @@ class ProfileCheck {
     return kFollowsNothing;
   }
 
-  /// What does not reach the bottom cuts nothing out: a pass before the last, or one that leaves joints as
+  /// A pass that does not reach the bottom cuts nothing out: others come after it, or it leaves joints as
   /// tabs.
   [[nodiscard]] bool is_through(const CutChain& chain) const { return chain.depth >= deepest_ - kRounding; }
 
