@@ -268,8 +268,9 @@ TEST(KnifeProperty, TheTipOfADragKnifeFollowsTheOutlines) {
     words.knife = KnifeWords{offset, 0, 0.1};
     EXPECT_EQ(told(verify_export({"p.plt", plot}, {"l", text}, words)), "") << i;
     // What goes on beyond the end may lie on the outline wherever it is.
-    if (overcut == 0)
+    if (overcut == 0) {
       EXPECT_NE(told(verify_export({"p.plt", spoiled(plot, random)}, {"l", text}, words)), "") << i;
+    }
     words.knife->blade_offset = offset + 1;
     EXPECT_NE(told(verify_export({"p.plt", plot}, {"l", text}, words)), "") << i << ": another blade";
   }
@@ -317,8 +318,9 @@ TEST(KnifeProperty, ATangentialKnifeIsLiftedAtCorners) {
     EXPECT_LE(farthest(read->document, straight_cut(strokes)), 0.1) << i;
     // A place that moved along its edge spoils nothing.
     const std::string changed = spoiled(plot, random);
-    if (overcut == 0 && farthest(read->document, straight_cut(strokes_of(changed))) > 0.2)
+    if (overcut == 0 && farthest(read->document, straight_cut(strokes_of(changed))) > 0.2) {
       EXPECT_NE(told(verify_export({"p.plt", changed}, {"l", text}, words)), "") << i;
+    }
     if (corners == 0) continue;
     // Without the lifts it is no plot for this knife.
     std::string joined = plot;
