@@ -1,7 +1,7 @@
 #include "lekalo/jobs/show.hpp"
 
+#include "jobs/document/picture_bytes.hpp"
 #include "jobs/document/report_document.hpp"
-#include "jobs/picture_bytes.hpp"
 #include "layout_json.hpp"
 #include "lekalo/draw/layout_picture.hpp"
 #include "lekalo/io/layout/layout_messages.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "jobs/picture_bytes.hpp"
+#include "jobs/document/picture_bytes.hpp"
 #include "lekalo/draw/layout_picture.hpp"
 #include "lekalo/geom/grid.hpp"
 #include "lekalo/io/text/words.hpp"

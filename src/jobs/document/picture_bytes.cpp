@@ -1,4 +1,4 @@
-#include "jobs/picture_bytes.hpp"
+#include "picture_bytes.hpp"
 
 namespace lekalo::jobs {
 
