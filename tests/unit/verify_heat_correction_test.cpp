@@ -103,15 +103,17 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return at == text.npos ? text : text.replace(at, what.size(), by);
 }
 
-/// The program with each word of the letter from `low` to `high` moved by as much, mm.
-std::string moved(const std::string& program, char letter, double low, double high, double by) {
+/// The program with each word of the letter from `low` to `high` moved by as much, mm, or to where `to` says.
+std::string moved(const std::string& program, char letter, double low, double high, double by,
+                  const std::string& to = {}) {
   std::string text;
   for (std::size_t at = 0; at < program.size();) {
     const std::size_t end = std::min(program.find_first_of(" \n", at), program.size() - 1) + 1;
     const std::string word = program.substr(at, end - at);
     double value = low - 1;
     if (word[0] == letter && word.size() > 2) value = std::stod(word.substr(1));
-    text += value >= low && value <= high ? fmt::format("{}{:.4f}{}", letter, value + by, word.back()) : word;
+    const std::string place = to.empty() ? fmt::format("{:.4f}", value + by) : to;
+    text += value >= low && value <= high ? fmt::format("{}{}{}", letter, place, word.back()) : word;
     at = end;
   }
   return text;
@@ -211,6 +213,16 @@ TEST(VerifyHeatCorrection, EveryPlaceIsThereOnceWithEveryVisit) {
                    "which the corrected program does not cut"));
 }
 
+// A pass a tenth of a millimetre off the wall, but for a tenth of a nanometre, may cut it or not.
+TEST(VerifyHeatCorrection, APlaceThatRoundingDecidesMayBeThereOrNot) {
+  const auto right_wall_at = [](double x) {
+    const std::string text = moved(kHonest->corrected, 'X', 20.9, 21.1, 0, fmt::format("{:.10f}", x));
+    return says(said_of_program(text), "which the corrected program does not cut");
+  };
+  EXPECT_FALSE(right_wall_at(20.8999999999));
+  EXPECT_TRUE(right_wall_at(20.8999999));
+}
+
 TEST(VerifyHeatCorrection, EveryVisitIsThereOnceAtItsTime) {
   const auto wall = [](Json& d, std::size_t i) -> Json& { return d["correction"]["walls"][i]; };
   EXPECT_TRUE(says(said([&](Json& d) { wall(d, 0)["visits"] = Json::array(); }), "visits is empty"));
@@ -260,9 +272,12 @@ TEST(VerifyHeatCorrection, AProgramThatClearsThePocketOtherwiseIsTold) {
   const std::string rapid =
       said_of_program(replaced(corrected, lane, "G1 X3.3 Y10 F900\nG0 X20.7\nG1 Y12\n"));
   EXPECT_TRUE(says(rapid, "rapids of the corrected program meet material")) << rapid;
-  const std::string short_rapid =
-      said_of_program(replaced(corrected, lane, "G1 X3.3 Y10 F900\nG1 X12\nG0 X12.6\nG1 X20.7\nG1 Y12\n"));
-  EXPECT_TRUE(says(short_rapid, "rapids of the corrected program meet material")) << short_rapid;
+  const auto with_rapid_to = [&](const char* x) {
+    const std::string short_rapid = fmt::format("G1 X3.3 Y10 F900\nG1 X12\nG0 X{}\nG1 X20.7\nG1 Y12\n", x);
+    return said_of_program(replaced(corrected, lane, short_rapid));
+  };
+  EXPECT_TRUE(says(with_rapid_to("12.15"), "rapids of the corrected program meet material"));
+  EXPECT_FALSE(says(with_rapid_to("12.09"), "rapids")) << with_rapid_to("12.09");
   const std::string uncut = said_of_program(replaced(corrected, lane, ""));
   EXPECT_TRUE(says(uncut, "leaves a spot")) << uncut;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <utility>
@@ -597,6 +598,41 @@ TEST(VerifyHeat, EachFindingNamesWhatItIsOf) {
         << axis;
 }
 
+TEST(VerifyHeat, FiguresOfAllCasesAreToldBySentencesOfTheirOwn) {
+  const auto off = [](const char* path, double by) {
+    return said([&](Json& d) { d.at(path) = double(d.at(path)) + by; });
+  };
+  for (const char* path : {"/cases/0/film_w_m2k", "/cases/1/film_w_m2k", "/cases/2/film_w_m2k"})
+    EXPECT_TRUE(says(off(path, 0.5), "].film_w_m2k is ")) << path;
+  for (const char* path : {"/cases/1/uniform_scaling/centre_mm/0", "/cases/1/uniform_scaling/centre_mm/1"})
+    EXPECT_TRUE(says(off(path, 1e-5), "cases[1].uniform_scaling.centre_mm is ")) << path;
+  EXPECT_TRUE(says(off("/walls/0/error_um", 1e-6), "walls[0].error_um is "));
+  EXPECT_TRUE(says(off("/walls/0/errors_um/1", 0.01), "walls[0].errors_um[1] is "));
+  for (const char* path : {"/uniform_scaling/shift_um/0", "/uniform_scaling/shift_um/1"})
+    EXPECT_TRUE(says(off(path, 1e-6), "uniform_scaling.shift_um is ")) << path;
+  EXPECT_TRUE(says(off("/warmest_k/middle", 1e-6), "warmest_k.middle is "));
+  EXPECT_TRUE(says(off("/stress_mpa/middle", 1e-6), "stress_mpa.middle is "));
+}
+
+TEST(VerifyHeat, TheTimesOfCoolingDownAreTheLeastAndTheGreatestOfTheCases) {
+  for (const std::string key : {"half_s", "tenth_s"}) {
+    const Json honest = (*kHonest)["cooling_down"][key];
+    ASSERT_TRUE(honest.size() == 2 && is_number(honest[0]) && is_number(honest[1])) << honest.dump();
+    const auto wrong = [&](const Json& least, const Json& greatest) {
+      return says(said([&](Json& d) {
+                    d["cooling_down"][key] = Json::array({least, greatest});
+                  }),
+                  "cooling_down." + key + " is not that of the cases");
+    };
+    EXPECT_FALSE(wrong(honest[0], honest[1]));
+    EXPECT_TRUE(wrong(Json(), honest[1]) && wrong(honest[0], Json())) << key;
+    EXPECT_TRUE(wrong(double(honest[0]) + 1e-6, honest[1]) && wrong(honest[0], double(honest[1]) + 1e-6))
+        << key;
+    EXPECT_TRUE(says(said([&](Json& d) { d["cooling_down"][key].push_back(honest[1]); }),
+                     "cooling_down." + key + " is not that of the cases"));
+  }
+}
+
 // The model may lose a thousandth of the heat, and says how much it did.
 TEST(VerifyHeat, AThousandthOfTheHeatMayBeMissingAndIsSaid) {
   const auto with_missing = [](double part) {
@@ -690,6 +726,18 @@ TEST(VerifyHeat, WhatIsBelowTheBlockOrTakesNoTimeIsNoCut) {
   EXPECT_EQ(booked(piece).seconds, 0.5);
   piece.seconds = 0;
   EXPECT_EQ(booked(piece).volume_mm3, 0);
+}
+
+// A thin chip takes most force with the steep exponent, and a thick one with the mild one.
+TEST(VerifyHeat, TheWorkIsOfTheExponentThatMakesItLeastAndGreatest) {
+  verify::CutPiece down = straight_down(18, 18, 8);
+  // 400 teeth a second, 80 mm3 by 100 N/mm2.
+  for (const auto& [seconds, chip] : {std::pair{1.0, 0.02}, {0.01, 2.0}}) {
+    down.seconds = seconds;
+    const double mild = std::pow(chip, -0.1), steep = std::pow(chip, -0.2);
+    EXPECT_DOUBLE_EQ(booked(down).work_j.least, 8 * std::min(mild, steep)) << chip;
+    EXPECT_DOUBLE_EQ(booked(down).work_j.greatest, 8 * std::max(mild, steep)) << chip;
+  }
 }
 
 // Along the lower side of the block, outside of it: the rim's highest place is what meets it.

@@ -77,6 +77,22 @@ TEST(VerifyMeasuredPlaces, APlaceIsTakenOffWellInsideTheRimAndWellAboveTheTip) {
         << c.way[1][0] << ' ' << c.way[1][2] << ": " << c.at[0] << ' ' << c.at[1] << ' ' << c.at[2];
 }
 
+TEST(VerifyMeasuredPlaces, APlaceExactlyAtTheRimOrTheTipIsNotTakenOff) {
+  const double reach = 3 - kAside, tip = -2 - kAside, step = 1e-9;
+  const auto level = [](double z) { return history_of({{{0, 0, z}, {8, 0, z}}}); };
+  EXPECT_EQ(said(level(tip), {4, 0, -2}), "");
+  EXPECT_EQ(said(level(tip - step), {4, 0, -2}), kAir);
+  EXPECT_EQ(said(level(-4), {-reach, 0, -2}), "");
+  EXPECT_EQ(said(level(-4), {-reach + step, 0, -2}), kAir);
+  EXPECT_EQ(said(level(-4), {4, reach, -2}), "");
+  EXPECT_EQ(said(level(-4), {4, reach - step, -2}), kAir);
+  const auto plunge = [](double z) { return history_of({{{0, 0, 5}, {0, 0, z}}}); };
+  EXPECT_EQ(said(plunge(tip), {0, 0, -2}), "");
+  EXPECT_EQ(said(plunge(tip - step), {0, 0, -2}), kAir);
+  EXPECT_EQ(said(plunge(-4), {reach, 0, -2}), "");
+  EXPECT_EQ(said(plunge(-4), {reach - step, 0, -2}), kAir);
+}
+
 TEST(VerifyMeasuredPlaces, TheToolHasToHaveComeBefore) {
   const Ends level{{{0, 0, -4}, {10, 0, -4}}};
   const double seconds = 2;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -104,6 +105,56 @@ TEST(VerifyWallPlaces, MorePlacesThanTheLimitAreTold) {
   const verify::CutHistory history{{beside(3, -10, -10)}, 20};
   EXPECT_TRUE(verify::WallPlaces({{0, 5, {-1, 0}}}, history, 0, 10, 3, 9e-6).too_many());
   EXPECT_FALSE(verify::WallPlaces({{0, 5, {-1, 0}}}, history, 0, 10, 3, 1e-5).too_many());
+}
+
+TEST(VerifyWallPlaces, AVisitLastsUntilTheToolWasAwayForAFifthOfASecond) {
+  const double away = 0.2;
+  for (const double start : {2.0, 2 + away}) {
+    const auto visits = Places({beside(3, -4, -4), beside(3, -4, -4, start)}).visits(0, 0);
+    ASSERT_EQ(visits.size(), 1U) << start;
+    EXPECT_EQ(visits[0].start, 0);
+    EXPECT_EQ(visits[0].end, start + 2);
+  }
+  const auto visits = Places({beside(3, -4, -4), beside(3.02, -4, -4, 2.001 + away)}).visits(0, 0);
+  ASSERT_EQ(visits.size(), 2U);
+  EXPECT_EQ(visits[0].end, 2);
+  EXPECT_EQ(visits[1].start, 2.001 + away);
+  EXPECT_DOUBLE_EQ(visits[0].distance, 3);
+  EXPECT_DOUBLE_EQ(visits[1].distance, 3.02);
+}
+
+TEST(VerifyWallPlaces, APassThatIsNotAsDeepOrNotAsNearIsNoVisit) {
+  const Places places({beside(3, -8, -8), beside(3, -1, -1, 10)}, 2);
+  ASSERT_EQ(places.heights(), 4U);
+  EXPECT_EQ(places.visits(0, 0).size(), 2U) << "at Z -1";
+  ASSERT_EQ(places.visits(1, 0).size(), 1U) << "at Z -3";
+  EXPECT_EQ(places.visits(1, 0)[0].start, 0);
+  const Places farther({beside(3, -4, -4), beside(3.05, -4, -4, 10)});
+  EXPECT_EQ(farther.visits(0, 0).size(), 1U);
+  EXPECT_EQ(farther.visits(0, 0.021).size(), 2U);
+}
+
+TEST(VerifyWallPlaces, OfPassesThatAreAsNearTheFirstSaysTheDirection) {
+  for (const double side : {1.0, -1.0}) {
+    const auto visits = Places({beside(3 * side, -4, -4), beside(-3 * side, -4, -4, 2)}).visits(0, 0);
+    ASSERT_EQ(visits.size(), 1U);
+    EXPECT_EQ(visits[0].towards[0], -side);
+    EXPECT_EQ(visits[0].towards[1], 0);
+  }
+}
+
+// The chord is 0.035 mm farther away.
+TEST(VerifyWallPlaces, AVisitIsAsNearAsTheArcInEitherDirection) {
+  for (const double turn : {0.1, -0.1}) {
+    verify::CutPiece piece = beside(3, -4, -4);
+    piece.centre = {10, 5};
+    piece.from_x = piece.to_x = 10 - 7 * std::cos(turn);
+    piece.from_y = 5 + 7 * std::sin(turn), piece.to_y = 5 - 7 * std::sin(turn);
+    const auto visits = Places({piece}).visits(0, 0);
+    ASSERT_EQ(visits.size(), 1U);
+    EXPECT_NEAR(visits[0].distance, 3, 1e-9) << turn;
+    EXPECT_NEAR(visits[0].towards[0], -1, 1e-9) << turn;
+  }
 }
 
 // Passes far apart from each other, in every direction.
