@@ -180,11 +180,6 @@ class ExportCheck {
     if (is_plot_) return {"MARK", ""};
     return {upper_case(line.layer), line.colour};
   }
-  static std::string upper_case(std::string text) {
-    for (char& c : text)
-      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-    return text;
-  }
 
   void compare_texts() {
     std::vector<DrawnLetters> left = inner_letters_;

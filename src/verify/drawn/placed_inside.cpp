@@ -41,10 +41,7 @@ std::string layer_of_export(const std::string& own) {
   }
   while (layer.ends_with(' ')) layer.pop_back();
   while (layer.starts_with(' ')) layer.erase(0, 1);
-  std::string upper = layer;
-  for (char& c : upper)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  const bool is_taken = std::find(kTaken.begin(), kTaken.end(), upper) != kTaken.end();
+  const bool is_taken = std::find(kTaken.begin(), kTaken.end(), upper_case(layer)) != kTaken.end();
   return layer.empty() || layer.size() > 255 || is_taken ? "INSIDE" : layer;
 }
 
@@ -64,8 +61,6 @@ DrawnLine line_of_mark(const WrittenMark& mark, const InsideMotion& motion) {
       i += 4;
     }
   }
-  const Place begin = line.edges.front().from, end = line.edges.back().to;
-  line.closed = begin.x == end.x && begin.y == end.y;
   return line;
 }
 
@@ -116,6 +111,12 @@ bool has_all_letters(std::string_view text) {
 }
 
 }  // namespace
+
+std::string upper_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return text;
+}
 
 std::vector<PlacedInside> placed_inside(const WrittenPart& part, const WrittenPiece& piece) {
   const InsideMotion motion(piece);

@@ -20,6 +20,9 @@ struct PlacedInside {
 /// lines. Cost: O(edges + letters).
 [[nodiscard]] std::vector<PlacedInside> placed_inside(const WrittenPart& part, const WrittenPiece& piece);
 
+/// Returns the text with the letters a to z as capitals: layers are told apart without regard to case.
+[[nodiscard]] std::string upper_case(std::string text);
+
 /// Moves it along x.
 void move_by(double by, PlacedInside& inside);
 
