@@ -14,6 +14,7 @@
 #include "lekalo/io/layout/layout_export.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/verify/claims.hpp"
+#include "support/cases.hpp"
 #include "support/layout_documents.hpp"
 #include "support/layout_texts.hpp"
 
@@ -24,10 +25,7 @@ namespace {
 
 using geom::Point;
 
-int cases_wanted() {
-  const char* const said = std::getenv("LEKALO_CASES");
-  return said == nullptr ? 300 : std::max(300, std::atoi(said));
-}
+int cases_wanted() { return static_cast<int>(cases::case_count(80)); }
 
 /// A slot with round ends, so that lines and arcs meet without a corner.
 layout::Outline slot(Random& random) {
