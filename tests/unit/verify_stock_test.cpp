@@ -315,6 +315,8 @@ TEST(VerifyStock, AnOrderUsesTheItemsThatItSays) {
               b.items[1].stock.material = {"", mm};
             },
             no_stock},
+           {"a strip", [](StockBook& b) { b.items[9].stock.kind = layout::StockKind::strip; },
+            "S10: its stock is another piece"},
            {"another birch", [](StockBook& b) { b.items[2].stock.material.name = "oak"; }, thick},
            {"twice",
             [](StockBook& b) {

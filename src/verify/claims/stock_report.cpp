@@ -281,12 +281,12 @@ class StockReport {
 
   void compare_remnant(std::size_t i) {
     const WrittenItem& item = items_[i];
-    const auto number = numbers_.find(*item.from);
     const auto use = uses_.find(*item.from);
-    // An item before it in the list, so that nothing is a remnant of itself.
-    if (number == numbers_.end() || number->second >= i || use == uses_.end() || use->second.state != "cut")
+    // The sheet is an item, as it is used, and comes before this one, so that nothing is a remnant of itself.
+    if (use == uses_.end() || use->second.state != "cut" || numbers_.at(*item.from) >= i)
       return find(fmt::format("{}: it is a remnant of {}, which was not cut", item.id, excerpt(*item.from)));
-    const WrittenStock &sheet = stocks_[number->second], &stock = stocks_[i];
+    const std::size_t number = numbers_.at(*item.from);
+    const WrittenStock &sheet = stocks_[number], &stock = stocks_[i];
     const GridOutline outline = moved_outline(stock.outline, item.at);
     if (have_common_disc({&outline}, {&sheet.outline}))
       find(fmt::format("{}: it reaches beyond {}", item.id, *item.from));
@@ -305,7 +305,7 @@ class StockReport {
       find(fmt::format("{}: its defects and zones are not those of {} that meet it", item.id, *item.from));
     const double share = static_cast<double>(twice_area_of(stock.outline)) /
                          static_cast<double>(twice_area_of(sheet.outline)),
-                 cost = items_[number->second].cost * share;
+                 cost = items_[number].cost * share;
     if (!(std::abs(item.cost - cost) <= kCostRounding * cost))
       find(fmt::format("{}: cost is {} and is to be {}", item.id, item.cost, cost));
     remnants_[*item.from].push_back({item.id, outline});
