@@ -266,10 +266,12 @@ TEST(VerifyDrawnSvg, AFileIsWhole) {
   EXPECT_EQ(svg_whole(open + "</svg>"), "");
   EXPECT_EQ(svg_whole(open + "\r\n\t </svg>"), "");
   EXPECT_NE(svg_whole(open).find("an element is not closed"), std::string::npos);
-  EXPECT_NE(svg_whole(open + "</svg></svg>").find("an element is not closed"), std::string::npos);
+  EXPECT_NE(svg_whole(open + "</svg></svg>").find("an element that is not open is closed"),
+            std::string::npos);
+  EXPECT_NE(svg_whole(open + "</g></svg>").find("an element that is not open is closed"), std::string::npos);
   EXPECT_NE(svg_whole("").find("an element is not closed"), std::string::npos);
   EXPECT_EQ(svg_whole(open + "<g></g></svg>"), "e.svg: a group that is no layer: g");
-  EXPECT_NE(svg_whole("<text></text>").find("a text without its place"), std::string::npos);
+  EXPECT_NE(svg_whole("<text></text>").find("something is drawn on no layer"), std::string::npos);
   EXPECT_NE(svg_whole(open + "</svg").find("an element is cut off"), std::string::npos);
   EXPECT_NE(svg_whole("words" + open + "</svg>").find("text where lekalo writes none"), std::string::npos);
 }

@@ -74,6 +74,10 @@ TEST(VerifyMarks, ALieInADrawingIsFound) {
   EXPECT_NE(judged(replaced(dxf, "\nN7 ", "\nN8 "), sample()).find("is on no part"), std::string::npos);
   EXPECT_NE(judged(replaced(dxf, "AcDbEntity\n  8\nTXT\n", "AcDbEntity\n  8\nENG\n"), sample()), "");
   EXPECT_NE(judged(replaced(dxf, "\n 71\n     2\n", "\n 71\n     0\n"), sample()), "");
+  for (const char* group : {" 60\n     1\n", " 67\n     1\n", "230\n-1.0\n", " 62\n     1\n", " 51\n20.0\n"})
+    EXPECT_NE(judged(replaced(dxf, "\n 71\n     2\n", "\n" + std::string(group) + " 71\n     2\n"), sample()),
+              "")
+        << group;
   const std::string svg = exported(sample(), "svg", {}).files[0].bytes;
   EXPECT_NE(judged(replaced(svg, "a&lt;b", "a&gt;b"), sample()), "");
   EXPECT_NE(judged(replaced(svg, "stroke=\"#ff0000\"", "stroke=\"#00ff00\""), sample()), "");

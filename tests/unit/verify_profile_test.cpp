@@ -116,7 +116,9 @@ TEST(VerifyProfileMoves, WhatIsNotWrittenThereIsRefusedWithItsLine) {
   refused("%", "p.nc:2: % neither begins the program nor ends it");
   EXPECT_EQ(cuts("G0 X0 Y0\nM3\nG2 X2.004 Y0 I1 J0"), "4: A 1,0 1.002 - 0,0 2.004,0\n");
   EXPECT_EQ(cuts("G0 X.01 Y0\nM3\nG2 X-.005 Y0 I-.01 J0"), "4: A 0,0 0.0075 - 0.01,0 -0.005,0\n");
-  EXPECT_EQ(cuts("G0 X1 Y1\nM3\nG1 Z-1\nG0 Z2"), "");
+  // A hole that is burnt or drilled is no cut that anything follows.
+  refused("G0 X1 Y1\nM3\nG1 Z-1\nG0 Z2", "the beam or tool goes into the material where nothing is cut");
+  refused("G0 X1 Y1\nM3\nM5\nG0 X5", "the beam or tool goes into the material where nothing is cut");
   EXPECT_EQ(cuts("G0 X0 Y0\nM3\nG2 X0 Y2 I0 J1"), "4: A 0,1 1 - 0,0 0,2\n");
 }
 

@@ -149,6 +149,10 @@ class DxfReader {
         break;
     }
     if (entity_ == "TEXT" && layer_ == "LABEL") return;
+    // Texts that lekalo writes have no group that hides, tilts, mirrors or colours them otherwise.
+    constexpr std::array kOfTexts{10, 20, 30, 11, 21, 31, 40, 41, 50, 71, 72, 73};
+    if (entity_ == "TEXT" && std::find(kOfTexts.begin(), kOfTexts.end(), group.code) == kOfTexts.end())
+      return complain(group, fmt::format("lekalo writes no group {} there", group.code));
     const std::optional<double> number = double_of_text(group.value);
     if (!number) return complain(group, fmt::format("{} is no number", excerpt(group.value)));
     const bool polyline = entity_ == "LWPOLYLINE";

@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "drawn_file.hpp"
 #include "lekalo/base/double_of_text.hpp"
@@ -88,6 +89,9 @@ class SvgReader {
     current_ = text;
     if (text.starts_with("?xml")) return;
     if (text.starts_with("/")) {
+      if (open_.empty() || text.substr(1) != open_.back())
+        return complain("an element that is not open is closed");
+      open_.pop_back();
       --depth_;
       in_text_ = texts_open_ = false;
       return;
@@ -99,6 +103,9 @@ class SvgReader {
     const std::string_view word = text.substr(0, end);
     Attributes attributes;
     if (!take_attributes(text.substr(end), attributes)) return complain("attributes that cannot be read");
+    if (word != "svg" && word != "g" && (open_.empty() || open_.back() != "g"))
+      return complain("something is drawn on no layer");
+    if (!alone) open_.push_back(word);
     if (word == "svg")
       page(attributes);
     else if (word == "g")
@@ -283,6 +290,7 @@ class SvgReader {
 
   const std::string& name_;
   std::string_view rest_, current_;
+  std::vector<std::string_view> open_;  ///< names of the elements that are not closed yet
   std::string complaint_, layer_;
   int depth_ = 0;
   bool in_text_ = false, texts_open_ = false, page_ = false;

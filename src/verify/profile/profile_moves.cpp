@@ -18,6 +18,8 @@ namespace {
 /// program keeps from its first line to its last are only read over.
 constexpr std::array kModesPassedOver{170, 400, 490, 540, 610, 800, 900, 911, 940};
 
+constexpr const char* kNothingCut = "before it the beam or tool goes into the material where nothing is cut";
+
 /// The ends of an arc lie on one circle but for the rounding of its words.
 constexpr double kArcRounding = 5e-3;
 
@@ -51,6 +53,7 @@ class ProfileReader {
     }
     if (!ended_) complain("the program does not end with M2 or M30");
     if (on_) complain("the beam or spindle is on at the end");
+    if (pierced_) complain(kNothingCut);
     if (!complaint_.empty()) return failure(ErrorCode::bad_input, fmt::format("{}:{}", name_, complaint_));
     return ProfileProgram{std::move(chains_), std::move(unsaid_)};
   }
@@ -141,6 +144,7 @@ class ProfileReader {
       if ((on_by_ != 0 && on_by_ != code) || (z_ && code == 40)) return complain("M4 where M3 is meant");
       on_by_ = code;
       on_ = true;
+      if (!z_ || *z_ < 0) pierced_ = at_;
     } else if (code == 50)
       on_ = false;
     else if (code == 20 || code == 300)
@@ -170,13 +174,16 @@ class ProfileReader {
     at_ = to;
     if (!flat) {
       if (cuts && motion_ == 0) complain("a rapid motion down into the material");
+      if (cuts) pierced_ = at_;
       going_on_ = false;
       return;
     }
     if (!cuts) {
+      if (pierced_ && (to.x != pierced_->x || to.y != pierced_->y)) complain(kNothingCut);
       going_on_ = false;
       return;
     }
+    pierced_.reset();
     if (!was_known) return complain("a cut from a place that is not known");
     const Place centre = from + Place{word('I', 0), word('J', 0)};
     if (arc &&
@@ -201,6 +208,8 @@ class ProfileReader {
   UnsaidModes unsaid_;
   double scale_ = 0;
   std::optional<double> z_;  ///< once an axis Z has been named
+  /// Where the beam came on, or the tool went down, and has cut nothing yet.
+  std::optional<Place> pierced_;
   int motion_ = -1, on_by_ = 0;
   bool marked_ = false, on_ = false, ended_ = false, known_x_ = false, known_y_ = false, going_on_ = false;
   Place at_;
