@@ -208,7 +208,7 @@ class ProfileReader {
   UnsaidModes unsaid_;
   double scale_ = 0;
   std::optional<double> z_;  ///< once an axis Z has been named
-  /// Where the beam came on, or the tool went down, and has cut nothing yet.
+  /// The place where the beam came on, or the tool went down, and has cut nothing yet.
   std::optional<Place> pierced_;
   int motion_ = -1, on_by_ = 0;
   bool marked_ = false, on_ = false, ended_ = false, known_x_ = false, known_y_ = false, going_on_ = false;
