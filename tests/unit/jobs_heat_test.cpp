@@ -124,6 +124,26 @@ TEST(JobsHeat, ThePassThatGoesDeepestIntoTheColdPartDecides) {
   EXPECT_GT(lower, found.source.work.seconds / 2);
 }
 
+// With heights that divided the whole wall at once, voxels of 3 mm put the only one on the border of the
+// levels, and the colder pass above told how far off the wall was: half of what other voxels said.
+TEST(JobsHeat, LevelsAndNotVoxelsSayWhichPassCutsAWall) {
+  HeatJob job = job_of();
+  std::string levels = "G21 G90 G17\n";
+  for (const char* depth : {"2", "4"})
+    levels += std::string("G0 X6 Y6 Z5\nG1 Z-") + depth +
+              " F200\nG1 X14 F600\nG1 Y10\nG1 X6\nG1 Y6\nG1 X3 Y3\nG1 X17\nG1 Y13\nG1 X3\nG1 Y3\nG0 Z5\n";
+  job.source.program.bytes = levels;
+  double fine = 0;
+  for (const double pitch : {2.0, 3.0, 4.0}) {
+    job.pitch = pitch;
+    const HeatFound found = run(job);
+    for (const WallPoint& w : found.walls) EXPECT_TRUE(w.z == -1 || w.z == -3) << pitch << ' ' << w.z;
+    if (pitch == 2) fine = found.errors.largest();
+    EXPECT_NEAR(found.errors.largest(), fine, 0.15 * fine) << pitch;
+  }
+  EXPECT_GT(fine, 1);
+}
+
 TEST(JobsHeat, HeatIsBooked) {
   const HeatFound& found = usual();
   const double into = found.source.work.work_j.middle() * 0.1;

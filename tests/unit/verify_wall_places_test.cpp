@@ -53,7 +53,7 @@ TEST(VerifyWallPlaces, OnlyMotionsBelowTheTopThatAreNoRapidsCut) {
     EXPECT_FALSE(Places({alone}).cut(0).is_cut);
 }
 
-// It is as deep as its higher end.
+// It is as deep as its higher end, and borders no level.
 TEST(VerifyWallPlaces, ARampCutsToItsHigherEnd) {
   for (const auto& [from, to] : {std::pair{-8.0, -1.0}, {-1.0, -8.0}}) {
     const Places places({beside(3.02, -8, -8), beside(3, from, to, 2)}, 2);
@@ -93,10 +93,28 @@ TEST(VerifyWallPlaces, APlaceIsFoundWithinWhatItIsRoundedBy) {
 // The path of a program is no deeper than the block.
 TEST(VerifyWallPlaces, HeightsDivideWhatIsCutOfTheBlock) {
   EXPECT_EQ(Places({beside(3, -4, -4)}, 1).heights(), 4U);
-  EXPECT_EQ(Places({beside(3, -4, -4), beside(3, -3, -3)}, 1).heights(), 4U);
   EXPECT_EQ(Places({beside(3, -40, -40)}, 1).heights(), 10U);
   EXPECT_TRUE(Places({beside(3, -4, -4)}, 4).find(0, 5, -2));
   EXPECT_TRUE(Places({beside(3, -40, -40)}, 10).find(0, 5, -5));
+}
+
+// What cuts a place on the border of two levels would be a matter of rounding.
+TEST(VerifyWallPlaces, HeightsStandInsideOfLevels) {
+  const auto at = [](const Places& places, std::vector<double> heights) {
+    EXPECT_EQ(places.heights(), heights.size());
+    for (const double z : heights) EXPECT_TRUE(places.find(0, 5, z)) << z;
+  };
+  for (const double spacing : {2.0, 3.0, 4.0, 50.0})
+    at(Places({beside(3, -2, -2), beside(3, -4, -4)}, spacing), {-1, -3});
+  at(Places({beside(3, -4, -4), beside(3, -1, -1)}, 1), {-0.5, -1.5, -2.5, -3.5});
+  at(Places({beside(3, -4, -4), beside(3, -1, -1)}, 2), {-0.5, -1.75, -3.25});
+  // Depths that a hundredth parts are one level, the deepest cut's above all.
+  at(Places({beside(3, -2, -2), beside(3, -2.0099, -2.0099), beside(3, -4, -4)}, 2), {-1, -3});
+  at(Places({beside(3, -2, -2), beside(3, -2.5, -2.5), beside(3, -4, -4)}, 2), {-1, -2.25, -3.25});
+  at(Places({beside(3, -2, -2), beside(3, -3.9901, -3.9901), beside(3, -4, -4)}, 2), {-1, -3});
+  at(Places({beside(3, -0.009, -0.009)}, 2), {-0.0045});
+  // Flat passes below the block border nothing.
+  at(Places({beside(3, -12, -12), beside(3, -40, -40)}, 5), {-2.5, -7.5});
 }
 
 TEST(VerifyWallPlaces, MorePlacesThanTheLimitAreTold) {
@@ -125,9 +143,9 @@ TEST(VerifyWallPlaces, AVisitLastsUntilTheToolWasAwayForAFifthOfASecond) {
 
 TEST(VerifyWallPlaces, APassThatIsNotAsDeepOrNotAsNearIsNoVisit) {
   const Places places({beside(3, -8, -8), beside(3, -1, -1, 10)}, 2);
-  ASSERT_EQ(places.heights(), 4U);
-  EXPECT_EQ(places.visits(0, 0).size(), 2U) << "at Z -1";
-  ASSERT_EQ(places.visits(1, 0).size(), 1U) << "at Z -3";
+  ASSERT_EQ(places.heights(), 5U);
+  EXPECT_EQ(places.visits(0, 0).size(), 2U) << "at Z -0.5";
+  ASSERT_EQ(places.visits(1, 0).size(), 1U) << "at Z -1.875";
   EXPECT_EQ(places.visits(1, 0)[0].start, 0);
   const Places farther({beside(3, -4, -4), beside(3.05, -4, -4, 10)});
   EXPECT_EQ(farther.visits(0, 0).size(), 1U);

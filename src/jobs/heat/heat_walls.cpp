@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "lekalo/base/angle.hpp"
@@ -24,6 +25,8 @@ constexpr double kReached = 0.1;
 constexpr double kOneVisit = 0.2;
 /// A tip is as deep as a place within this, mm.
 constexpr double kAsDeep = 1e-6;
+/// Flat passes within this are of one level, mm.
+constexpr double kOneLevel = 0.01;
 
 struct Station {
   geom::Point at;
@@ -62,6 +65,36 @@ double distance_from(const heat::ToolPiece& piece, geom::Point p) {
   const double px = p.x - piece.from[0], py = p.y - piece.from[1], square = dx * dx + dy * dy;
   const double t = square > 0 ? std::clamp((px * dx + py * dy) / square, 0.0, 1.0) : 0.0;
   return std::hypot(px - t * dx, py - t * dy);
+}
+
+double tip_of(const heat::ToolPiece& piece) { return std::max(piece.from[2], piece.to[2]); }
+
+/// Returns what divides a wall into strips that the same passes cut, from the top down: the depths of flat
+/// passes.
+std::vector<double> level_borders(const std::vector<const heat::ToolPiece*>& down, double top,
+                                  double deepest) {
+  std::vector<double> depths;
+  for (const heat::ToolPiece* piece : down)
+    if (piece->from[2] == piece->to[2] && piece->to[2] > deepest) depths.push_back(piece->to[2]);
+  std::ranges::sort(depths, std::greater{});
+  std::vector<double> borders{top};
+  for (const double depth : depths)
+    if (borders.back() - depth > kOneLevel) borders.push_back(depth);
+  if (borders.size() > 1 && borders.back() - deepest <= kOneLevel) borders.pop_back();
+  borders.push_back(deepest);
+  return borders;
+}
+
+/// Returns the heights of places, from the top down. They lie inside of strips, as far from their borders as
+/// from each other: what cuts a place on a border would be a matter of rounding.
+std::vector<double> heights_of(const std::vector<double>& borders, double spacing) {
+  std::vector<double> heights;
+  for (std::size_t i = 1; i < borders.size(); ++i) {
+    const double strip = borders[i - 1] - borders[i], count = std::max(1.0, std::round(strip / spacing));
+    for (double k = 0.5; k < count && heights.size() <= limits::kMostHeatPlaces; ++k)
+      heights.push_back(borders[i - 1] - k * strip / count);
+  }
+  return heights;
 }
 
 /// Solves three equations with a positive definite matrix by Cholesky's method; 0 for what nothing decides.
@@ -114,28 +147,23 @@ Result<CutWalls> cut_walls(const HeatSourceJob& job, const HeatSource& source, d
   double deepest = top;
   std::vector<const heat::ToolPiece*> down;
   for (const heat::ToolPiece& piece : source.pieces)
-    if (const double tip = std::max(piece.from[2], piece.to[2]);
-        tip < top && piece.line > 0 && !piece.rapid) {
+    if (tip_of(piece) < top && piece.line > 0 && !piece.rapid) {
       down.push_back(&piece);
-      deepest = std::min(deepest, tip);
+      deepest = std::min(deepest, tip_of(piece));
     }
   deepest = std::max(deepest, top - source.stock.box.thickness);
-  const double wanted = std::max(1.0, std::round((top - deepest) / spacing));
-  if (!(wanted * static_cast<double>(stations.size()) <= static_cast<double>(limits::kMostHeatPlaces)))
+  const std::vector<double> heights = heights_of(level_borders(down, top, deepest), spacing);
+  if (heights.size() * stations.size() > limits::kMostHeatPlaces)
     return failure(ErrorCode::bad_input,
                    fmt::format("{}: its walls have more than {} places {} mm apart; choose larger voxels",
                                job.pocket.name, limits::kMostHeatPlaces, spacing));
-  const auto levels = static_cast<std::size_t>(wanted);
   CutWalls walls;
   std::vector<double> distances(down.size());
   for (const Station& station : stations) {
     ask(1 + down.size() / 16);
     for (std::size_t i = 0; i < down.size(); ++i) distances[i] = distance_from(*down[i], station.at);
-    for (std::size_t k = 0; k < levels; ++k) {
-      const double z = top - (static_cast<double>(k) + 0.5) * (top - deepest) / static_cast<double>(levels);
-      const auto is_deep = [&](std::size_t i) {
-        return std::max(down[i]->from[2], down[i]->to[2]) <= z + kAsDeep;
-      };
+    for (const double z : heights) {
+      const auto is_deep = [&](std::size_t i) { return tip_of(*down[i]) <= z + kAsDeep; };
       double nearest = std::numeric_limits<double>::infinity();
       for (std::size_t i = 0; i < down.size(); ++i)
         if (is_deep(i)) nearest = std::min(nearest, distances[i]);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "lekalo/base/angle.hpp"
@@ -17,6 +18,8 @@ constexpr double kRounded = 2e-6;
 constexpr double kReached = 0.1, kAsNear = 0.03;
 /// A tip is as deep as a place within this, mm.
 constexpr double kAsDeep = 1e-6;
+/// A flat pass begins a level if it is more than this below the one before, mm.
+constexpr double kOneLevel = 0.01;
 /// The tool has not left a place in this time, s.
 constexpr double kOneVisit = 0.2;
 /// Distances may round to the other side of a limit, mm.
@@ -109,10 +112,7 @@ WallPlaces::WallPlaces(std::vector<WallStation> stations, const CutHistory& hist
   for (const CutPiece& piece : history.pieces)
     if (piece.line > 0 && !piece.rapid && tip_of(piece) < top)
       down_.push_back(&piece), deepest = std::min(deepest, tip_of(piece));
-  deepest = std::max(deepest, top - thickness);
-  const double count = std::max(1.0, std::round((top - deepest) / spacing));
-  for (double k = 0.5; k < count && heights_.size() <= limits::kMostHeatPlaces; ++k)
-    heights_.push_back(top - k * (top - deepest) / count);
+  set_heights(top, std::max(deepest, top - thickness), spacing);
   Place low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
   for (const CutPiece* piece : down_) {
     const Place from{piece->from_x, piece->from_y}, to{piece->to_x, piece->to_y};
@@ -124,6 +124,22 @@ WallPlaces::WallPlaces(std::vector<WallStation> stations, const CutHistory& hist
   if (down_.empty()) return;
   index_ = {low, high, reach_};
   for (std::uint32_t i = 0; i < strokes_.size(); ++i) index_.add(i, strokes_[i]);
+}
+
+void WallPlaces::set_heights(double top, double deepest, double spacing) {
+  std::set<double> levels;  // below the top, as heights
+  for (const CutPiece* piece : down_)
+    if (piece->from_z == piece->to_z) levels.insert(piece->to_z);
+  double above = top;
+  const auto fill_down_to = [&](double below) {
+    const double count = std::max(1.0, std::round((above - below) / spacing));
+    for (double k = 0.5; k < count && heights_.size() <= limits::kMostHeatPlaces; ++k)
+      heights_.push_back(above - k * (above - below) / count);
+    above = below;
+  };
+  for (auto level = levels.rbegin(); level != levels.rend(); ++level)
+    if (*level - deepest > kOneLevel && above - *level > kOneLevel) fill_down_to(*level);
+  fill_down_to(deepest);
 }
 
 bool WallPlaces::too_many() const { return stations_.size() * heights_.size() > limits::kMostHeatPlaces; }

@@ -61,6 +61,9 @@ class WallPlaces {
   [[nodiscard]] bool visited(std::size_t height, double seconds) const;
 
  private:
+  /// Divides each level of the program by itself: what cuts a place between two would be a matter of
+  /// rounding.
+  void set_heights(double top, double deepest, double spacing);
   [[nodiscard]] double nearest(std::size_t height) const;
 
   std::vector<WallStation> stations_;  ///< by x
