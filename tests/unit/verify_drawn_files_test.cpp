@@ -74,6 +74,8 @@ TEST(VerifyDrawnDxf, WhatLekaloDoesNotWriteIsRefusedWithItsLine) {
   refused("0 LWPOLYLINE 8 CUT 90 2 70 8 10 0 20 0 10 4 20 0", "a polyline of another kind");
   refused("0 LINE 8 CUT 420 -1 10 1 20 2 11 3 21 5", "a colour that is none");
   refused("0 TEXT 8 T 10 1 20 2 1 x", "a text that lekalo does not write so");
+  for (const char* lacking : {"20 2 40 3", "10 1 40 3", "10 1 20 2 40 0", "10 1 20 2 40 -1"})
+    refused(std::string("0 TEXT 8 T 1 x ") + lacking, "a text that lekalo does not write so");
   refused("0 TEXT 8 T 10 1 20 2 40 3 1 x 71 4", "a text that lekalo does not write so");
   refused("0 TEXT 8 T 10 1 20 2 40 3 1 x 72 1 11 2 21 2", "a text that lekalo does not write so");
   refused("0 LWPOLYLINE 8 CUT 90 3 70 1 10 0 20 0 10 4 20 0", "a polyline that is not of the vertices");
@@ -91,6 +93,8 @@ TEST(VerifyDrawnDxf, WhatLekaloDoesNotWriteIsRefusedWithItsLine) {
   refused("0 CIRCLE 10 1 20 2", "groups are missing in a CIRCLE");
   refused("0 CIRCLE 10 1 20 2 40 5 50 0", "groups are missing in a CIRCLE");
   refused("0 CIRCLE 10 1 0 LINE 10 1 0 LWPOLYLINE 10 1", "groups are missing in a CIRCLE");
+  refused("0 LWPOLYLINE 8 CUT 90 2 70 1 43 0.5 10 0 20 0", "lekalo writes no group 43 there");
+  refused("0 LINE 43 0 10 1 20 2 11 3 21 5", "groups are missing in a LINE");
   refused("0 SECTION 2 ENTITIES", "line 16: lekalo writes no SECTION");
 }
 
@@ -121,6 +125,8 @@ TEST(VerifyDrawnDxf, TheFileSaysItsUnitAndShowsItsLayers) {
   EXPECT_EQ(table("0 LINE 2 A"), "M!: L 1,2 3,5\n") << "lines are drawn in ENTITIES alone";
   EXPECT_NE(table("0 LAYER 2 A 70 1 62 7").find("a layer is not shown"), std::string::npos);
   EXPECT_NE(table("0 LAYER 2 A 70 0 62 -7").find("a layer is not shown"), std::string::npos);
+  EXPECT_EQ(table("0 LAYER 5 1F 330 1 100 x 2 A 70 0 62 7 6 Continuous"), "M!: L 1,2 3,5\n");
+  EXPECT_EQ(table("0 LAYER 2 A 70 0 62 7 290 0"), "e.dxf: line 30: lekalo writes no group 290 there");
 }
 
 TEST(VerifyDrawnDxf, AFileIsWholeAndItsBlocksAreEmpty) {
@@ -141,6 +147,10 @@ TEST(VerifyDrawnDxf, AFileIsWholeAndItsBlocksAreEmpty) {
   };
   EXPECT_EQ(blocks("0 BLOCK 8 0 10 1 0 ENDBLK 8 0"), read);
   EXPECT_EQ(blocks("0 BLOCK 0 LINE 0 ENDBLK"), "e.dxf: line 18: lekalo writes no LINE in a block");
+  // Readers take one of two names, and none of what stands before a name.
+  const std::string named = "a section without a name, or with a second one";
+  EXPECT_EQ(dxf_whole(kHead + "0 SECTION 2 OBJECTS 2 ENTITIES " + line + kTail), "e.dxf: line 16: " + named);
+  EXPECT_EQ(dxf_whole(kHead + "0 SECTION 3 ENTITIES " + line + kTail), "e.dxf: line 14: " + named);
   // Blanks around a line and the other ends of lines say nothing.
   std::string other_ends;
   for (const char c : dxf_text(body + kTail)) other_ends += c == '\n' ? "\r\n" : std::string(1, c);
@@ -155,7 +165,7 @@ std::string svg_whole(const std::string& text) { return told(read_svg({"e.svg", 
 std::string svg(const std::string& body) {
   return svg_whole(R"(<?xml version="1.0"?>
 <svg xmlns="x" version="1.1" width="100mm" height="50mm" viewBox="0 -50 100 50" data-lekalo-corner="0 0">
-<g inkscape:groupmode="layer" inkscape:label="CUT" fill="none">)" +
+<g inkscape:groupmode="layer" inkscape:label="CUT" fill="none" stroke="#d00000" stroke-width="0.2">)" +
                    body + "</g>\n</svg>\n");
 }
 std::string path(const std::string& d) { return svg("<path d=\"" + d + "\"/>"); }
@@ -175,7 +185,9 @@ TEST(VerifyDrawnSvg, PathsCirclesAndLinesAreReadWithYUp) {
   EXPECT_EQ(svg(R"(<circle cx="1" cy="-2" r="5" data-lekalo-arcs="1"/>)"), "CUT: A 1,2 5 + 6,2 6,2\n");
   EXPECT_EQ(svg(R"(<line x1="1" y1="-2" x2="3" y2="-5"/>)"), "CUT!: L 1,2 3,5\n");
   EXPECT_EQ(
-      svg("</g><g inkscape:groupmode=\"layer\" inkscape:label=\"LABEL\"><text x=\"1\">any words</text>"), "");
+      svg("</g><g inkscape:groupmode=\"layer\" inkscape:label=\"LABEL\" fill=\"none\" stroke=\"#008000\" "
+          "stroke-width=\"1\"><text x=\"1\">any words</text>"),
+      "");
   EXPECT_EQ(path("M0 0L4 0L4,-3"), "CUT!: L 0,0 4,0 L 4,0 4,3\n");
   EXPECT_EQ(svg("<text transform=\"matrix(0 -2 1 0 3 -4)\" font-size=\"10\" text-anchor=\"end\" "
                 "fill=\"#0000ff\">a&lt;&amp;b</text>"),
@@ -202,7 +214,8 @@ TEST(VerifyDrawnSvg, PathsOfOtherWordsAreRefused) {
   refused("M0 0L1", cut);
   refused("M0", cut);
   for (const char* arc :
-       {"A2 3 0 0 0 4 0Z", "A2 2 1 0 0 4 0Z", "A0 0 0 0 0 4 0Z", "A-2 -2 0 0 0 4 0Z", "A2 2 0 0 0 0 0Z"})
+       {"A2 3 0 0 0 4 0Z", "A2 2 1 0 0 4 0Z", "A2 2 0 2 0 4 0Z", "A2 2 0 -1 0 4 0Z", "A2 2 0 0 2 4 0Z",
+        "A2 2 0 0 -1 4 0Z", "A0 0 0 0 0 4 0Z", "A-2 -2 0 0 0 4 0Z", "A2 2 0 0 0 0 0Z"})
     refused(std::string("M0 0") + arc, "an arc that is not of a circle");
 }
 
@@ -230,6 +243,29 @@ TEST(VerifyDrawnSvg, OtherElementsAndAttributesAreRefused) {
   refused("<path d=\"M0 0L1 1 2 2L1 0Z\"/>", "a path with other words than M, L, A and a Z at its end");
   refused("<path d=\"M0 0L1 1L1 0Z5\"/>", "a path with other words than M, L, A and a Z at its end");
   refused("<path d=\"M0 0L1 1L1 xZ\"/>", "path data that cannot be read");
+}
+
+TEST(VerifyDrawnSvg, LinesAreShownAsLines) {
+  const auto layer = [](const std::string& words) {
+    return svg("</g><g inkscape:groupmode=\"layer\" inkscape:label=\"MARK\" " + words +
+               "><line x1=\"1\" y1=\"-2\" x2=\"3\" y2=\"-5\"/>");
+  };
+  EXPECT_EQ(layer(R"(fill="none" stroke="#0000ff" stroke-width="0.2")"), "MARK!: L 1,2 3,5\n");
+  for (const char* hidden :
+       {"", R"(stroke="#0000ff" stroke-width="0.2")", R"(fill="#0000ff" stroke="#0000ff" stroke-width="0.2")",
+        R"(fill="none" stroke-width="0.2")", R"(fill="none" stroke="none" stroke-width="0.2")",
+        R"(fill="none" stroke="#0000f" stroke-width="0.2")",
+        R"(fill="none" stroke="#0000fg" stroke-width="0.2")",
+        R"(fill="none" stroke="0000ff0" stroke-width="0.2")",
+        R"(fill="none" stroke="#0000ff" stroke-width="0")"})
+    EXPECT_NE(layer(hidden).find("a layer whose lines are not shown as lines"), std::string::npos) << hidden;
+  EXPECT_NE(layer(R"(fill="none" stroke="#0000ff")").find("stroke-width is no number"), std::string::npos);
+  EXPECT_EQ(
+      svg(R"(<path d="M0 0L4 0L4 -3" stroke="#0000ff"/><circle cx="1" cy="-2" r="5" stroke="#00ff00"/>)"),
+      "CUT#0000ff!: L 0,0 4,0 L 4,0 4,3\nCUT#00ff00: A 1,2 5 + 6,2 6,2\n");
+  for (const char* line : {R"(<path d="M0 0L4 0" stroke="none"/>)", R"(<path d="M0 0L4 0" stroke=""/>)",
+                           R"(<circle cx="1" cy="-2" r="5" stroke="none"/>)"})
+    EXPECT_NE(svg(line).find("a line in no colour"), std::string::npos) << line;
 }
 
 TEST(VerifyDrawnSvg, ThePageIsAsLargeAsItsView) {

@@ -126,9 +126,26 @@ TEST(VerifyMarkedExports, BrokenTextsOfAnSvgAreRefused) {
   };
   EXPECT_TRUE(tells(after("transform=\"matrix(", "transform=\"matriz("), "a text without its place"));
   EXPECT_TRUE(tells(after(" text-anchor=\"start\"", ""), "a text without its place"));
+  EXPECT_TRUE(
+      tells(judged(svg.substr(0, svg.find("transform=")) + svg.substr(svg.find("font-family=")), sample()),
+            "a text without its place"));
+  EXPECT_TRUE(tells(after(")\" font-family", "\" font-family"), "a text without its place"));
+  const std::size_t size = svg.find("font-size=\"", svg.find("transform="));
+  EXPECT_TRUE(
+      tells(judged(std::string(svg).replace(size, svg.find(" text-anchor", size) - size, "font-size=\"0\""),
+                   sample()),
+            "does not write so"));
   EXPECT_TRUE(tells(after("transform=\"matrix(", "transform=\"matrix(x"), "a transformation that cannot"));
   EXPECT_TRUE(tells(after("transform=\"matrix(", "transform=\"matrix(1 "), "a transformation that cannot"));
   EXPECT_TRUE(tells(after("text-anchor=\"start\"", "text-anchor=\"begin\""), "does not write so"));
+}
+
+TEST(VerifyMarkedExports, TextsHaveTheirOwnColourOrAreBlack) {
+  const std::string svg = exported(sample(), "svg");
+  for (const auto& [own, other] : {std::pair("#000000", "#0000ff"), std::pair("#008000", "#000000")}) {
+    const std::size_t at = svg.rfind("fill=\"" + std::string(own) + "\" stroke=\"none\"");
+    EXPECT_TRUE(tells(judged(std::string(svg).replace(at + 6, 7, other), sample()), "is on no part")) << own;
+  }
 }
 
 TEST(VerifyMarkedExports, ColoursOfLayoutsAreOfSixDigits) {

@@ -98,14 +98,20 @@ class DxfReader {
   }
 
   void take(const Group& group) {
-    if (entity_ == "SECTION" && group.code == 2)
-      section_ = group.value;
+    if (entity_ == "SECTION" && (section_.empty() || group.code == 2))
+      take_section(group);
     else if (section_ == "HEADER")
       take_header(group);
     else if (entity_ == "LAYER")
       take_layer(group);
     else if (section_ == "ENTITIES")
       take_entity(group);
+  }
+
+  void take_section(const Group& group) {
+    if (group.code != 2 || !section_.empty())
+      complain(group, "a section without a name, or with a second one");
+    section_ = group.value;
   }
 
   void take_header(const Group& group) {
@@ -115,8 +121,11 @@ class DxfReader {
     if (scale_ == 0) complain(group, "its unit is neither mm nor inch");
   }
 
-  /// A layer that is off or frozen would hide what is on it.
+  /// A layer that is off, frozen or not printed would hide what is on it.
   void take_layer(const Group& group) {
+    constexpr std::array kOfLayers{5, 330, 100, 2, 70, 62, 6};
+    if (std::find(kOfLayers.begin(), kOfLayers.end(), group.code) == kOfLayers.end())
+      complain(group, fmt::format("lekalo writes no group {} there", group.code));
     if ((group.code == 70 && group.value != "0") || (group.code == 62 && group.value.starts_with("-")))
       complain(group, "a layer is not shown");
   }
@@ -126,7 +135,6 @@ class DxfReader {
       case 5:
       case 330:
       case 100:
-      case 43:
         return;
       case 8:
         layer_ = group.value;
@@ -162,8 +170,8 @@ class DxfReader {
       vertices_.back().at.y = *number;
     else if (group.code == 42 && !vertices_.empty())
       vertices_.back().bulge = *number;
-    else if (!polyline && (group.code == 30 || group.code == 31) && *number == 0)
-      return;
+    else if (*number == 0 && (polyline ? group.code == 43 : group.code == 30 || group.code == 31))
+      return;  // neither width nor height
     else if (!polyline && !numbers_.contains(group.code))
       numbers_[group.code] = *number;
     else

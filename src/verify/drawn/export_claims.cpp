@@ -93,10 +93,18 @@ class ExportCheck {
     for (const DrawnLine* line : file) {
       if (!line->closed)
         report_.findings.push_back(fmt::format("an outline on layer {} is not closed", layer));
+      find_own_colour(*line);
       find_each(*line, placed, layer, "is not on an outline of the layout");
     }
     for (const DrawnLine* line : wanted) find_each(*line, drawn, layer, "of the layout is not drawn");
     return file.size();
+  }
+
+  /// Machines tell by the colour what they do with a line.
+  void find_own_colour(const DrawnLine& line) {
+    if (!line.colour.empty())
+      report_.findings.push_back(fmt::format(
+          "a line on layer {} is drawn in {} and not in the colour of its layer", line.layer, line.colour));
   }
 
   void find_each(const DrawnLine& line, const EdgeSet& others, const char* layer, const char* what) {
@@ -212,6 +220,7 @@ class ExportCheck {
         for (const PlacedSheet::Part& part : sheet.parts)
           if (part.grain) marked.push_back(&part);
     for (const DrawnLine* mark : on_layer(file_, "MARK")) {
+      find_own_colour(*mark);
       const auto of = std::find_if(marked.begin(), marked.end(), [&](const PlacedSheet::Part* part) {
         return mark->edges.size() == 1 && runs_along(mark->edges[0], *part);
       });

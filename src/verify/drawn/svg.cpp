@@ -173,9 +173,24 @@ class SvgReader {
 
   void layer(const Attributes& attributes) {
     only(attributes, {"inkscape:groupmode", "inkscape:label", "fill", "stroke", "stroke-width"});
-    const auto label = attributes.find("inkscape:label");
+    const auto label = attributes.find("inkscape:label"), fill = attributes.find("fill");
     if (depth_ != 2 || label == attributes.end()) return complain("a group that is no layer");
     layer_ = label->second;
+    const bool is_line_alone = fill != attributes.end() && fill->second == "none";
+    if (!is_line_alone || !is_colour(colour(attributes, "stroke")) ||
+        !(number(attributes, "stroke-width") > 0))
+      complain("a layer whose lines are not shown as lines");
+  }
+
+  static bool is_colour(std::string_view text) {
+    return text.size() == 7 && text.front() == '#' &&
+           text.find_first_not_of("0123456789abcdef", 1) == std::string_view::npos;
+  }
+  /// Returns the colour of a line's own; empty where it has its layer's.
+  std::string own_colour(const Attributes& attributes) {
+    std::string own = colour(attributes, "stroke");
+    if (attributes.contains("stroke") && !is_colour(own)) complain("a line in no colour");
+    return own;
   }
 
   void path(const Attributes& attributes) {
@@ -183,7 +198,7 @@ class SvgReader {
     const auto data = attributes.find("d");
     if (data == attributes.end()) return complain("a path without data");
     Words words(data->second);
-    DrawnLine drawn{layer_, {}, false, colour(attributes, "stroke")};
+    DrawnLine drawn{layer_, {}, false, own_colour(attributes)};
     const auto place = [&] {
       const double x = words.number(), y = words.number();
       return Place{x, -y};
@@ -212,7 +227,8 @@ class SvgReader {
     const double radius = words.number(), other = words.number(), turned = words.number(),
                  large = words.number(), sweep = words.number(), x = words.number(), y = words.number();
     const Place to{x, -y}, chord = to - from;
-    if (radius != other || turned != 0 || !(radius > 0) || !(length(chord) > 0))
+    const bool are_flags = (large == 0 || large == 1) && (sweep == 0 || sweep == 1);
+    if (radius != other || turned != 0 || !are_flags || !(radius > 0) || !(length(chord) > 0))
       complain("an arc that is not of a circle");
     // The file counts y downwards, where sweep 0 is counter-clockwise.
     const bool ccw = sweep == 0, wide = large != 0;
@@ -226,7 +242,7 @@ class SvgReader {
     only(attributes, {"cx", "cy", "r", "stroke", "data-lekalo-arcs"});
     const Place centre{number(attributes, "cx"), -number(attributes, "cy")},
         start = centre + Place{number(attributes, "r"), 0};
-    lines_.push_back({layer_, {arc_about(start, start, centre, true)}, true, colour(attributes, "stroke")});
+    lines_.push_back({layer_, {arc_about(start, start, centre, true)}, true, own_colour(attributes)});
   }
 
   static std::string colour(const Attributes& attributes, const char* key) {
