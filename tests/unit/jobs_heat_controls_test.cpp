@@ -127,7 +127,7 @@ TEST(JobsHeatControls, VoxelsThatAreTooLargeForTheMaterialAreNamed) {
       if (warning.find("ahead of the tool") != std::string::npos) return warning;
     return std::string();
   };
-  const std::string slow = says(45, 4);
+  const std::string slow = says(80, 4);
   EXPECT_NE(slow.find("and voxels of 4 mm are larger"), std::string::npos) << slow;
   EXPECT_EQ(says(450, 4), "") << "copper";
 }

@@ -78,7 +78,7 @@ TEST(JobsHeatCorrection, CornersAreLeftNoWorseThanTheRest) {
   const HeatJob job = cases::heat_job(rectangle_program(0.3, "4"), kPocket, "44x38x12", 0.5, 2);
   const auto [found, made] = cases::corrected_heat(job);
   EXPECT_GT(found.errors.largest(), 3);
-  EXPECT_LT(made.after.largest(), 0.6);
+  EXPECT_LT(made.after.largest(), 0.7);
 }
 
 TEST(JobsHeatCorrection, WithoutHeatTheProgramIsItsOwn) {

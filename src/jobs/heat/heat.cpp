@@ -29,6 +29,8 @@ using heat::Property;
 /// A program has so many steps in time, and some more for each wait.
 constexpr double kSteps = 300, kStepsOfAWait = 15;
 constexpr double kShortestStep = 0.2;  // s
+/// Steps are so many times shorter where walls are visited, because heat enters all over a step at once.
+constexpr double kShorterAtWalls = 4;
 /// A voxel takes heat where at least this part of it is material.
 constexpr double kSolid = 0.5;
 /// Heat looks for material this many half voxels out of the tool.
@@ -90,7 +92,7 @@ class Follower {
         found_(found),
         radius_(job.source.machining.tool_diameter / 2),
         border_(found.source.stock) {
-    divide(found.source.pieces, found.source.work.seconds);
+    divide(found.source.pieces, found.source.work.seconds, times_of(found.visits));
     const auto span_of = [&](double at) -> Span& {
       const auto after = std::ranges::upper_bound(spans_, at, {}, &Span::end);
       return after == spans_.end() ? spans_.back() : *after;
@@ -210,8 +212,17 @@ class Follower {
     return {};
   }
 
-  /// Steps have about one length, but for waits, in which nothing happens but that heat spreads.
-  void divide(const std::vector<heat::ToolPiece>& pieces, double seconds) {
+  static std::vector<double> times_of(const std::vector<std::vector<WallVisit>>& visits) {
+    std::vector<double> times;
+    for (const std::vector<WallVisit>& of_place : visits)
+      for (const WallVisit& visit : of_place) times.push_back(visit.at);
+    std::ranges::sort(times);
+    return times;
+  }
+
+  /// Steps have about one length, but for those of visits and just before them, and for waits, in which
+  /// nothing happens but that heat spreads. \param visits  in the order of time, s
+  void divide(const std::vector<heat::ToolPiece>& pieces, double seconds, const std::vector<double>& visits) {
     double waits = 0;
     for (const heat::ToolPiece& p : pieces)
       if (p.line == 0) waits += p.seconds;
@@ -221,13 +232,17 @@ class Follower {
       if (end > begin) spans_.push_back({begin, end, {}, {}, {}});
       begin = std::max(begin, end);
     };
+    const auto is_near = [&](double from, double to) {
+      const auto soon = std::ranges::lower_bound(visits, from);
+      return soon != visits.end() && *soon <= to;
+    };
     for (const heat::ToolPiece& p : pieces) {
       const double end = p.start + p.seconds;
       if (p.line == 0 && p.seconds > step) {
         end_at(p.start);
         const double parts = std::min(kStepsOfAWait, std::ceil(p.seconds / step));
         for (double k = 1; k <= parts; ++k) end_at(p.start + p.seconds * k / parts);
-      } else if (end - begin >= step) {
+      } else if (end - begin >= (is_near(begin, end + step) ? step / kShorterAtWalls : step)) {
         end_at(end);
       }
     }
