@@ -58,7 +58,7 @@ CASES = {
     # In steel heat gets only the diffusivity by the feed ahead of the tool, 3 mm here, and both have to be finer.
     "steel": dict(stock=(36, 32, 10), pocket=(18, 14), islands=[], levels=[-2], feed=240,
                   ways=[ring((4, 4), (14, 10)), ring((3, 3), (15, 11))],
-                  words=["--material", "C45", "--share", "0.4", "--wear", "1.5", "--cooling", "200"], voxel=1, mesh=0.8,
+                  words=["--material", "C45", "--share", "1", "--wear", "1.5", "--cooling", "200"], voxel=1, mesh=0.8,
                   step=0.3),
 }
 

@@ -64,6 +64,11 @@ TEST(VerifyDrawnDxf, TextsHaveTheirAxes) {
   EXPECT_EQ(dxf("0 TEXT 8 T 420 16711680 10 1 20 2 30 0 40 3 1 N7 50 90 41 2"),
             "T#ff0000 'N7' left 1,2 0,6 -3,0\n");
   EXPECT_EQ(dxf("0 TEXT 8 T 10 1 20 2 40 3 1 N7 71 2 72 2 11 1 21 2"), "T 'N7' right 1,2 -3,0 0,3\n");
+  EXPECT_EQ(dxf("0 TEXT 8 T 10 1 20 2 40 0.5 1 N7 41 0.5"), "T 'N7' left 1,2 0.25,0 0,0.5\n");
+}
+
+TEST(VerifyDrawnDxf, OnlyTextsAreLabels) {
+  EXPECT_EQ(dxf("0 TEXT 8 LABEL 10 1 62 3 1 any 0 LINE 8 LABEL 10 1 20 2 11 3 21 5"), "LABEL!: L 1,2 3,5\n");
 }
 
 TEST(VerifyDrawnDxf, WhatLekaloDoesNotWriteIsRefusedWithItsLine) {
@@ -77,6 +82,7 @@ TEST(VerifyDrawnDxf, WhatLekaloDoesNotWriteIsRefusedWithItsLine) {
   for (const char* lacking : {"20 2 40 3", "10 1 40 3", "10 1 20 2 40 0", "10 1 20 2 40 -1"})
     refused(std::string("0 TEXT 8 T 1 x ") + lacking, "a text that lekalo does not write so");
   refused("0 TEXT 8 T 10 1 20 2 40 3 1 x 71 4", "a text that lekalo does not write so");
+  refused("0 TEXT 8 T 10 1 20 2 40 3 1 x 72 3 11 1 21 2", "a text that lekalo does not write so");
   refused("0 TEXT 8 T 10 1 20 2 40 3 1 x 72 1 11 2 21 2", "a text that lekalo does not write so");
   refused("0 LWPOLYLINE 8 CUT 90 3 70 1 10 0 20 0 10 4 20 0", "a polyline that is not of the vertices");
   refused("0 LWPOLYLINE 8 CUT 90 1 70 1 10 0 20 0", "a polyline that is not of the vertices");
@@ -306,6 +312,10 @@ TEST(VerifyDrawnSvg, AFileIsWhole) {
             std::string::npos);
   EXPECT_NE(svg_whole(open + "</g></svg>").find("an element that is not open is closed"), std::string::npos);
   EXPECT_NE(svg_whole("").find("an element is not closed"), std::string::npos);
+  EXPECT_NE(svg_whole(open + "</g>").find("an element that is not open is closed"), std::string::npos);
+  EXPECT_NE(
+      svg_whole(open + R"(<line x1="1" y1="2" x2="3" y2="4"/></svg>)").find("something is drawn on no layer"),
+      std::string::npos);
   EXPECT_EQ(svg_whole(open + "<g></g></svg>"), "e.svg: a group that is no layer: g");
   EXPECT_NE(svg_whole("<text></text>").find("something is drawn on no layer"), std::string::npos);
   EXPECT_NE(svg_whole(open + "</svg").find("an element is cut off"), std::string::npos);

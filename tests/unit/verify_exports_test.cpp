@@ -188,6 +188,18 @@ TEST(VerifyExports, LinesMayBeOffByTheRoundingOfADrawing) {
   EXPECT_NE(marks(R"(<path d="M-20 0L-10 0L-10 1Z"/>)"), "") << "a mark is one line";
 }
 
+// A knife cuts the parts alone.
+TEST(VerifyExports, TheSheetBesideAKnifeIsWhereTheLayoutHasIt) {
+  const std::string plot =
+      exported("hpgl", {{"sheet", "s#1"}, {"process", "drag-knife"}, {"blade-offset", "0.25"}});
+  ExportWords words = on_sheet("s#1");
+  words.knife = KnifeWords{0.25, 0, 0.1};
+  ASSERT_EQ(judged(plot, words), "");
+  const std::size_t sheet = plot.find("SP4;"), to = plot.find("4000", sheet);
+  ASSERT_NE(to, std::string::npos);
+  EXPECT_NE(judged(std::string(plot).replace(to, 4, "4020"), words), "");
+}
+
 TEST(VerifyExports, BothEndsOfAShortArcAreNearAChord) {
   const Place begin{1, 0}, end{std::cos(0.3), std::sin(0.3)};
   const Likeness likeness{0, 1};

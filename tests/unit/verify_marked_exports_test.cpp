@@ -1,12 +1,17 @@
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "lekalo/io/layout/layout_export.hpp"
 #include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/verify/claims.hpp"
 #include "support/marked_layouts.hpp"
+#include "verify/drawn/placed_inside.hpp"
 
 /// Exports of parts with lines and texts, changed one place at a time: what the checker finds and what it
 /// lets pass beside it.
@@ -27,18 +32,21 @@ Json with_layer(const std::string& layer) {
   return layout;
 }
 
-std::string exported(const Json& layout, const std::string& form) {
+std::string exported(const Json& layout, const std::string& form,
+                     const std::vector<io::ExportWord>& words = {}) {
   const auto document = io::read_layout(layout.dump(), "layout");
   if (!document) throw std::logic_error(document.error().message);
-  const auto request = io::read_export_words(*io::export_form(form), {}, "--");
+  const auto request = io::read_export_words(*io::export_form(form), words, "--");
   if (!request) throw std::logic_error(request.error().message);
   auto made = io::export_layout(document->document, "Sample", *request);
   if (!made) throw std::logic_error(made.error().message);
   return made->files[0].bytes;
 }
 
-std::string judged(const std::string& bytes, const Json& layout) {
-  const auto report = verify_export({"e", bytes}, {"l.json", layout.dump()}, {});
+std::string judged(const std::string& bytes, const Json& layout, std::vector<std::string> only = {}) {
+  ExportWords words;
+  words.only = std::move(only);
+  const auto report = verify_export({"e", bytes}, {"l.json", layout.dump()}, words);
   if (!report) return report.error().message;
   std::string text;
   for (const std::string& finding : report->findings) text += finding + "\n";
@@ -77,6 +85,33 @@ TEST(VerifyMarkedExports, LettersThatTheFontLacksAreRectanglesInPlots) {
   for (const char* form : {"dxf", "svg", "hpgl"})
     EXPECT_EQ(judged(exported(layout, form), layout), "") << form;
   EXPECT_NE(judged(exported(layout, "hpgl"), sample()), "");
+}
+
+// Such a letter is 16 twenty-firsts of a capital wide.
+TEST(VerifyMarkedExports, LettersBehindOneThatTheFontLacksStandBehindARectangle) {
+  Json layout = sample();
+  layout["parts"][0]["texts"][0]["text"] = "中A";
+  EXPECT_EQ(judged(exported(layout, "hpgl"), layout), "");
+}
+
+TEST(VerifyMarkedExports, ArcsOfMarksTurnAsTheyAreWritten) {
+  Json layout = sample();
+  layout["parts"][0]["marks"][0]["edges"][1] = cases::arc_json(15, 5, 15, 15, 15, 10, false);
+  for (const char* form : {"dxf", "svg", "hpgl"}) {
+    EXPECT_EQ(judged(exported(layout, form), layout), "") << form;
+    EXPECT_NE(judged(exported(layout, form), sample()), "") << form;
+  }
+}
+
+TEST(VerifyMarkedExports, TextsAreEngravedIfTheyAreToBeAndTheFontHasTheirLetters) {
+  const auto is_engraved = [](const char* role, const char* letters) {
+    WrittenPart part;
+    part.texts.emplace_back();
+    part.texts[0].text = letters, part.texts[0].role = role, part.texts[0].height = 3;
+    return placed_inside(part, WrittenPiece{}).at(0).is_engraved;
+  };
+  EXPECT_TRUE(is_engraved("mark", "A") && is_engraved("engrave", "Ж"));
+  EXPECT_FALSE(is_engraved("bend", "A") || is_engraved("mark", "A中"));
 }
 
 TEST(VerifyMarkedExports, EachFieldOfATextIsCompared) {
@@ -146,6 +181,55 @@ TEST(VerifyMarkedExports, TextsHaveTheirOwnColourOrAreBlack) {
     const std::size_t at = svg.rfind("fill=\"" + std::string(own) + "\" stroke=\"none\"");
     EXPECT_TRUE(tells(judged(std::string(svg).replace(at + 6, 7, other), sample()), "is on no part")) << own;
   }
+}
+
+TEST(VerifyMarkedExports, LinesAndTextsAreAskedForAsMarks) {
+  for (const char* form : {"dxf", "svg", "hpgl"})
+    for (const char* layer : {"MARK", "CUT"}) {
+      const std::string bytes = exported(sample(), form, {{"only", layer}});
+      EXPECT_EQ(judged(bytes, sample(), {layer}), "") << form << layer;
+      EXPECT_NE(judged(bytes, sample()), "") << form << layer;
+    }
+}
+
+TEST(VerifyMarkedExports, TheReportSaysHowManyLinesAndTextsWereCompared) {
+  const auto notes_of = [](const Json& layout) {
+    const auto report = verify_export({"e", exported(layout, "svg")}, {"l.json", layout.dump()}, {});
+    std::string notes;
+    if (report)
+      for (const std::string& note : report->notes) notes += note + "\n";
+    return notes;
+  };
+  EXPECT_TRUE(tells(notes_of(sample()), "4 lines and 3 texts on parts were compared both ways"));
+  Json bare = sample();
+  bare["parts"][0].erase("marks"), bare["parts"][0].erase("texts");
+  EXPECT_FALSE(tells(notes_of(bare), "on parts were compared"));
+}
+
+TEST(VerifyMarkedExports, AMarkThatIsPlottedWithThePenOfCutsIsRefused) {
+  Json layout = sample();
+  layout["parts"][0].erase("texts");
+  const std::string plot = exported(layout, "hpgl");
+  ASSERT_EQ(judged(plot, layout), "");
+  EXPECT_NE(judged(replaced(plot, "SP2;", "SP1;"), layout), "");
+  layout["parts"][0]["grain"] = {{"deg", 30}, {"tolerance_deg", 90}};
+  EXPECT_EQ(judged(exported(layout, "hpgl"), layout), "") << "a mark of the grain beside marks of the part";
+}
+
+TEST(VerifyMarkedExports, ASlantedTextIsRefused) {
+  const std::string svg = exported(sample(), "svg");
+  const std::size_t at = svg.find("transform=\"matrix("), end = svg.find(')', at);
+  std::istringstream words(svg.substr(at + 18, end - at - 18));
+  double m[6];
+  for (double& number : m) words >> number;
+  const auto with = [&](double slant) {
+    return judged(std::string(svg).replace(at, end - at,
+                                           fmt::format("transform=\"matrix({} {} {} {} {} {}", m[0], m[1],
+                                                       m[2] + slant * m[0], m[3] + slant * m[1], m[4], m[5])),
+                  sample());
+  };
+  EXPECT_EQ(with(0), "");
+  EXPECT_TRUE(tells(with(0.2), "is on no part"));
 }
 
 TEST(VerifyMarkedExports, ColoursOfLayoutsAreOfSixDigits) {

@@ -119,6 +119,10 @@ TEST(VerifyProfileMoves, WhatIsNotWrittenThereIsRefusedWithItsLine) {
   // A hole that is burnt or drilled is no cut that anything follows.
   refused("G0 X1 Y1\nM3\nG1 Z-1\nG0 Z2", "the beam or tool goes into the material where nothing is cut");
   refused("G0 X1 Y1\nM3\nM5\nG0 X5", "the beam or tool goes into the material where nothing is cut");
+  refused("G0 X1 Y1\nM3\nM5\nG0 Y5", "the beam or tool goes into the material where nothing is cut");
+  refused("G0 X1 Y1\nG0 Z-1\nM3\nG0 Z2\nG0 X5",
+          "the beam or tool goes into the material where nothing is cut");
+  EXPECT_EQ(cuts("G0 X1 Y1\nM3\nM5\nG0 X1 Y1\nM3\nG1 X5"), "7: L 1,1 5,1\n");
   EXPECT_EQ(cuts("G0 X0 Y0\nM3\nG2 X0 Y2 I0 J1"), "4: A 0,1 1 - 0,0 0,2\n");
 }
 

@@ -166,7 +166,7 @@ class ExportCheck {
         return found;
       };
       const std::vector<const DrawnLine*> file = of_look(inner_of_file_), wanted = of_look(inner_);
-      if (wanted.empty() && !is_plot_) {
+      if (wanted.empty()) {
         report_.findings.push_back(fmt::format("something is drawn on a layer \"{}\"{}", file.front()->layer,
                                                look.second.empty() ? "" : " in " + look.second));
         continue;

@@ -64,8 +64,7 @@ class SvgReader {
       if (open == std::string_view::npos) break;
       if (!in_text_ && rest_.substr(0, open).find_first_not_of(" \r\n\t") != std::string_view::npos)
         complain("text where lekalo writes none");
-      if (in_text_ && !texts_.empty() && texts_open_)
-        texts_.back().text = plain_letters(rest_.substr(0, open));
+      if (texts_open_) texts_.back().text = plain_letters(rest_.substr(0, open));
       rest_.remove_prefix(open + 1);
       const std::size_t close = rest_.find('>');
       if (close == std::string_view::npos) return complained("an element is cut off");
@@ -173,11 +172,10 @@ class SvgReader {
 
   void layer(const Attributes& attributes) {
     only(attributes, {"inkscape:groupmode", "inkscape:label", "fill", "stroke", "stroke-width"});
-    const auto label = attributes.find("inkscape:label"), fill = attributes.find("fill");
+    const auto label = attributes.find("inkscape:label");
     if (depth_ != 2 || label == attributes.end()) return complain("a group that is no layer");
     layer_ = label->second;
-    const bool is_line_alone = fill != attributes.end() && fill->second == "none";
-    if (!is_line_alone || !is_colour(colour(attributes, "stroke")) ||
+    if (colour(attributes, "fill") != "none" || !is_colour(colour(attributes, "stroke")) ||
         !(number(attributes, "stroke-width") > 0))
       complain("a layer whose lines are not shown as lines");
   }

@@ -34,15 +34,15 @@ bool TrailingBlade::draw(Place from, Place to, std::vector<Stroke>& lines) {
   if (cosine < kPushed && way > std::max(0.5 * offset_, kRounded)) return false;
   double half = std::clamp(sine / std::max(1 + cosine, 1e-16), -kOpposite, kOpposite);
   Place last = tip(from);
-  for (double gone = 0; gone < way;) {
+  for (double left_over = way; left_over > 0;) {
     // From here on the tip stays within offset * sin(phi) of the line, and so do the ends of its chord.
-    const bool is_straight = std::abs(half) < 1 && 2 * offset_ * std::abs(half) <= within_;
-    const double by = is_straight ? way - gone : std::min(step_, way - gone);
-    gone = is_straight || by == way - gone ? way : gone + by;
+    const bool is_straight = 2 * offset_ * std::abs(half) <= within_;
+    const double by = is_straight ? left_over : std::min(step_, left_over);
+    left_over -= by;
     half *= std::exp(-by / offset_);
     const double scale = 1 / (1 + half * half);
     forward_ = (scale * (1 - half * half)) * along + (2 * half * scale) * left;
-    const Place next = tip(from + gone * along);
+    const Place next = tip(to - left_over * along);
     lines.push_back(line_between(last, next));
     last = next;
   }
