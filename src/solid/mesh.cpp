@@ -20,22 +20,6 @@ namespace {
 /// Predicates are exact from here on (side_of_plane).
 constexpr double kSmallestCoordinate = 0x1p-320;
 
-std::vector<Edge> sorted_edges(const std::vector<Triangle>& triangles) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * triangles.size());
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = triangles[t][k], to = triangles[t][(k + 1) % 3];
-      edges.push_back({std::min(from, to), std::max(from, to), t, from < to});
-    }
-  }
-  ask(edges.size() / 4);
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return std::tuple(a.low, a.high, a.triangle) < std::tuple(b.low, b.high, b.triangle);
-  });
-  return edges;
-}
-
 /// Returns which vertex each becomes: the first at the same place.
 std::vector<std::uint32_t> weld(const std::vector<Vector>& vertices) {
   const auto place = [&](std::uint32_t v) { return std::tuple(vertices[v].x, vertices[v].y, vertices[v].z); };
@@ -108,6 +92,22 @@ bool is_flat(const Mesh& mesh, const Triangle& t) {
 }
 
 }  // namespace
+
+std::vector<Edge> sorted_edges(const std::vector<Triangle>& triangles) {
+  std::vector<Edge> edges;
+  edges.reserve(3 * triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = triangles[t][k], to = triangles[t][(k + 1) % 3];
+      edges.push_back({std::min(from, to), std::max(from, to), t, from < to});
+    }
+  }
+  ask(edges.size() / 4);
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    return std::tuple(a.low, a.high, a.triangle) < std::tuple(b.low, b.high, b.triangle);
+  });
+  return edges;
+}
 
 void Box::hold(Vector p) noexcept {
   low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};

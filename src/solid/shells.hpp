@@ -17,6 +17,9 @@ struct Edge {
   [[nodiscard]] auto ends() const noexcept { return std::pair(low, high); }
 };
 
+/// The edges of all triangles: those between the same two vertices are neighbours.
+[[nodiscard]] std::vector<Edge> sorted_edges(const std::vector<Triangle>& triangles);
+
 /// Calls see(begin, end) for the edges between the same two vertices, as a range of indices. \pre they are
 /// sorted
 template <class See>
