@@ -306,7 +306,10 @@ std::string window_text(const io::SolidDocument& d) {
     return text + " of the start, " + (six ? "turned anyhow," : "turned anyhow about z,");
   if (d.freedom != locate::SolidFreedom::xyz)
     text += fmt::format(" and {} degrees{}", d.window.turn_deg, six ? "" : " about z");
-  return text + " of the start";
+  text += " of the start";
+  if (const double farthest = d.window.farthest_turn_deg(d.freedom); farthest > d.window.turn_deg)
+    text += fmt::format(" (about some axes {:.2f} degrees)", farthest);
+  return text;
 }
 
 std::string start_line(const io::SolidDocument& d) {

@@ -34,7 +34,10 @@ std::string window_text(const SolidReport& report) {
     case locate::SolidFreedom::six:
       break;
   }
-  return fmt::format("{} and turned by up to {}° about any axis", shift, report.turn_deg);
+  const std::string farther = report.farthest_turn_deg > report.turn_deg
+                                  ? fmt::format(" (about some axes up to {:.2f}°)", report.farthest_turn_deg)
+                                  : "";
+  return fmt::format("{} and turned by up to {}° about any axis{}", shift, report.turn_deg, farther);
 }
 
 std::string freedom_text(const SolidReport& report) {

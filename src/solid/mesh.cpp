@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "lekalo/base/counted.hpp"
@@ -91,6 +92,43 @@ bool is_flat(const Mesh& mesh, const Triangle& t) {
          geom::orientation({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) == 0;
 }
 
+/// Which triangles have the corners of one before them, and how they are turned.
+struct Repeats {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  ///< a triangle and the first one like it
+  bool turned_alike = false;                                   ///< one of them is turned as the first one is
+  bool everywhere = true;                                      ///< every triangle is repeated
+};
+Repeats repeats_of(const std::vector<Triangle>& triangles) {
+  struct Sorted {
+    Triangle corners;
+    std::uint32_t triangle;
+    bool even;  ///< the corners turn as they are sorted
+  };
+  std::vector<Sorted> order;
+  order.reserve(triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    Triangle corners = triangles[t];
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    const bool even = corners[1] < corners[2];
+    if (!even) std::swap(corners[1], corners[2]);
+    order.push_back({corners, t, even});
+  }
+  ask(order.size() / 4);
+  std::sort(order.begin(), order.end(), [](const Sorted& a, const Sorted& b) {
+    return std::tie(a.corners, a.triangle) < std::tie(b.corners, b.triangle);
+  });
+  Repeats repeats;
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    for (end = begin + 1; end < order.size() && order[end].corners == order[begin].corners; ++end) {
+      repeats.pairs.emplace_back(order[end].triangle, order[begin].triangle);
+      repeats.turned_alike = repeats.turned_alike || order[end].even == order[begin].even;
+    }
+    repeats.everywhere = repeats.everywhere && end - begin > 1;
+  }
+  std::sort(repeats.pairs.begin(), repeats.pairs.end());
+  return repeats;
+}
+
 }  // namespace
 
 std::vector<Edge> sorted_edges(const std::vector<Triangle>& triangles) {
@@ -144,12 +182,38 @@ Result<ClosedMesh> closed_mesh(Mesh mesh) {
     closed.numbers.push_back(t);
   }
   const std::size_t given = mesh.triangles.size();
-  const auto seams = static_cast<std::size_t>(std::count(flat.begin(), flat.end(), 1));
-  if (seams == kept.size()) return refuse("there are no triangles in it, or none with an area");
+  if (std::count(flat.begin(), flat.end(), 0) == 0)
+    return refuse("there are no triangles in it, or none with an area");
 
   std::vector<Edge> edges = sorted_edges(kept);
   Rim rim = rim_of(edges);
-  if (seams > 0) {
+  // Where bodies touch they may share a triangle, and are turned against each other there.
+  const Repeats repeats = repeats_of(kept);
+  std::size_t repeated = 0;
+  if (!repeats.pairs.empty() && (rim.open > 0 || repeats.turned_alike || repeats.everywhere)) {
+    std::vector<char> again(kept.size(), 0);
+    for (const auto& [triangle, first] : repeats.pairs) again[triangle] = 1;
+    const auto without = [&again](const auto& all) {
+      std::remove_cvref_t<decltype(all)> made;
+      for (std::size_t k = 0; k < all.size(); ++k)
+        if (again[k] == 0) made.push_back(all[k]);
+      return made;
+    };
+    std::vector<Triangle> once = without(kept);
+    std::vector<Edge> edges_of_once = sorted_edges(once);
+    if (const Rim rim_of_once = rim_of(edges_of_once); rim_of_once.open == 0) {
+      repeated = repeats.pairs.size();
+      const auto& [triangle, first] = repeats.pairs.front();
+      closed.notices.push_back(fmt::format(
+          "{} one with the same corners and {} left out, the first of them triangle {}, which repeats "
+          "triangle {}",
+          counted(repeated, "triangle repeats", "triangles repeat"), repeated == 1 ? "is" : "are",
+          closed.numbers[triangle] + 1, closed.numbers[first] + 1));
+      closed.numbers = without(closed.numbers), flat = without(flat);
+      kept = std::move(once), edges = std::move(edges_of_once), rim = rim_of_once;
+    }
+  }
+  if (const auto seams = static_cast<std::size_t>(std::count(flat.begin(), flat.end(), 1)); seams > 0) {
     std::vector<Triangle> others;
     std::vector<std::uint32_t> numbers;
     for (std::size_t k = 0; k < kept.size(); ++k) {
@@ -170,18 +234,22 @@ Result<ClosedMesh> closed_mesh(Mesh mesh) {
     }
   }
   if (rim.open > 0) {
+    std::string and_repeats;
+    if (!repeats.pairs.empty())
+      and_repeats = fmt::format(", and triangle {} repeats triangle {}",
+                                closed.numbers[repeats.pairs.front().first] + 1,
+                                closed.numbers[repeats.pairs.front().second] + 1);
     return refuse(
         fmt::format("the surface is open: {} to one triangle or an odd number of them, the first from {} to "
-                    "{} on triangle {}; "
-                    "close it in the program that the mesh comes from",
+                    "{} on triangle {}{}; close it in the program that the mesh comes from",
                     rim.open == 1 ? std::string("1 edge belongs") : fmt::format("{} edges belong", rim.open),
                     place(mesh.vertices[rim.first.low]), place(mesh.vertices[rim.first.high]),
-                    closed.numbers[rim.first.triangle] + 1));
+                    closed.numbers[rim.first.triangle] + 1, and_repeats));
   }
-  if (kept.size() < given)
+  if (const std::size_t without_area = given - repeated - kept.size(); without_area > 0)
     closed.notices.push_back(fmt::format("{} no area and {} left out",
-                                         counted(given - kept.size(), "triangle has", "triangles have"),
-                                         given - kept.size() == 1 ? "is" : "are"));
+                                         counted(without_area, "triangle has", "triangles have"),
+                                         without_area == 1 ? "is" : "are"));
   mesh.triangles = std::move(kept);
   closed.mesh = std::move(mesh);
   find_shells(edges, closed);

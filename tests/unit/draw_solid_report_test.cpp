@@ -22,7 +22,8 @@ SolidReport example() {
   scene.placement.inside = true, scene.placement.clearance = 1;
   scene.placement.contacts = {{7, 8, {20, 15, 20}, {20, 15, 21}, 1, 1}};
   scene.upper_bound = 1.005;
-  report.shift = 5, report.turn_deg = 3, report.certificate_boxes = 12, report.work = 99;
+  report.shift = 5, report.turn_deg = 3, report.farthest_turn_deg = 5.19, report.certificate_boxes = 12,
+  report.work = 99;
   report.inputs = {{"part", {"a/part.stl", std::string(64, 'a')}, "12 triangles, mm"},
                    {"blank", {"<casting>.ply", std::string(64, 'b')}, "12 triangles, mm"}};
   report.assumptions = {"The blank is taken as drawn."};
@@ -44,8 +45,9 @@ TEST(SolidReport, SaysWhatATechnologistDecidesBy) {
   const std::string svg = solid_report_svg(example());
   for (const char* words :
        {"Placement of part.stl", "in the blank &lt;casting&gt;.ply", ">optimal<", ">1.000000 mm<",
-        ">1.005000 mm<", "no placement moved up to 5 mm along each axis", "up to 3°", "12 boxes of poses",
-        ">7, 8<", "12 triangles, mm", "The blank is taken as drawn.", "Note: It may be in inches.",
+        ">1.005000 mm<", "no placement moved up to 5 mm along each axis",
+        "up to 3° about any axis (about some axes up to 5.19°)", "12 boxes of poses", ">7, 8<",
+        "12 triangles, mm", "The blank is taken as drawn.", "Note: It may be in inches.",
         "allowance of the part, mm", "method certified, work 99", "first-angle projection, one scale"})
     EXPECT_TRUE(has(svg, words)) << words;
   EXPECT_TRUE(has(svg, std::string(64, 'a'))) << "digests are whole";

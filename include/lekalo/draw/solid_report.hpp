@@ -26,6 +26,8 @@ struct SolidReport {
   /// The poses that were looked at, as in locate::SolidProblem: mm, degrees.
   locate::SolidFreedom freedom = locate::SolidFreedom::six;
   double shift = 0, turn_deg = 0;
+  /// Some of them are turned by more than turn_deg, up to this.
+  double farthest_turn_deg = 0;
   std::vector<SolidReportFile> inputs;
   /// The proof, in boxes of poses; none where there is none, or it was not kept.
   std::size_t certificate_boxes = 0;

@@ -59,12 +59,14 @@ struct ClosedMesh {
 
 /// Makes one vertex of those at the same place, leaves out vertices that no triangle has and triangles
 /// without area, and turns triangles round. Triangles without area stay if the surface does not close without
-/// them: they fill the seam between a long edge and the short ones beside it. Coordinates below 2^-320 mm
-/// become 0.
+/// them: they fill the seam between a long edge and the short ones beside it. A triangle repeats another one
+/// where it has the same corners. Repeats are left out if the surface closes without them, and either is open
+/// with them, or one of them is turned as the other, or every triangle is repeated, as where both sides of a
+/// surface were written; else two bodies touch there. Coordinates below 2^-320 mm become 0.
 ///
 /// Fails with bad_input and one sentence that names places and the way out: no triangles, a vertex that is
 /// not finite or beyond limits::kLargestCoordinate, or edges with an odd number of triangles. Triangles are
-/// counted from 1 in the order given. It does not ask whether the surface crosses itself. Cost: O(n log n),
+/// counted from 1 in the order given. Whether the surface crosses itself `crossings` says. Cost: O(n log n),
 /// and for each of several shells what lies above a few places of it.
 [[nodiscard]] Result<ClosedMesh> closed_mesh(Mesh mesh);
 

@@ -1,9 +1,12 @@
 #include "lekalo/io/locate/solid_result_json.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "lekalo/base/angle.hpp"
 #include "lekalo/base/rounding.hpp"
 #include "lekalo/base/version.hpp"
+#include "lekalo/geom/trig.hpp"
 #include "lekalo/io/locate/solid_certificate.hpp"
 #include "result_lines.hpp"
 #include "touch_proof.hpp"
@@ -188,6 +191,16 @@ void write_proof(JsonWriter& json, const SolidDocument& d) {
 }
 
 }  // namespace
+
+double SolidWindow::farthest_turn_deg(locate::SolidFreedom freedom) const noexcept {
+  constexpr double kAllTurns = 180, kHundredths = 100;
+  if (freedom != locate::SolidFreedom::six || turn_deg == 0 || turn_deg == kAllTurns) return turn_deg;
+  // Rotations are counted by tan(angle / 2), along each axis, so those at the corners have the root of 3
+  // times as much.
+  const geom::SinCos half = geom::sincos(0.5 * turn_deg * kDegree);
+  const double turn = 2 * geom::direction_angle(half.cosine, std::sqrt(3.0) * half.sine);
+  return std::ceil(kHundredths * turn * kDegreesPerRadian) / kHundredths;
+}
 
 double SolidDatumRecord::missed() const noexcept { return kept() ? 0 : difference_rounded_up(off, within); }
 

@@ -69,6 +69,30 @@ void warn_of_names(const SolidLocateJob& job, std::vector<std::string>& warnings
     if (const auto warning = warning_of_name(name)) warnings.push_back(*warning);
 }
 
+/// Part and blank are about as large as each other, as a rule: where one is so many times as large that a
+/// unit explains it, the other is most likely in that unit.
+void warn_of_units(const SolidLocateJob& job, const SolidInputs& in, std::vector<std::string>& warnings) {
+  constexpr double kSuspicious = 15, kMostInches = 45, kLeastMetres = 500, kMostMetres = 2000;
+  const auto size = [](const solid::Mesh& mesh) {
+    const solid::Box box = box_of(mesh.vertices);
+    return box.high - box.low;
+  };
+  const Vector part = size(in.problem.part), blank = size(in.problem.blank);
+  const bool part_is_small = norm(part) < norm(blank);
+  const double times = part_is_small ? norm(blank) / norm(part) : norm(part) / norm(blank);
+  if (!(times > kSuspicious)) return;
+  const std::string& small = part_is_small ? job.part.name : job.blank.name;
+  const char* const unit = times < kMostInches                           ? "inches"
+                           : times > kLeastMetres && times < kMostMetres ? "metres"
+                                                                         : "another unit";
+  const auto extent = [](Vector v) { return fmt::format("{:.4g} x {:.4g} x {:.4g} mm", v.x, v.y, v.z); };
+  warnings.push_back(fmt::format(
+      "{} measures {} and {} {}, {:.3g} times {}, as if {} were in {}; --units is said of both files, so "
+      "convert one of them, or give it as 3MF, which says its own unit",
+      job.part.name, extent(part), job.blank.name, extent(blank), times, part_is_small ? "as much" : "less",
+      small, unit));
+}
+
 /// A part that begins far from its blank fits nowhere in a small window: then its start is worth a word.
 void warn_of_start(const SolidInputs& in, std::vector<std::string>& warnings) {
   const locate::SolidProblem& p = in.problem;
@@ -328,6 +352,7 @@ io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&
   d.warnings = job.warnings;
   d.warnings.insert(d.warnings.end(), in.notices.begin(), in.notices.end());
   warn_of_names(job, d.warnings);
+  warn_of_units(job, in, d.warnings);
   d.work = found.best.work, d.freedom = job.options.freedom;
   d.start = job.options.find_start ? "found" : job.start ? "file" : "drawn";
   d.window = {in.problem.start, in.pivot, in.problem.shift, in.turn_deg};

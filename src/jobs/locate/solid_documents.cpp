@@ -134,6 +134,7 @@ Result<std::string> page_of(draw::SolidScene scene, const io::SolidDocument& d, 
   draw::SolidReport report;
   report.scene = std::move(scene);
   report.freedom = d.freedom, report.shift = d.window.shift, report.turn_deg = d.window.turn_deg;
+  report.farthest_turn_deg = d.window.farthest_turn_deg(d.freedom);
   for (const io::SolidInputRecord& input : d.inputs)
     report.inputs.push_back(
         {input.role, input.file,

@@ -11,6 +11,7 @@
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/limits.hpp"
 #include "lekalo/geom/trig.hpp"
+#include "lekalo/solid/crossing.hpp"
 #include "point_blank.hpp"
 #include "touched_blank.hpp"
 
@@ -46,14 +47,51 @@ tl::unexpected<Error> refuse_pair(const std::string& solid, const std::string& o
                              solid, outline));
 }
 
+/// Refuses a surface that goes through itself: nobody can say of it what is inside.
+Result<void> refuse_crossings(const std::string& name, const solid::Mesh& mesh,
+                              const std::vector<std::uint32_t>& numbers, std::vector<std::string>& notices) {
+  const solid::Crossings found = solid::crossings(mesh);
+  const auto where = [&](const solid::Crossing& crossing) {
+    return fmt::format(
+        "({:.6g}, {:.6g}, {:.6g}), on triangle {}{}", crossing.place.x, crossing.place.y, crossing.place.z,
+        numbers[crossing.triangle] + 1,
+        crossing.other ? fmt::format(" through triangle {}", numbers[*crossing.other] + 1) : "");
+  };
+  if (found.changing)
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format("{}: the surface crosses itself at {}, and beyond that nothing says which side "
+                    "is material; unite bodies that overlap, or mend the mesh, in the program that "
+                    "it comes from",
+                    name, where(*found.changing)));
+  if (found.first)
+    notices.push_back(fmt::format(
+        "{}: {} or ends on another, the first at {}; what lies between is nowhere {} mm thick as far as was "
+        "looked, and all surfaces count as they are",
+        name,
+        found.edges == 1 ? "an edge of a triangle goes through another"
+                         : fmt::format("each of {} edges of triangles goes through another", found.edges),
+        where(*found.first), found.depth));
+  if (!found.complete)
+    notices.push_back(fmt::format(
+        "{}: too many of its triangles lie on each other to look at all of them for crossings", name));
+  return {};
+}
+
+/// What a mesh stands for: a body as it was drawn, or a surface through measured points. What is proved of
+/// the latter rests on the odd count, and so on no side of its sheets.
+enum class Surface : std::uint8_t { drawn, measured };
+
 /// Closes the mesh of a file that was read.
-Result<void> close_solid(const File& file, io::SolidFile parsed, solid::Mesh& mesh, double& error,
-                         ReadSolid& read, std::vector<std::string>& notices) {
+Result<void> close_solid(const File& file, io::SolidFile parsed, Surface surface, solid::Mesh& mesh,
+                         double& error, ReadSolid& read, std::vector<std::string>& notices) {
   error = parsed.coordinate_error, read.unit = parsed.unit;
   read.triangles = parsed.mesh.triangles.size(), read.deviation = parsed.deviation;
   Result<solid::ClosedMesh> closed = solid::closed_mesh(std::move(parsed.mesh));
   if (!closed) return failure(closed.error().code, fmt::format("{}: {}", file.name, closed.error().message));
   for (const std::string& notice : closed->notices) notices.push_back(file.name + ": " + notice);
+  if (surface == Surface::drawn)
+    LEKALO_CHECK(refuse_crossings(file.name, closed->mesh, closed->numbers, notices));
   mesh = std::move(closed->mesh);
   read.numbers = std::move(closed->numbers);
   read.turned = std::move(closed->turned);
@@ -69,7 +107,8 @@ Result<void> read_blank(const SolidLocateJob& job, const PhaseListener& phases, 
   const bool points = parsed.mesh.triangles.empty() && !parsed.mesh.vertices.empty();
   if (!points) {
     io::SolidFile kept = job.outputs.mesh.empty() ? io::SolidFile{} : parsed;
-    Result<void> closed = close_solid(job.blank, std::move(parsed), in.problem.blank,
+    const Surface surface = job.options.scan ? Surface::measured : Surface::drawn;
+    Result<void> closed = close_solid(job.blank, std::move(parsed), surface, in.problem.blank,
                                       in.problem.blank_coordinate_error, in.blank, in.notices);
     if (closed) {
       if (!job.outputs.mesh.empty())
@@ -91,7 +130,7 @@ Result<void> read_blank(const SolidLocateJob& job, const PhaseListener& phases, 
              io::parse_solid(in.meshed->mesh.bytes, in.meshed->mesh.name, {io::SolidUnit::millimetre}));
   // Nobody can mend its surface where points of two sides lie close.
   std::vector<std::string> unsaid;
-  LEKALO_CHECK(close_solid(in.meshed->mesh, std::move(meshed), in.problem.blank,
+  LEKALO_CHECK(close_solid(in.meshed->mesh, std::move(meshed), Surface::measured, in.problem.blank,
                            in.problem.blank_coordinate_error, in.blank, unsaid));
   in.problem.blank_coordinate_error = parsed.coordinate_error;
   return {};
@@ -243,8 +282,8 @@ Result<void> read_part(const SolidLocateJob& job, SolidInputs& in) {
     return refuse_points(job.part.name, "export the part as STL, PLY or OBJ with triangles");
   in.notices.insert(in.notices.end(), parsed.notices.begin(), parsed.notices.end());
   LEKALO_CHECK(read_features(job, parsed, in));
-  LEKALO_CHECK(close_solid(job.part, std::move(parsed), in.problem.part, in.problem.part_coordinate_error,
-                           in.part, in.notices));
+  LEKALO_CHECK(close_solid(job.part, std::move(parsed), Surface::drawn, in.problem.part,
+                           in.problem.part_coordinate_error, in.part, in.notices));
   return set_demands(job, in);
 }
 

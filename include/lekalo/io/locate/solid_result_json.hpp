@@ -34,6 +34,9 @@ struct SolidWindow {
   solid::Vector pivot;  ///< the point of the part whose place may differ by `shift`; part coordinates, mm
   double shift = 0;     ///< mm
   double turn_deg = 0;
+  /// A box of rotations that holds all turns up to turn_deg about any axis has others at its corners. None is
+  /// farther from the start than this, rounded up to hundredths.
+  [[nodiscard]] double farthest_turn_deg(locate::SolidFreedom freedom) const noexcept;
 };
 
 /// The statements about a blank that is its nominal mesh, moved to touches, and why they hold it there.
