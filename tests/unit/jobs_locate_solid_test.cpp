@@ -820,6 +820,72 @@ TEST(JobsLocateSolid, BadFilesAreRefusedWithPlaceAndWayOut) {
   refuses("v 0 0 nan\n", {});
 }
 
+/// What an overlap of two bodies holds counted as air, and nothing but a note said so.
+TEST(JobsLocateSolid, AMeshThatCrossesItselfIsRefusedWithPlaceAndWayOut) {
+  solid::Mesh crossing = cases::block({-22, -17, -13}, {24, 17, 11});
+  cases::append(crossing, cases::block({23, -5, -5}, {40, 5, 6}));
+  SolidLocateJob job = block_job();
+  job.blank.bytes = solid_files::obj(crossing);
+  const Error of_blank = refusal(job);
+  EXPECT_EQ(of_blank.code, ErrorCode::bad_input);
+  for (const char* words : {"casting.obj: the surface crosses itself at (2", ", on triangle ",
+                            "; unite bodies that overlap, or mend the mesh"})
+    EXPECT_TRUE(says(of_blank.message, words)) << of_blank.message;
+  job = block_job();
+  job.part.bytes = solid_files::stl_text(crossing);
+  EXPECT_TRUE(says(refusal(job).message, "folder/part.stl: the surface crosses itself at (2"))
+      << refusal(job).message;
+}
+
+TEST(JobsLocateSolid, ACrossingThatIsThinIsToldAndKept) {
+  solid::Mesh beside = cases::block({-22, -17, -13}, {24, 17, 11});
+  cases::append(beside, cases::block({23.999, -5, -5}, {40, 5, 6}));
+  SolidLocateJob job = block_job();
+  job.blank.bytes = solid_files::obj(beside);
+  const LocatedSolid located = made(job);
+  EXPECT_TRUE(located.holds());
+  EXPECT_TRUE(warns(located, " edges go through other triangles or end on them, the first at ("))
+      << located.result;
+  EXPECT_TRUE(warns(located, "what lies between is nowhere 0.01 mm thick")) << located.result;
+}
+
+TEST(JobsLocateSolid, ARepeatedTriangleIsToldAndConfirmed) {
+  SolidLocateJob job = block_job();
+  solid::Mesh blank = cases::block({-22, -17, -13}, {24, 17, 11});
+  blank.triangles.insert(blank.triangles.begin() + 4, blank.triangles[1]);
+  job.blank.bytes = solid_files::obj(blank);
+  job.options.method = SolidMethod::certified, job.options.gap = 0.1;
+  const LocatedSolid located = made(job);
+  EXPECT_TRUE(warns(located,
+                    "casting.obj: 1 triangle repeats one with the same corners and is left out, the "
+                    "first of them triangle 5, which repeats triangle 2"))
+      << located.result;
+  EXPECT_EQ(verdict(job, located), verify::Verdict::confirmed);
+}
+
+TEST(JobsLocateSolid, PartAndBlankInDifferentUnitsAreToldByTheirSizes) {
+  SolidLocateJob job = block_job();
+  const auto scaled = [](double by) {
+    solid::Mesh mesh = cases::block({-22, -17, -13}, {24, 17, 11});
+    for (solid::Vector& p : mesh.vertices) p = by * p;
+    return solid_files::obj(mesh);
+  };
+  job.blank.bytes = scaled(1 / 25.4);
+  EXPECT_TRUE(
+      warns(made(job),
+            "folder/part.stl measures 40 x 30 x 20 mm and casting.obj 1.811 x 1.339 x 0.9449 mm, so "
+            "casting.obj seems to be in inches; --units is said of both files: convert one of them, or "
+            "give it as 3MF, which says its own unit"));
+  job.blank.bytes = scaled(25.4);
+  EXPECT_TRUE(warns(made(job), "so folder/part.stl seems to be in inches; --units"));
+  job.blank.bytes = scaled(0.001);
+  EXPECT_TRUE(warns(made(job), "so casting.obj seems to be in metres; --units"));
+  for (const double by : {1.0, 3.0, 10.0}) {
+    job.blank.bytes = scaled(by);
+    EXPECT_FALSE(warns(made(job), "seems to be in")) << by;
+  }
+}
+
 TEST(JobsLocateSolid, AStartIsAResultForSolids) {
   SolidLocateJob job = block_job();
   const auto refuses = [&](const std::string& bytes, const std::string& word) {

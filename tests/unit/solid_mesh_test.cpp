@@ -165,6 +165,49 @@ TEST(ClosedMesh, AShellWithinAnotherIsAVoidAndABodyWithinThatABody) {
   EXPECT_TRUE(again->notices.empty()) << again->notices[0];
 }
 
+TEST(ClosedMesh, ARepeatedTriangleIsLeftOutOrNamed) {
+  Mesh mesh = cases::block({0, 0, 0}, {1, 1, 1});
+  mesh.triangles.insert(mesh.triangles.begin() + 5, mesh.triangles[2]);
+  const auto once = closed_mesh(loose(mesh));
+  ASSERT_TRUE(once) << once.error().message;
+  EXPECT_EQ(once->mesh.triangles.size(), 12u);
+  EXPECT_EQ(once->numbers[5], 6u);
+  EXPECT_EQ(once->notices, (std::vector<std::string>{
+                               "1 triangle repeats one with the same corners and is left out, the first "
+                               "of them triangle 6, which repeats triangle 3"}));
+  mesh.triangles.pop_back();
+  const std::string said = refusal(mesh);
+  EXPECT_EQ(said.find("the surface is open: "), 0u) << said;
+  EXPECT_NE(said.find(", and triangle 6 repeats triangle 3; close it in the program"), std::string::npos)
+      << said;
+}
+
+TEST(ClosedMesh, ABodyThatIsWrittenTwiceOrFromBothSidesCountsOnce) {
+  const Mesh right = cases::block({0, 0, 0}, {1, 1, 1});
+  for (const bool from_both_sides : {false, true}) {
+    Mesh mesh = right;
+    cases::append(mesh, right);
+    if (from_both_sides) turn_round(mesh, 12, 24);
+    const auto made = closed_mesh(mesh);
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_EQ(made->mesh.triangles.size(), 12u);
+    EXPECT_TRUE(solid::TriangleTree(made->mesh).holds({0.5, 0.5, 0.25}));
+    ASSERT_EQ(made->notices.size(), 1u);
+    EXPECT_EQ(made->notices[0].find("12 triangles repeat one with the same corners and are left out"), 0u)
+        << made->notices[0];
+  }
+}
+
+TEST(ClosedMesh, BodiesThatTouchInTrianglesKeepThem) {
+  Mesh mesh = cases::block({0, 0, 0}, {1, 1, 1}), beside = mesh;
+  for (Vector& p : beside.vertices) p.x = 2 - p.x;
+  turn_round(beside, 0, 12);
+  cases::append(mesh, beside);
+  const auto made = closed_mesh(mesh);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->mesh.triangles.size(), 24u);
+}
+
 TEST(ClosedMesh, WhatCannotBeToldStaysAsItIs) {
   // Two blocks that share an edge: four triangles meet there.
   Mesh edge = cases::block({0, 0, 0}, {1, 1, 1});

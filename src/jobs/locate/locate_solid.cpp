@@ -86,11 +86,11 @@ void warn_of_units(const SolidLocateJob& job, const SolidInputs& in, std::vector
                            : times > kLeastMetres && times < kMostMetres ? "metres"
                                                                          : "another unit";
   const auto extent = [](Vector v) { return fmt::format("{:.4g} x {:.4g} x {:.4g} mm", v.x, v.y, v.z); };
-  warnings.push_back(fmt::format(
-      "{} measures {} and {} {}, {:.3g} times {}, as if {} were in {}; --units is said of both files, so "
-      "convert one of them, or give it as 3MF, which says its own unit",
-      job.part.name, extent(part), job.blank.name, extent(blank), times, part_is_small ? "as much" : "less",
-      small, unit));
+  warnings.push_back(
+      fmt::format("{} measures {} and {} {}, so {} seems to be in {}; --units is said of both files: convert "
+                  "one of them, "
+                  "or give it as 3MF, which says its own unit",
+                  job.part.name, extent(part), job.blank.name, extent(blank), small, unit));
 }
 
 /// A part that begins far from its blank fits nowhere in a small window: then its start is worth a word.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lekalo/base/angle.hpp"
+#include "lekalo/base/counted.hpp"
 #include "lekalo/base/limits.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/solid/crossing.hpp"
@@ -65,13 +66,13 @@ Result<void> refuse_crossings(const std::string& name, const solid::Mesh& mesh,
                     "it comes from",
                     name, where(*found.changing)));
   if (found.first)
-    notices.push_back(fmt::format(
-        "{}: {} or ends on another, the first at {}; what lies between is nowhere {} mm thick as far as was "
-        "looked, and all surfaces count as they are",
-        name,
-        found.edges == 1 ? "an edge of a triangle goes through another"
-                         : fmt::format("each of {} edges of triangles goes through another", found.edges),
-        where(*found.first), found.depth));
+    notices.push_back(
+        fmt::format("{}: {}, the first at {}; what lies between is nowhere {} mm thick as far as was looked, "
+                    "and all surfaces count as they are",
+                    name,
+                    counted(found.edges, "edge goes through another triangle or ends on it",
+                            "edges go through other triangles or end on them"),
+                    where(*found.first), found.depth));
   if (!found.complete)
     notices.push_back(fmt::format(
         "{}: too many of its triangles lie on each other to look at all of them for crossings", name));
