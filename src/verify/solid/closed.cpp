@@ -74,6 +74,42 @@ std::optional<Edge> open_edge(const std::vector<std::array<std::uint32_t, 3>>& t
   return std::nullopt;
 }
 
+/// Leaves of the triangles on the same three corners the first one, where the surface closes so, and they
+/// mean it only once: it is open with them, or two of them are turned alike, or no triangle stands alone.
+void drop_repeats(Kept& all) {
+  using Corners = std::array<std::uint32_t, 3>;
+  const auto sorted = [](Corners t) {
+    std::ranges::sort(t);
+    return t;
+  };
+  /// Turned alike are those whose corners follow each other in the same order from the least one on.
+  const auto from_least = [](Corners t) {
+    std::ranges::rotate(t, std::ranges::min_element(t));
+    return t;
+  };
+  std::vector<std::pair<Corners, std::size_t>> order;
+  for (std::size_t k = 0; k < all.triangles.size(); ++k) order.emplace_back(sorted(all.triangles[k]), k);
+  ask(order.size());
+  std::ranges::sort(order);
+  std::vector<char> first(order.size(), 1);
+  bool alike = false, alone = false, any = false;
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    while (end < order.size() && order[end].first == order[begin].first) ++end;
+    alone = alone || end - begin == 1;
+    any = any || end - begin > 1;
+    for (std::size_t k = begin + 1; k < end; ++k) {
+      first[order[k].second] = 0;
+      alike = alike ||
+              from_least(all.triangles[order[k].second]) == from_least(all.triangles[order[begin].second]);
+    }
+  }
+  if (!any || (!alike && alone && !open_edge(all.triangles))) return;
+  Kept once;
+  for (std::size_t k = 0; k < first.size(); ++k)
+    if (first[k] != 0) once.add(all.triangles[k], all.numbers[k]);
+  if (!open_edge(once.triangles)) all = std::move(once);
+}
+
 template <class Number>
 Of3<Number> normal_of(const SolidMesh& mesh, const std::array<std::uint32_t, 3>& triangle,
                       Number (SolidMesh::*coordinate)(std::uint32_t, std::size_t) const) {
@@ -103,7 +139,11 @@ Result<SolidMesh> closed(SolidMesh mesh, const std::string& name) {
     const std::array<std::uint32_t, 3> t{becomes[a], becomes[b], becomes[c]};
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
     all.add(t, mesh.numbers[k]);
-    if (!is_flat(mesh, t)) with_area.add(t, mesh.numbers[k]);
+  }
+  drop_repeats(all);
+  for (std::size_t k = 0; k < all.triangles.size(); ++k) {
+    ask();
+    if (!is_flat(mesh, all.triangles[k])) with_area.add(all.triangles[k], all.numbers[k]);
   }
   const auto with = [&](Kept& kept) {
     mesh.triangles = std::move(kept.triangles), mesh.numbers = std::move(kept.numbers);
