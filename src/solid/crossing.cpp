@@ -17,7 +17,7 @@
 namespace lekalo::solid {
 namespace {
 
-/// What is nowhere as thick as this, mm, or as this part of the body, is too thin for anything to lie in it.
+/// A layer that is nowhere as thick as this, mm, or as this part of the body, is too thin to hold anything.
 constexpr double kThick = 0.01, kThickPart = 0x1p-10;
 /// Places that are nearer than this part of the coordinates cannot be told apart.
 constexpr double kNear = 0x1p-40;
@@ -221,8 +221,8 @@ class CrossingFinder {
       const Edge &a = edges[begin], &b = edges[end - 1];
       if (end - begin == 2) static_cast<void>(sheets.unite(a.triangle, b.triangle, a.forward == b.forward));
     });
-    // Of each sheet, first by a look before the triangle, the triangles that have inside there and those that
-    // have not, as seen from one side of the sheet.
+    // The triangles of each sheet that have no inside before them, and those that have, as a quick look at one
+    // place says; before is a side of the sheet.
     const std::size_t step = found_.first ? 1 : (count + kMostSamples - 1) / kMostSamples;
     std::vector<std::array<std::vector<std::uint32_t>, 2>> of_sheet(count);
     for (std::uint32_t t = 0; t < count; t += static_cast<std::uint32_t>(step)) {

@@ -92,7 +92,7 @@ bool is_flat(const Mesh& mesh, const Triangle& t) {
          geom::orientation({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) == 0;
 }
 
-/// Which triangles have the corners of one before them, and how they are turned.
+/// Triangles that have the corners of one before them, and how they are turned.
 struct Repeats {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  ///< a triangle and the first one like it
   bool turned_alike = false;                                   ///< one of them is turned as the first one is
@@ -187,7 +187,7 @@ Result<ClosedMesh> closed_mesh(Mesh mesh) {
 
   std::vector<Edge> edges = sorted_edges(kept);
   Rim rim = rim_of(edges);
-  // Where bodies touch they may share a triangle, and are turned against each other there.
+  // Bodies that touch may share a triangle, and are turned against each other there, so repeats may be meant.
   const Repeats repeats = repeats_of(kept);
   std::size_t repeated = 0;
   if (!repeats.pairs.empty() && (rim.open > 0 || repeats.turned_alike || repeats.everywhere)) {

@@ -79,8 +79,8 @@ Result<void> refuse_crossings(const std::string& name, const solid::Mesh& mesh,
   return {};
 }
 
-/// What a mesh stands for: a body as it was drawn, or a surface through measured points. What is proved of
-/// the latter rests on the odd count, and so on no side of its sheets.
+/// A mesh stands for a body as it was drawn, or for a surface through measured points, of which all that is
+/// proved rests on the odd count, and so on no side of its sheets.
 enum class Surface : std::uint8_t { drawn, measured };
 
 /// Closes the mesh of a file that was read.
