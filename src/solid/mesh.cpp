@@ -185,6 +185,14 @@ Result<ClosedMesh> closed_mesh(Mesh mesh) {
   if (std::count(flat.begin(), flat.end(), 0) == 0)
     return refuse("there are no triangles in it, or none with an area");
 
+  const Box box = box_of(mesh.vertices);
+  for (const auto& [axis, low, high] :
+       {std::tuple('x', box.low.x, box.high.x), {'y', box.low.y, box.high.y}, {'z', box.low.z, box.high.z}})
+    if (low == high)
+      return refuse(
+          fmt::format("all of it lies in the plane {} = {:.6g}, so it encloses nothing; export it as "
+                      "a solid body",
+                      axis, low));
   std::vector<Edge> edges = sorted_edges(kept);
   Rim rim = rim_of(edges);
   // Bodies that touch may share a triangle, and are turned against each other there, so repeats may be meant.

@@ -548,7 +548,7 @@ TEST(JobsLocateSolid, AnEarlierResultIsAStart) {
   const LocatedSolid far = made(job);
   EXPECT_FALSE(far.document.inside());
   EXPECT_FALSE(far.holds());
-  EXPECT_TRUE(warns(far, "reaches 98 mm out of the box around the blank along x, farther")) << far.result;
+  EXPECT_TRUE(warns(far, "reaches out of the box around the blank by 98 mm along x, farther")) << far.result;
   job.options.shift = 120;
   const LocatedSolid found = made(job);
   ASSERT_TRUE(found.document.inside());
@@ -861,6 +861,23 @@ TEST(JobsLocateSolid, ARepeatedTriangleIsToldAndConfirmed) {
                     "first of them triangle 5, which repeats triangle 2"))
       << located.result;
   EXPECT_EQ(verdict(job, located), verify::Verdict::confirmed);
+}
+
+TEST(JobsLocateSolid, APartThatIsLargerThanItsBlankIsToldToBeExchanged) {
+  SolidLocateJob job = block_job();
+  std::swap(job.part, job.blank);
+  EXPECT_TRUE(warns(made(job),
+                    "casting.obj has a volume of 3.754e+04 mm3 and folder/part.stl only 2.4e+04, so "
+                    "it fits nowhere; is --part the blank, and --blank the part?"));
+  EXPECT_FALSE(warns(made(block_job()), "has a volume of"));
+}
+
+TEST(JobsLocateSolid, AStartThatIsFarOffIsToldInOneSentence) {
+  SolidLocateJob job = block_job();
+  job.part.bytes = solid_files::stl_text(cases::block({80, 85, 90}, {120, 115, 110}));
+  EXPECT_TRUE(warns(made(job),
+                    "at the start the part reaches out of the box around the blank by 96 mm along x, "
+                    "98 mm along y, 99 mm along z, farther than it may be shifted (5 mm); let it"));
 }
 
 TEST(JobsLocateSolid, PartAndBlankInDifferentUnitsAreToldByTheirSizes) {

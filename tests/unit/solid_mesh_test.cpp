@@ -252,6 +252,13 @@ TEST(ClosedMesh, CoordinatesThatPredicatesDoNotTakeAreZero) {
   EXPECT_EQ(made->mesh.vertices[0].x, 0);
 }
 
+TEST(ClosedMesh, AFlatMeshEnclosesNothing) {
+  Mesh mesh = cases::block({0, 0, 0}, {1, 1, 1});
+  for (Vector& p : mesh.vertices) p.y = 0.5;
+  EXPECT_EQ(refusal(mesh),
+            "all of it lies in the plane y = 0.5, so it encloses nothing; export it as a solid body");
+}
+
 TEST(ClosedMesh, RefusesWhatIsNoMesh) {
   EXPECT_EQ(refusal({}), "there are no triangles in it, or none with an area");
   Mesh mesh = cases::block({0, 0, 0}, {1, 1, 1});

@@ -91,7 +91,11 @@ class TextStl {
         const auto word = words_.next();
         if (!word) return ends_early();
         const auto read = read_millimetres(*word, made_.unit());
-        if (!read) return refuse_here(number_sentence(read.error(), *word));
+        if (!read)
+          return refuse_here(number_sentence(read.error(), *word) +
+                             (word->find(',') != std::string_view::npos
+                                  ? "; write numbers with a point, not a comma, before their decimals"
+                                  : ""));
         number = *read;
       }
       made_.add_vertex({xyz[0].value, xyz[1].value, xyz[2].value},
@@ -169,7 +173,8 @@ Result<void> read_stl(std::string_view bytes, SolidBuilder& made) {
     if (const std::string fault = wrong_characters(bytes); !fault.empty()) return refuse(made.name(), fault);
     LEKALO_CHECK(TextStl(bytes, made).read());
   }
-  if (made.triangles() == 0) return refuse(made.name(), "there are no triangles in this STL");
+  if (made.triangles() == 0)
+    return refuse(made.name(), "there are no triangles in this STL; export it again");
   return {};
 }
 

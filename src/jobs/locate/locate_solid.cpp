@@ -93,6 +93,16 @@ void warn_of_units(const SolidLocateJob& job, const SolidInputs& in, std::vector
                   job.part.name, extent(part), job.blank.name, extent(blank), small, unit));
 }
 
+/// A part that is larger than its blank fits nowhere, so the two are exchanged as a rule.
+void warn_of_exchange(const SolidLocateJob& job, const SolidInputs& in, std::vector<std::string>& warnings) {
+  if (!in.part.volume || !in.blank.volume || in.demands || !(*in.part.volume > *in.blank.volume)) return;
+  warnings.push_back(
+      fmt::format("{} has a volume of {:.4g} mm3 and {} only {:.4g}, so it fits nowhere; is --part the "
+                  "blank, and --blank "
+                  "the part?",
+                  job.part.name, *in.part.volume, job.blank.name, *in.blank.volume));
+}
+
 /// A part that begins far from its blank fits nowhere in a small window: then its start is worth a word.
 void warn_of_start(const SolidInputs& in, std::vector<std::string>& warnings) {
   const locate::SolidProblem& p = in.problem;
@@ -101,15 +111,17 @@ void warn_of_start(const SolidInputs& in, std::vector<std::string>& warnings) {
   solid::Box part;
   for (const Vector v : p.part.vertices) part.hold(motion(v));
   const Vector below = blank.low - part.low, above = part.high - blank.high;
-  for (const auto& [axis, out] : {std::pair{'x', std::max(below.x, above.x)},
-                                  {'y', std::max(below.y, above.y)},
-                                  {'z', std::max(below.z, above.z)}})
-    if (out > p.shift)
-      warnings.push_back(fmt::format(
-          "at the start the part reaches {:.4g} mm out of the box around the blank along {}, farther than it "
-          "may be shifted ({} mm); let it begin elsewhere with --start or --find-start, move a file, or say "
-          "--shift",
-          out, axis, p.shift));
+  std::string out;
+  for (const auto& [axis, by] : {std::pair{'x', std::max(below.x, above.x)},
+                                 {'y', std::max(below.y, above.y)},
+                                 {'z', std::max(below.z, above.z)}})
+    if (by > p.shift) out += fmt::format("{}{:.4g} mm along {}", out.empty() ? "" : ", ", by, axis);
+  if (!out.empty())
+    warnings.push_back(fmt::format(
+        "at the start the part reaches out of the box around the blank by {}, farther than it may "
+        "be shifted ({} mm); let it begin elsewhere with --start or --find-start, move a file, or "
+        "say --shift",
+        out, p.shift));
 }
 
 /// The decimals of a pose, or the words of an offset, are within this share of the doubles whose clearance is
@@ -389,7 +401,7 @@ io::SolidDocument document_of(const SolidLocateJob& job, SolidInputs& in, Found&
   if (d.inside())
     d.contacts = with_file_numbers(std::move(found.best.contacts), in);
   else
-    warn_of_start(in, d.warnings);
+    warn_of_exchange(job, in, d.warnings), warn_of_start(in, d.warnings);
   d.proof = std::move(found.proof);
   d.part_numbers = in.part.numbers, d.blank_numbers = in.blank.numbers;
   d.part_turned = in.part.turned, d.blank_turned = in.blank.turned;

@@ -93,6 +93,12 @@ Result<void> close_solid(const File& file, io::SolidFile parsed, Surface surface
   for (const std::string& notice : closed->notices) notices.push_back(file.name + ": " + notice);
   if (surface == Surface::drawn)
     LEKALO_CHECK(refuse_crossings(file.name, closed->mesh, closed->numbers, notices));
+  read.volume = 0;
+  for (const solid::Shell& shell : closed->shells)
+    if (shell.depth && read.volume)
+      *read.volume += shell.volume;
+    else
+      read.volume.reset();
   mesh = std::move(closed->mesh);
   read.numbers = std::move(closed->numbers);
   read.turned = std::move(closed->turned);

@@ -16,6 +16,7 @@ struct ReadSolid {
   io::SolidUnit unit = io::SolidUnit::millimetre;
   std::size_t triangles = 0;        ///< of the file
   std::optional<double> deviation;  ///< of a mesh by lekalo-step, mm
+  std::optional<double> volume;     ///< mm3, if the depths of all shells are known
   /// The number in the file of each triangle of the mesh, and which are turned round.
   std::vector<std::uint32_t> numbers;
   std::vector<bool> turned;
