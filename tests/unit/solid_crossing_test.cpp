@@ -125,8 +125,12 @@ TEST(Crossings, OfWavyRingsTheyAgreeWithWindingNumbers) {
       const double around = std::abs(winding(mesh, p));
       strange = around > 1.5;
     }
-    if (strange) EXPECT_TRUE(found.changing) << seed;
-    if (found.edges == 0) EXPECT_FALSE(found.changing) << seed;
+    if (strange) {
+      EXPECT_TRUE(found.changing) << seed;
+    }
+    if (found.edges == 0) {
+      EXPECT_FALSE(found.changing) << seed;
+    }
     (found.changing ? crossing : apart) += 1;
   }
   EXPECT_GT(crossing, 2);
