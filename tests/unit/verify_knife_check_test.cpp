@@ -64,7 +64,7 @@ TEST(VerifyKnifeCheck, NeitherEndOfAStrokeLeavesTheOutline) {
 // 0.1028 mm away.
 TEST(VerifyKnifeCheck, AStrokeBesideAnArcIsLookedAtAllAlong) {
   const double whole = std::sqrt(20 * 0.09685 / 0.53), from = 0.75 * whole, off = 10 - from * from / 20;
-  const DrawnLine circle = drawn({arc_about({10, 0}, {10, 0}, {}, true)}, true);
+  const DrawnLine circle = drawn({arc_about({8, 6}, {8, 6}, {}, true)}, true);  // of quarters from there
   const auto along = [&](double y) {
     return judged({drawn({line_between({-from, y}, {whole - from, y})}, false)}, circle);
   };

@@ -134,7 +134,7 @@ class ExportCheck {
       for (const DrawnLine& line : inner_) inner.push_back(&line);
       const EdgeSet placed(inner);
       split_off([&](const DrawnLine& line) {
-        return line.layer == "MARK" && !inner_.empty() &&
+        return line.layer == "MARK" &&
                std::all_of(line.edges.begin(), line.edges.end(),
                            [&](const Stroke& edge) { return placed.holds(edge, likeness_); });
       });

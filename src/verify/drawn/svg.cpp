@@ -175,7 +175,7 @@ class SvgReader {
     const auto label = attributes.find("inkscape:label");
     if (depth_ != 2 || label == attributes.end()) return complain("a group that is no layer");
     layer_ = label->second;
-    if (colour(attributes, "fill") != "none" || !is_colour(colour(attributes, "stroke")) ||
+    if (said(attributes, "fill") != "none" || !is_colour(said(attributes, "stroke")) ||
         !(number(attributes, "stroke-width") > 0))
       complain("a layer whose lines are not shown as lines");
   }
@@ -186,7 +186,7 @@ class SvgReader {
   }
   /// Returns the colour of a line's own; empty where it has its layer's.
   std::string own_colour(const Attributes& attributes) {
-    std::string own = colour(attributes, "stroke");
+    std::string own(said(attributes, "stroke"));
     if (attributes.contains("stroke") && !is_colour(own)) complain("a line in no colour");
     return own;
   }
@@ -243,9 +243,10 @@ class SvgReader {
     lines_.push_back({layer_, {arc_about(start, start, centre, true)}, true, own_colour(attributes)});
   }
 
-  static std::string colour(const Attributes& attributes, const char* key) {
+  /// Returns an empty text where there is no such attribute.
+  static std::string_view said(const Attributes& attributes, const char* key) {
     const auto found = attributes.find(key);
-    return found == attributes.end() ? "" : std::string(found->second);
+    return found == attributes.end() ? std::string_view() : found->second;
   }
 
   /// A text on a part has a transformation; a label has a place.
@@ -253,25 +254,22 @@ class SvgReader {
     in_text_ = true;
     if (layer_ == "LABEL") return;
     only(attributes, {"transform", "font-family", "font-size", "text-anchor", "fill", "stroke"});
-    const auto said = attributes.find("transform"), anchor = attributes.find("text-anchor");
-    if (said == attributes.end() || anchor == attributes.end() || !said->second.starts_with("matrix(") ||
-        !said->second.ends_with(")"))
-      return complain("a text without its place");
-    Words words(said->second.substr(7, said->second.size() - 8));
+    const std::string_view place = said(attributes, "transform"), anchor = said(attributes, "text-anchor");
+    if (!place.starts_with("matrix(") || !place.ends_with(")")) return complain("a text without its place");
+    Words words(place.substr(7, place.size() - 8));
     std::array<double, 6> m{};
     for (double& number : m) number = words.number();
     if (!words.fine() || !words.done()) return complain("a transformation that cannot be read");
     // Capitals are 0.72 of the font's size.
     const double height = 0.72 * number(attributes, "font-size");
-    const std::string_view word = anchor->second;
-    const char* const known = word == "start"    ? "left"
-                              : word == "middle" ? "middle"
-                              : word == "end"    ? "right"
-                                                 : nullptr;
+    const char* const known = anchor == "start"    ? "left"
+                              : anchor == "middle" ? "middle"
+                              : anchor == "end"    ? "right"
+                                                   : nullptr;
     if (known == nullptr || !(height > 0)) return complain("a text that lekalo does not write so");
     // The axes of the element have y down.
     texts_.push_back({layer_,
-                      colour(attributes, "fill"),
+                      std::string(said(attributes, "fill")),
                       "",
                       known,
                       {m[4], -m[5]},
