@@ -70,46 +70,67 @@ Result<void> check_reach(const Loop& loop, std::size_t index) {
   return {};
 }
 
-struct Segment {
-  GridPoint from, to;
-  std::uint32_t loop = 0, index = 0;
+/// The edges of a region by their numbers, without a copy of their points.
+class RegionEdges {
+ public:
+  explicit RegionEdges(const GridRegion& region) : region_(region), next_(region.points.size()) {
+    for (std::size_t l = 0; l < region.loops(); ++l) {
+      const std::uint32_t begin = region.loop_starts[l], end = region.loop_starts[l + 1];
+      for (std::uint32_t i = begin; i < end; ++i) next_[i] = i + 1 == end ? begin : i + 1;
+    }
+  }
+  [[nodiscard]] std::uint32_t size() const noexcept { return static_cast<std::uint32_t>(next_.size()); }
+  [[nodiscard]] GridPoint from(std::uint32_t i) const noexcept { return region_.points[i]; }
+  [[nodiscard]] GridPoint to(std::uint32_t i) const noexcept { return region_.points[next_[i]]; }
+  [[nodiscard]] std::size_t loop(std::uint32_t i) const noexcept {
+    const auto& starts = region_.loop_starts;
+    return static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), i) - starts.begin()) - 1;
+  }
+  [[nodiscard]] std::uint32_t index_in_loop(std::uint32_t i) const noexcept {
+    return i - region_.loop_starts[loop(i)];
+  }
+
+ private:
+  const GridRegion& region_;
+  std::vector<std::uint32_t> next_;  ///< the point at which each edge ends
 };
+
+BoxTree tree_of(const RegionEdges& edges) {
+  std::vector<Box> boxes;
+  boxes.reserve(edges.size());
+  for (std::uint32_t i = 0; i < edges.size(); ++i) {
+    const GridPoint a = edges.from(i), b = edges.to(i);
+    constexpr double kMargin = kGridResolution;
+    boxes.push_back({{static_cast<double>(std::min(a.x, b.x)) - kMargin,
+                      static_cast<double>(std::min(a.y, b.y)) - kMargin},
+                     {static_cast<double>(std::max(a.x, b.x)), static_cast<double>(std::max(a.y, b.y))}});
+  }
+  return BoxTree(boxes);
+}
 
 /// Refuses edges that meet, or come nearer than the resolution without being neighbours. Names the first two.
 Result<void> check_meetings(const GridRegion& region) {
-  std::vector<Segment> edges;
-  std::vector<Box> boxes;
-  for (std::size_t l = 0; l < region.loops(); ++l) {
-    const std::uint32_t begin = region.loop_starts[l], end = region.loop_starts[l + 1];
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const GridPoint a = region.points[i], b = region.points[i + 1 == end ? begin : i + 1];
-      edges.push_back({a, b, static_cast<std::uint32_t>(l), i - begin});
-      constexpr double kMargin = kGridResolution;
-      boxes.push_back({{static_cast<double>(std::min(a.x, b.x)) - kMargin,
-                        static_cast<double>(std::min(a.y, b.y)) - kMargin},
-                       {static_cast<double>(std::max(a.x, b.x)), static_cast<double>(std::max(a.y, b.y))}});
-    }
-  }
+  const RegionEdges edges(region);
   std::optional<std::pair<std::uint32_t, std::uint32_t>> first;
-  BoxTree(boxes).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
+  tree_of(edges).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
     if (first && *first <= std::pair{i, j}) return;
-    const Segment &a = edges[i], &b = edges[j];
-    const bool a_then_b = a.to == b.from, b_then_a = b.to == a.from;
-    const bool near = (!a_then_b && !b_then_a && cross_each_other(a.from, a.to, b.from, b.to)) ||
-                      (!b_then_a && nearer_than_resolution(a.from, b.from, b.to)) ||
-                      (!a_then_b && nearer_than_resolution(a.to, b.from, b.to)) ||
-                      (!a_then_b && nearer_than_resolution(b.from, a.from, a.to)) ||
-                      (!b_then_a && nearer_than_resolution(b.to, a.from, a.to));
+    const GridPoint a = edges.from(i), b = edges.to(i), c = edges.from(j), d = edges.to(j);
+    const bool i_then_j = b == c, j_then_i = d == a;
+    const bool near =
+        (!i_then_j && !j_then_i && cross_each_other(a, b, c, d)) ||
+        (!j_then_i && nearer_than_resolution(a, c, d)) || (!i_then_j && nearer_than_resolution(b, c, d)) ||
+        (!i_then_j && nearer_than_resolution(c, a, b)) || (!j_then_i && nearer_than_resolution(d, a, b));
     if (near) first = {i, j};
   });
   if (!first) return {};
-  const Segment &a = edges[first->first], &b = edges[first->second];
+  const auto [i, j] = *first;
   return failure(
       ErrorCode::bad_input,
       fmt::format("{}: edge {} from {} and {} edge {} from {} (mm) cross, touch or come nearer than {:.1g} "
                   "mm; an outline may not meet itself",
-                  loop_name(a.loop), a.index, place(a.from), a.loop == b.loop ? "its own" : loop_name(b.loop),
-                  b.index, place(b.from), mm_from_grid(kGridResolution)));
+                  loop_name(edges.loop(i)), edges.index_in_loop(i), place(edges.from(i)),
+                  edges.loop(i) == edges.loop(j) ? "its own" : loop_name(edges.loop(j)),
+                  edges.index_in_loop(j), place(edges.from(j)), mm_from_grid(kGridResolution)));
 }
 
 PointLocation locate_in_loop(const GridPoint* points, std::size_t n, GridPoint p) noexcept {
@@ -176,7 +197,8 @@ Result<void> check_nesting(const GridRegion& region) {
                                                    loop_name(outer), place(*loop_begin(region, inner))));
 }
 
-constexpr std::size_t kMostChords = 4'000'000;
+/// No arc is cut into more chords, so that they can be counted.
+constexpr double kMostChordsOfArc = 1e12;
 
 /// The points of an arc's chords between its ends, as grid_region_of_curves states them.
 class ArcChords {
@@ -192,7 +214,7 @@ class ArcChords {
     const double sweep = arc_sweep(arc);
     const double count = std::ceil(sweep / (4.0 * sine_half));
     const double pieces = std::max({std::ceil(sweep / 1.6), arc.from == arc.to ? 3.0 : 1.0, count});
-    pieces_ = static_cast<std::size_t>(std::min<double>(kMostChords + 1, pieces));
+    pieces_ = static_cast<std::size_t>(std::min(kMostChordsOfArc, pieces));
     step_ = (arc.kind == EdgeKind::arc_ccw ? sweep : -sweep) / static_cast<double>(pieces_);
   }
   [[nodiscard]] std::size_t count() const noexcept { return outside_ ? pieces_ : pieces_ - 1; }
@@ -236,11 +258,6 @@ Result<Loop> grid_loop(const Contour& contour, std::size_t index, ChordSide side
     bool fits = add(contour[e].from);
     if (contour[e].kind != EdgeKind::line && fits) {
       const ArcChords chords(contour[e], side, tolerance);
-      if (chords.count() + loop.size() > kMostChords)
-        return failure(
-            ErrorCode::bad_input,
-            fmt::format("{}: edge {} needs more than {} chords within {} mm; take a larger tolerance",
-                        loop_name(index), e, kMostChords, tolerance));
       if (const auto join = chords.join(contour[e].from)) fits = add(*join);
       for (std::size_t i = 0; i < chords.count() && fits; ++i) fits = add(chords[i]);
       if (const auto join = chords.join(contour[e].to); join && fits) fits = add(*join);
@@ -271,17 +288,37 @@ Result<GridRegion> make_grid_region(std::vector<Loop> loops) {
     if ((area > 0) != (l == 0)) std::reverse(loop.begin() + 1, loop.end());
     region.points.insert(region.points.end(), loop.begin(), loop.end());
     region.loop_starts.push_back(static_cast<std::uint32_t>(region.points.size()));
+    loop = Loop();
   }
   LEKALO_CHECK(check_meetings(region));
   LEKALO_CHECK(check_nesting(region));
   return region;
 }
 
-Result<GridRegion> grid_region_of_curves(const Region& region, ChordSide side, double tolerance) {
+std::size_t points_of_curves(const Region& region, ChordSide side, double tolerance) {
+  std::size_t points = 0;
+  for (std::size_t l = 0; l <= region.holes.size(); ++l)
+    for (const Edge& edge : l == 0 ? region.outer : region.holes[l - 1]) {
+      ++points;
+      if (edge.kind == EdgeKind::line) continue;
+      const ArcChords chords(edge, side, tolerance);
+      points += chords.count();
+      for (const Point end : {edge.from, edge.to}) points += chords.join(end) ? 1 : 0;
+    }
+  return points;
+}
+
+Result<GridRegion> grid_region_of_curves(const Region& region, ChordSide side, double tolerance,
+                                         std::size_t most_points) {
   if (!(tolerance >= 0x1p-16))
     return failure(
         ErrorCode::bad_input,
         fmt::format("a chord tolerance of {} mm is below {} mm, 16 steps of the grid", tolerance, 0x1p-16));
+  if (const std::size_t points = points_of_curves(region, side, tolerance); points > most_points)
+    return failure(ErrorCode::bad_input,
+                   fmt::format("{} points with chords within {} mm; at most {} are taken: a larger tolerance "
+                               "needs fewer",
+                               points, tolerance, most_points));
   std::vector<Loop> loops;
   for (std::size_t l = 0; l <= region.holes.size(); ++l) {
     LEKALO_TRY(auto loop, grid_loop(l == 0 ? region.outer : region.holes[l - 1], l, side, tolerance));

@@ -351,6 +351,9 @@ FAMILIES = [
     ("layout-tall-comb", 20000, ["check", "a.json"],
      lambda n: layout(polygon([(y, x) for x, y in comb(n, 0.002, 50)]))),
     ("layout-spiral", 6000, ["check", "a.json"], lambda n: layout(polygon(spiral(n)))),
+    ("layout-round-holes", 5000, ["check", "a.json"],
+     lambda n: layout({"curves": json.loads(holed([ring(12 * (k % 300) + 6, 12 * (k // 300) + 6, 1)
+                                                    for k in range(n)])["a.json"])})),
     ("layout-side-by-side", 4000, ["check", "a.json"],
      lambda n: layout(polygon(square(0, 0, 2)), placed(n, lambda k: (3 * (k % 300), 3 * (k // 300))))),
     ("layout-in-a-row", 4000, ["check", "a.json"],

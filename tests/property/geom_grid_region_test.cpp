@@ -209,5 +209,36 @@ TEST(GridRegion, CurvesThatCannotBeChordsAreRefused) {
   EXPECT_FALSE(grid_region_of_curves(vast, ChordSide::grow, 0.01));
 }
 
+TEST(GridRegion, PointsOfCurvesAreCountedBeforeTheyAreMade) {
+  std::size_t regions = 0;
+  for (std::uint64_t i = 0; i < cases::case_count(60); ++i) {
+    Random random(cases::seed() + 3, 1 + i);
+    const Region drawn = cases::curved_region(random, std::exp(random.uniform(1, 6)));
+    const ChordSide side = random.below(2) == 0 ? ChordSide::grow : ChordSide::shrink;
+    const double tolerance = std::exp(random.uniform(-9, 0));
+    const auto made = grid_region_of_curves(drawn, side, tolerance);
+    if (!made) continue;  // grown shut, or shrunk away
+    ++regions;
+    const std::size_t points = points_of_curves(drawn, side, tolerance);
+    EXPECT_EQ(points, made->points.size()) << "seed " << cases::seed() << " case " << i;
+    EXPECT_TRUE(grid_region_of_curves(drawn, side, tolerance, points));
+    EXPECT_FALSE(grid_region_of_curves(drawn, side, tolerance, points - 1));
+  }
+  EXPECT_GT(regions, cases::case_count(60) / 2);
+}
+
+/// Circles that cross are refused for that once there are chords; none is made of too many.
+TEST(GridRegion, CurvesOfTooManyPointsAreRefusedBeforeAnyIsMade) {
+  const auto circle = [](double x) { return Contour{{EdgeKind::arc_cw, {x + 1, 0}, {x + 1, 0}, {x, 0}}}; };
+  const Region crossing{{{EdgeKind::arc_ccw, {9, 0}, {9, 0}, {0, 0}}}, {circle(0), circle(1)}};
+  const auto message = [&](std::size_t most) {
+    const auto made = grid_region_of_curves(crossing, ChordSide::grow, 0.001, most);
+    return made ? "made" : made.error().message;
+  };
+  EXPECT_NE(message(1000).find("an outline may not meet itself"), std::string::npos) << message(1000);
+  EXPECT_NE(message(100).find("points with chords within 0.001 mm; at most 100 are taken"), std::string::npos)
+      << message(100);
+}
+
 }  // namespace
 }  // namespace lekalo::geom::geom_grid_region_test

@@ -1,6 +1,7 @@
 #include "lekalo/io/layout/layout_json.hpp"
 #include "support/json.hpp"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -253,6 +254,28 @@ TEST(LayoutJson, RefusesTooManyPoints) {
     text += (i == 0 ? "[" : ",[") + std::to_string(i) + ",0]";
   EXPECT_NE(message_of(text + "]}}}]}").find("parts[0].outline.polygon.outer: 100001 items; at most 100000"),
             std::string::npos);
+}
+
+/// 5000 round holes in 400 kB are 140,000 points, which took 640 MB before they were counted.
+TEST(LayoutJson, CountsThePointsOfCurvesBeforeItMakesThem) {
+  // The second hole is beside the plate: whoever makes the points first speaks of that.
+  std::string holes;
+  for (int i = 0; i < 5000; ++i) {
+    const int x = i == 1 ? -50 : 4 + 12 * (i % 80), y = 5 + 12 * (i / 80);
+    holes +=
+        fmt::format(R"({}[{{"arc": {{"from": [{}, {}], "to": [{}, {}], "centre": [{}, {}], "ccw": true}}}}])",
+                    i == 0 ? "" : ",", x + 1, y, x + 1, y, x, y);
+  }
+  const std::string text =
+      R"({"format": "lekalo-layout/1", "units": "mm", "parts": [{"id": "a", "outline": {"curves": {"outer": [
+      {"line": {"from": [0, 0], "to": [1000, 0]}}, {"line": {"from": [1000, 0], "to": [1000, 1000]}},
+      {"line": {"from": [1000, 1000], "to": [0, 1000]}}, {"line": {"from": [0, 1000], "to": [0, 0]}}],
+      "holes": [)" +
+      holes + "]}}}]}";
+  const std::string message = message_of(text);
+  EXPECT_NE(message.find("parts[0].outline.curves: 140004 points"), std::string::npos) << message;
+  EXPECT_NE(message.find("at most 100000 are taken: a larger tolerance needs fewer"), std::string::npos)
+      << message;
 }
 
 }  // namespace

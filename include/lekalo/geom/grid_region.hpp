@@ -61,13 +61,19 @@ enum class ChordSide {
   shrink  ///< the region holds the polygon: stock
 };
 
+inline constexpr std::size_t kMostPointsOfCurves = 4'000'000;
+
 /// A region of lines and arcs as a polygon on the grid: arcs become chords that stay on one side of them by
 /// at least 2 steps away from their ends, so that no rounding of a rotation brings the arc out, and by at
 /// most `tolerance` mm; vertices of the drawing are rounded to the nearest step. Arcs that are not consistent
-/// (arc_radius) count as the band between their radii. Fails as make_grid_region does, and for a tolerance
-/// below 2^-16 mm. Cost: O(chords log chords).
-[[nodiscard]] Result<GridRegion> grid_region_of_curves(const Region& region, ChordSide side,
-                                                       double tolerance);
+/// (arc_radius) count as the band between their radii. Fails as make_grid_region does, for a tolerance
+/// below 2^-16 mm, and for more than `most_points` points_of_curves, before it makes any. Cost: O(chords log
+/// chords).
+[[nodiscard]] Result<GridRegion> grid_region_of_curves(const Region& region, ChordSide side, double tolerance,
+                                                       std::size_t most_points = kMostPointsOfCurves);
+/// The number of points that grid_region_of_curves makes of a region before it joins those that are too near
+/// to each other. Cost: O(edges).
+[[nodiscard]] std::size_t points_of_curves(const Region& region, ChordSide side, double tolerance);
 
 /// The box as a region. \pre it has an area
 [[nodiscard]] GridRegion rectangle(const GridBox& box);

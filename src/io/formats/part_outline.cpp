@@ -10,6 +10,7 @@
 #include "lekalo/geom/curve_faces.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "lekalo/geom/region_index.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
 
 namespace lekalo::io {
 namespace {
@@ -110,6 +111,9 @@ std::optional<double> distance_between(const geom::Region& a, const geom::Region
 Result<PartOutline> outline_of_part(const geom::Region& region, double chord_tolerance, double most_loss) {
   auto kept = detail::outline_of_curves(region, geom::ChordSide::grow, chord_tolerance);
   if (kept) return PartOutline{*std::move(kept), 0};
+  // Neither finer chords nor lines need fewer points.
+  if (geom::points_of_curves(region, geom::ChordSide::grow, chord_tolerance) > kMostOutlinePoints)
+    return tl::unexpected(kept.error());
   for (const double finer : kFinerChords) {
     if (finer >= chord_tolerance) continue;
     if (auto again = detail::outline_of_curves(region, geom::ChordSide::grow, finer))

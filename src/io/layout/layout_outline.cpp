@@ -138,12 +138,7 @@ std::vector<GridPoint> read_loop(JsonReader& reader, JsonValue list, double mm_p
 }
 
 Result<Outline> outline_of_curves(const geom::Region& region, geom::ChordSide side, double chord_tolerance) {
-  LEKALO_TRY(auto polygon, geom::grid_region_of_curves(region, side, chord_tolerance));
-  if (polygon.points.size() > kMostOutlinePoints)
-    return failure(ErrorCode::bad_input,
-                   fmt::format("{} points with chords within {} mm; at most {} are taken: a larger tolerance "
-                               "needs fewer",
-                               polygon.points.size(), chord_tolerance, kMostOutlinePoints));
+  LEKALO_TRY(auto polygon, geom::grid_region_of_curves(region, side, chord_tolerance, kMostOutlinePoints));
   Outline outline;
   outline.polygon = std::move(polygon);
   if (has_arcs(region)) {

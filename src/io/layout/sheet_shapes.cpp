@@ -13,6 +13,7 @@
 #include "lekalo/geom/pose.hpp"
 #include "lekalo/geom/trig.hpp"
 #include "lekalo/io/layout/label_place.hpp"
+#include "lekalo/io/layout/layout_json.hpp"
 #include "lekalo/io/text/words.hpp"
 
 namespace lekalo::io::detail {
@@ -43,7 +44,8 @@ struct Motion {
 /// says.
 bool is_of_curves(const layout::Outline& outline, geom::ChordSide side) {
   if (outline.curves.empty()) return false;
-  const auto made = geom::grid_region_of_curves(outline.curves.front(), side, outline.chord_tolerance_mm);
+  const auto made = geom::grid_region_of_curves(outline.curves.front(), side, outline.chord_tolerance_mm,
+                                                kMostOutlinePoints);
   return made && *made == outline.polygon;
 }
 
