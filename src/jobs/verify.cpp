@@ -29,6 +29,7 @@ class Evidence {
     if (written.certificate_file) {
       LEKALO_TRY(certificate_, needed("certificate", *written.certificate_file));
     }
+    if (is_missing_) return {};
     if (written.nc_output) take_written("NC program", *written.nc_output, program_);
     LEKALO_TRY(const std::optional<verify::OffsetFile> offset, verify::offset_file(document(result_)));
     if (offset) take_written("work offset", {offset->path, offset->sha256}, offset_);
@@ -38,6 +39,7 @@ class Evidence {
   }
 
   [[nodiscard]] Result<Verified> judged() const {
+    if (is_missing_) return refuted();
     verify::LocateInputs inputs{document(result_), document(*input("part")), document(*input("blank")), {}};
     if (certificate_) inputs.certificate = document(*certificate_);
     for (const auto& [role, to] : {std::pair{"features", &inputs.features},
@@ -87,12 +89,16 @@ class Evidence {
     return file;
   }
 
-  Result<File> needed(const std::string& role, const io::FileRecord& written) {
+  /// Without a file that the result rests on nothing of it can be believed, so that its absence is a finding.
+  Result<std::optional<File>> needed(const std::string& role, const io::FileRecord& written) {
     LEKALO_TRY(std::optional<File> file, found(role, written));
-    if (!file)
-      return failure(ErrorCode::bad_input,
-                     fmt::format("{}: the {} file {} is not there", result_.name, role, written.path));
-    return *std::move(file);
+    if (!file) {
+      is_missing_ = true;
+      mismatches_.push_back(
+          fmt::format("the {} file {}, which it names, is not there; put it back, or say where it is now",
+                      role, written.path));
+    }
+    return file;
   }
 
   Result<void> take(const io::InputRecord& record) {
@@ -100,8 +106,8 @@ class Evidence {
     if (input(role) != nullptr)
       return failure(ErrorCode::bad_input,
                      fmt::format("{}: \"inputs\" names two files with the role \"{}\"", result_.name, role));
-    LEKALO_TRY(File file, needed(role, record.file));
-    inputs_.emplace_back(role, std::move(file));
+    LEKALO_TRY(std::optional<File> file, needed(role, record.file));
+    if (file) inputs_.emplace_back(role, *std::move(file));
     return {};
   }
 
@@ -138,6 +144,14 @@ class Evidence {
     return "";
   }
 
+  [[nodiscard]] Verified refuted() const {
+    Verified verified;
+    verified.report.findings = mismatches_;
+    verified.report.verdict = verify::Verdict::refuted;
+    verified.json = report_json(verified.report);
+    return verified;
+  }
+
   [[nodiscard]] std::string report_json(const verify::LocateReport& report) const {
     io::JsonWriter json = begin_document("lekalo-verify");
     json.fields({{"status", name_of(report.verdict)}, {"units", "mm"}}).key("inputs").begin_list();
@@ -162,7 +176,7 @@ class Evidence {
   /// With their roles, in the order of the result.
   std::vector<std::pair<std::string, File>> inputs_;
   std::optional<File> certificate_, program_, offset_, deviations_;
-  bool has_offset_ = false;
+  bool has_offset_ = false, is_missing_ = false;
   std::vector<std::string> mismatches_, notes_;
 };
 

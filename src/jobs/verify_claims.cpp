@@ -87,9 +87,12 @@ class ClaimJudge {
                                                          "the command again with -o FILE",
                                                          result_.name, name.role));
       LEKALO_TRY(std::optional<File> file, find_(name.role, name.path));
-      if (!file)
-        return failure(ErrorCode::bad_input,
-                       fmt::format("{}: the {} file {} is not there", result_.name, name.role, name.path));
+      if (!file) {
+        mismatches_.push_back(
+            fmt::format("the {} file {}, which it names, is not there; put it back, or say where it is now",
+                        name.role, name.path));
+        continue;
+      }
       files_.push_back(*std::move(file));
       if (const std::string digest = io::sha256(files_.back().bytes); digest != name.sha256)
         mismatches_.push_back(fmt::format("{} is not the {} file of this report: its SHA-256 is {}, not {}",
@@ -99,7 +102,7 @@ class ClaimJudge {
     return documents;
   }
 
-  /// A file of other bytes is refuted as such; what its figures are no longer matters.
+  /// A file that is not there or has other bytes refutes as such; what the figures are no longer matters.
   Result<ClaimReport> reported(Result<ClaimReport> (*recheck)(const verify::Document&,
                                                               const std::vector<verify::Document>&)) {
     LEKALO_TRY(const std::vector<verify::Document> files, named());

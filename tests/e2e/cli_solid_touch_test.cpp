@@ -36,7 +36,7 @@ TEST_F(SolidTouch, TheNominalMeshIsMovedToTheTouchesAndTheResultIsRechecked) {
   fs::create_directory(folder_ / "old");
   for (const char* const name : {"casting.stl", "touches.xyz"})
     fs::rename(folder_ / name, folder_ / "old" / name);
-  EXPECT_EQ(run(folder_.path(), {"verify", "r.json"}).status, 3);
+  EXPECT_EQ(run(folder_.path(), {"verify", "r.json"}).status, 4);
   const Ran there = run(folder_.path(), {"verify", "r.json", "--points", "old/touches.xyz", "--nominal-blank",
                                          "old/casting.stl"});
   EXPECT_EQ(there.status, 1) << there.err;

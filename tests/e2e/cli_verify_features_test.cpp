@@ -162,8 +162,9 @@ TEST_F(CliVerifyFeatures, FeaturesMoreOrLessOrInAnotherOrderAreNamed) {
 TEST_F(CliVerifyFeatures, AFileThatIsNotThereOrAnotherOneIsSaid) {
   fs::rename(folder_ / "features.json", folder_ / "moved.json");
   Ran ran = verify();
-  EXPECT_EQ(ran.status, 3);
-  EXPECT_NE(ran.err.find("features.json"), std::string::npos) << ran.err;
+  EXPECT_EQ(ran.status, 4);
+  EXPECT_NE(ran.err.find("the features file features.json, which it names, is not there"), std::string::npos)
+      << ran.err;
   EXPECT_EQ(run(folder_.path(), {"verify", "r.json", "--features", "moved.json"}).status, 0);
   ran = run(folder_.path(), {"verify", "r.json", "--features", "part.json"});
   EXPECT_EQ(ran.status, 4);

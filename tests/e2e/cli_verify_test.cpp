@@ -150,11 +150,17 @@ TEST_F(Verify, ReportsWhatCannotBeReadWithOneSentence) {
   }
 }
 
-TEST_F(Verify, SaysWhichFileIsMissing) {
+TEST_F(Verify, AFileThatIsMissingRefutesAndIsNamed) {
   fs::remove(folder_ / "blank.csv");
-  const Ran ran = verify();
-  EXPECT_EQ(ran.status, 3);
-  EXPECT_NE(ran.err.find("blank.csv"), std::string::npos) << ran.err;
+  const Ran ran = verify({"--json"});
+  EXPECT_EQ(ran.status, 4);
+  EXPECT_NE(ran.err.find("the blank file blank.csv, which it names, is not there"), std::string::npos)
+      << ran.err;
+  const Json report = Json::parse(ran.out);
+  EXPECT_EQ(report["status"], "refuted");
+  EXPECT_EQ(report["findings"].size(), 1U);
+  // Who says where it is now, and is wrong, has not asked about the result.
+  EXPECT_EQ(verify({"--blank", "nowhere.csv"}).status, 3);
 }
 
 TEST_F(Verify, ReadsTheProgramThatWasMovedToo) {
@@ -163,7 +169,7 @@ TEST_F(Verify, ReadsTheProgramThatWasMovedToo) {
   EXPECT_EQ(ran.status, 4);
   EXPECT_NE(ran.err.find("part.nc"), std::string::npos) << ran.err;
   fs::rename(folder_ / "part.nc", folder_ / "edited.nc");
-  EXPECT_EQ(verify().status, 3);
+  EXPECT_EQ(verify().status, 4);
   EXPECT_EQ(verify({"--nc", "edited.nc"}).status, 4);
   EXPECT_EQ(verify({"--features", "edited.nc"}).status, 2);
   EXPECT_EQ(verify({"--compare", "edited.nc"}).status, 2);
@@ -175,7 +181,7 @@ TEST_F(Verify, ReadsTheEarlierResultToo) {
   EXPECT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(ran.err.find("not rechecked"), std::string::npos) << ran.err;
   fs::rename(folder_ / "out.json", folder_ / "first.json");
-  EXPECT_EQ(run(folder_.path(), {"verify", "again.json"}).status, 3);
+  EXPECT_EQ(run(folder_.path(), {"verify", "again.json"}).status, 4);
   EXPECT_EQ(run(folder_.path(), {"verify", "again.json", "--compare", "first.json"}).status, 0);
   write_bytes(folder_ / "first.json", read_bytes(folder_ / "first.json") + " ");
   EXPECT_EQ(run(folder_.path(), {"verify", "again.json", "--compare", "first.json"}).status, 4);
@@ -186,7 +192,7 @@ TEST_F(Verify, FindsTheFilesBesideTheResultAndWhereItIsTold) {
   EXPECT_EQ(run(elsewhere.path(), {"verify", (folder_ / "out.json").string()}).status, 0);
   fs::create_directory(folder_ / "moved");
   fs::rename(folder_ / "blank.csv", folder_ / "moved/b.csv");
-  EXPECT_EQ(verify().status, 3);
+  EXPECT_EQ(verify().status, 4);
   EXPECT_EQ(verify({"--blank", "moved/b.csv"}).status, 0);
 }
 
@@ -201,7 +207,7 @@ TEST_F(Verify, ChecksTheCertificateFile) {
   write_bytes(folder_ / "out.cert", shorter.dump());
   EXPECT_EQ(verify().status, 4);
   fs::remove(folder_ / "out.cert");
-  EXPECT_EQ(verify().status, 3);
+  EXPECT_EQ(verify().status, 4);
 }
 
 /// A part of every kind of file in a plate, and another part.

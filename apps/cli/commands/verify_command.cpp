@@ -51,15 +51,16 @@ std::string given_instead(const VerifyOptions& o, const std::string& role) {
   return "";
 }
 
-/// A file of the result, where an option says or where the result does. A program or a table that was written
-/// may have gone elsewhere; another file that is not there cannot be read.
+/// A file of the result, where an option says or where the result does; none where the result says and there
+/// is none. A program or a table that was written may have gone from where an option says, too.
 Result<std::optional<jobs::File>> find(const VerifyOptions& o, const std::string& role,
                                        const std::string& path) {
   const std::string instead = given_instead(o, role);
   const std::string place = instead.empty() ? where_is(path, o.result) : instead;
   std::error_code error;
   const bool written = role == "NC program" || role == "work offset" || role == "deviations";
-  if (written && !fs::exists(place, error)) return std::nullopt;
+  if ((written || instead.empty()) && fs::status(place, error).type() == fs::file_type::not_found)
+    return std::nullopt;
   LEKALO_TRY(std::string bytes, disk::read_file(place));
   return jobs::File{place, std::move(bytes)};
 }

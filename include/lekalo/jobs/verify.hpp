@@ -18,19 +18,19 @@ using FileFinder =
     std::function<Result<std::optional<File>>(const std::string& role, const std::string& path)>;
 
 struct Verified {
-  /// The checker's verdict, findings and notes, and those about the files: one whose bytes are not those that
-  /// the result was made from is a finding, and then the verdict is refuted.
+  /// The checker's verdict, findings and notes, and those about the files: one that is not there, or whose
+  /// bytes are not those that the result was made from, is a finding, and then the verdict is refuted.
   verify::LocateReport report;
   std::string json;  ///< the report as a document, format lekalo-verify (docs/formats.md)
 };
 
 /// Rechecks a result of a localisation against the files that it names: their digests, and everything that
-/// verify::verify_locate proves. Every input has to be there and is used. The NC program that was written is
-/// held against the original, moved; one that is not there may have gone to the machine, and the verdict is
-/// incomplete then.
+/// verify::verify_locate proves. Every input is used; one that is not there, or no certificate, refutes the
+/// result, and nothing else is judged then. The NC program that was written is held against the original,
+/// moved; one that is not there may have gone to the machine, and the verdict is incomplete then.
 ///
-/// Errors: bad_input where the result, one of its inputs or the certificate is not there or cannot be read,
-/// and where two inputs have one role.
+/// Errors: bad_input where the result, one of its inputs or the certificate cannot be read, and where two
+/// inputs have one role.
 [[nodiscard]] Result<Verified> verify(const File& result, const FileFinder& find);
 
 }  // namespace lekalo::jobs
