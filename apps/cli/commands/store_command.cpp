@@ -33,9 +33,12 @@ Result<int> check_store(const StoreOptions& o) {
   LEKALO_TRY(Store store, Store::open(o.file, StoreUse::inspect));
   LEKALO_TRY(const StoreCheck check, store.check());
   tell_damage(o.file, check);
-  const std::string found =
+  std::string found =
       check.damage.empty() ? "everything is as it was written" : fmt::format("{} found", check.damage.size());
-  LEKALO_CHECK(print(fmt::format("{}: {}; {}\n", o.file, counts(check), found)));
+  if (check.put_back > 0) found += fmt::format(", {} can be put back", check.put_back);
+  StoreCheck in_file = check;
+  in_file.layouts -= check.put_back;
+  LEKALO_CHECK(print(fmt::format("{}: {}; {}\n", o.file, counts(in_file), found)));
   return check.damage.empty() ? kWhole : kDamaged;
 }
 

@@ -17,6 +17,7 @@ Result<StoreCheck> Store::check() {
   std::unique_lock turn(*turn_);
   StoreCheck check;
   check.damage = notices_;
+  check.put_back = put_back_;
   LEKALO_TRY(Statement rows, database_.prepare("PRAGMA integrity_check(20)"));
   for (;;) {
     LEKALO_TRY(const bool more, rows.step());

@@ -16,7 +16,8 @@ namespace {
 /// another program's chords differs in more.
 bool draw_again(layout::Outline& outline, geom::ChordSide side) {
   if (outline.curves.empty()) return false;
-  const auto drawn = geom::grid_region_of_curves(outline.curves.front(), side, outline.chord_tolerance_mm);
+  const auto drawn = geom::grid_region_of_curves(outline.curves.front(), side, outline.chord_tolerance_mm,
+                                                 io::kMostOutlinePoints);
   if (!drawn || drawn->points.size() != outline.polygon.points.size()) return false;
   std::size_t off = 0;
   for (std::size_t i = 0; i < drawn->points.size(); ++i)
@@ -120,7 +121,8 @@ struct PutBack {
   layout::Document document;
 };
 
-Result<void> add_put_back(const Database& database, const PutBack& one, std::vector<std::string>& notices) {
+Result<void> add_put_back(const Database& database, const PutBack& one, bool is_kept,
+                          std::vector<std::string>& notices) {
   Entry entry = one.damaged;
   entry.name += " (put back)";
   entry.origin.clear();
@@ -134,8 +136,9 @@ Result<void> add_put_back(const Database& database, const PutBack& one, std::vec
   LEKALO_CHECK(add_entry(database, entry));
   notices.push_back(fmt::format(
       "the store is damaged: in layout {} '{}' a point of the outline of {} is not where its curves say. The "
-      "newest state with the outline drawn again from its curves is layout {} '{}'",
-      one.damaged.id, one.damaged.name, one.whose, entry.id, entry.name));
+      "newest state with the outline drawn again from its curves {} layout {} '{}'{}",
+      one.damaged.id, one.damaged.name, one.whose, is_kept ? "is" : "becomes", entry.id, entry.name,
+      is_kept ? "" : " by lekalo serve, or by lekalo store restore"));
   return add_snapshot(database, entry.id, 0, text, entry.chain);
 }
 
@@ -164,7 +167,8 @@ Result<void> set_old_tables_aside(const Database& database, std::int64_t format)
                                   : "ALTER TABLE photo RENAME TO old_photo");
 }
 
-Result<void> convert_tables(const Database& database, std::vector<std::string>& notices) {
+Result<std::int64_t> convert_tables(const Database& database, bool is_kept,
+                                    std::vector<std::string>& notices) {
   std::vector<PutBack> put_back;
   LEKALO_TRY(Statement rows, database.prepare("SELECT id, name, origin, revision, placements, changed, "
                                               "change_number FROM old_layout ORDER BY id"));
@@ -183,16 +187,17 @@ Result<void> convert_tables(const Database& database, std::vector<std::string>& 
   }
   rows.reset();
   LEKALO_CHECK(convert_photos(database));
-  for (const PutBack& one : put_back) LEKALO_CHECK(add_put_back(database, one, notices));
+  for (const PutBack& one : put_back) LEKALO_CHECK(add_put_back(database, one, is_kept, notices));
   // An id that was given is not given again.
-  return database.run(
+  LEKALO_CHECK(database.run(
       "UPDATE sqlite_sequence SET seq = max(seq, (SELECT seq FROM sqlite_sequence WHERE name = "
       "'old_layout')) "
       "WHERE name = 'layout' AND EXISTS (SELECT 1 FROM sqlite_sequence WHERE name = 'old_layout');"
       "INSERT INTO sqlite_sequence SELECT 'layout', seq FROM sqlite_sequence WHERE name = 'old_layout' AND "
       "NOT "
       "EXISTS (SELECT 1 FROM sqlite_sequence WHERE name = 'layout');"
-      "DROP TABLE old_photo; DROP TABLE old_change; DROP TABLE old_snapshot; DROP TABLE old_layout");
+      "DROP TABLE old_photo; DROP TABLE old_change; DROP TABLE old_snapshot; DROP TABLE old_layout"));
+  return static_cast<std::int64_t>(put_back.size());
 }
 
 }  // namespace lekalo::server

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,9 @@ namespace lekalo::server {
 /// Old rows have no digests. So a row gets one only where it agrees with the others: a change with the state
 /// before it, a snapshot with the changes that lead to it, an outline with the curves that it was made of.
 /// Other rows are kept without one and are damaged from then on. Where a point is off its curves, the outline
-/// can be drawn again: the layout with it becomes one more, and a sentence in `notices` says so.
-[[nodiscard]] Result<void> convert_tables(const Database& database, std::vector<std::string>& notices);
+/// can be drawn again: the layout with it becomes one more, and a sentence in `notices` says so, or what
+/// would add it where the tables are those of a copy that is not kept. Returns how many were added.
+[[nodiscard]] Result<std::int64_t> convert_tables(const Database& database, bool is_kept,
+                                                  std::vector<std::string>& notices);
 
 }  // namespace lekalo::server

@@ -202,7 +202,8 @@ Result<void> Store::bring_forward(std::int64_t format) {
   LEKALO_TRY(Transaction all, Transaction::begin(database_));
   LEKALO_CHECK(set_old_tables_aside(database_, format));
   LEKALO_CHECK(database_.run(kSchema));
-  LEKALO_CHECK(convert_tables(database_, notices_));
+  LEKALO_TRY(const std::int64_t added, convert_tables(database_, use_ == StoreUse::serve, notices_));
+  if (use_ == StoreUse::inspect) put_back_ = added;
   LEKALO_CHECK(mark(database_));
   LEKALO_CHECK(all.commit());
   // Only a file that is written anew can give back what is removed from it. Without room for that it goes on.

@@ -103,6 +103,8 @@ enum class StoreUse : std::uint8_t {
 /// The findings of a check of everything in a store.
 struct StoreCheck {
   std::int64_t layouts = 0, revisions = 0, photos = 0;
+  /// Of these layouts so many are not in the file: whoever brings it forward adds them beside damaged ones.
+  std::int64_t put_back = 0;
   std::vector<std::string> damage;  ///< sentences
   /// False where the file itself is damaged, so that a copy of its pages would be too.
   bool readable = true;
@@ -203,6 +205,7 @@ class Store {
   OutsideRevision outside_;
   OutsideRevision::Kept kept_;
   std::vector<std::string> notices_;
+  std::int64_t put_back_ = 0;  ///< layouts that an inspected file does not have, as StoreCheck says
   /// The mutex is behind a pointer so that a store can be moved.
   std::unique_ptr<std::mutex> turn_ = std::make_unique<std::mutex>();
 };
