@@ -1,5 +1,6 @@
 // The strokes that a program's path is made of, the cuts among them, and the time that a machine takes.
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -363,11 +364,29 @@ TEST(VerifyCutPath, HelicesTurnAsOftenAsTheySay) {
 }
 
 TEST(VerifyCutPath, APathThatIsTooLongForItsToolIsRefused) {
-  const auto path = cut_path({straight({0, 0}, -1, {1'500'004, 0}, -1)}, 0, 3, 1, "p");
-  ASSERT_FALSE(path);
-  EXPECT_TRUE(
-      path.error().message.starts_with("p:7: the path in the stock is longer than 1500004 half radii"))
-      << path.error().message;
+  // What a program may have hangs on its moves: a line of some bytes takes no more memory than others do.
+  for (const auto& [moves, most] : {std::pair<std::size_t, std::size_t>{1, 210'000},
+                                    {2, 220'000},
+                                    {130, 1'500'000},
+                                    {131, 1'500'524},
+                                    {1000, 1'504'000}}) {
+    std::vector<Move> all(moves, straight({0, 0}, 5, {1, 0}, 5));
+    const auto with_length = [&](std::size_t length) {
+      all.back() = straight({0, 0}, -1, {static_cast<double>(length), 0}, -1);
+      return cut_path(all, 0, 3, 1, "p");
+    };
+    const auto path = with_length(most);
+    ASSERT_FALSE(path) << moves;
+    EXPECT_TRUE(path.error().message.starts_with(fmt::format(
+        "p:7: the path in the stock is longer than {} half radii of the tool, which is the most for {} "
+        "moves; correct a place that lies too far off",
+        most, moves)))
+        << path.error().message;
+    const auto shorter = with_length(most - 1);
+    ASSERT_TRUE(shorter) << moves;
+    EXPECT_EQ(shorter->cuts.size(), most - 1);
+    EXPECT_LE(shorter->cuts.capacity(), most);
+  }
   Move helix{.arc = true,
              .from = {4, 0},
              .to = {4, 0},

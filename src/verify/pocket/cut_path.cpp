@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <cstdint>
 #include <utility>
 
 #include "lekalo/base/angle.hpp"
@@ -14,8 +14,14 @@
 namespace lekalo::verify {
 namespace {
 
-/// A program has at most this many cuts, and so many more for each of its moves.
-constexpr std::size_t kMostCuts = 1'500'000, kMostCutsAMove = 4;
+/// A program may have so many cuts, and so many for each of its moves, up to a number that moves raise
+/// slowly: a line of a few bytes costs no more than the tenth of a second.
+constexpr std::size_t kCuts = 200'000, kCutsAMove = 10'000;
+constexpr std::size_t kMostCuts = 1'500'000, kMoreCutsAMove = 4;
+
+std::size_t most_cuts(std::size_t moves) {
+  return std::min(kCuts + kCutsAMove * moves, kMostCuts + kMoreCutsAMove * moves);
+}
 
 double whole_length(const Move& move) {
   return move.arc ? 2 * kPi * move.turns * length(move.from - move.centre) : length(move.to - move.from);
@@ -54,7 +60,13 @@ Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool
   // `down` is true while the tool is below `top`. A cut that begins while it is false is a new entry.
   bool down = false;
   std::size_t entries = 0;
-  const std::size_t most = kMostCuts + kMostCutsAMove * moves.size();
+  const std::size_t most = most_cuts(moves.size());
+  double expected = 0;
+  for (const Move& move : moves)
+    if (move.from_z < top || move.to_z < top) expected += 1 + std::ceil(whole_length(move) / longest);
+  // Vectors that grow would take half as much again. An arc of more turns has a few more cuts.
+  path.cuts.reserve(static_cast<std::size_t>(std::min(expected, static_cast<double>(most))));
+  path.strokes.reserve(path.cuts.capacity());
   for (const Move& move : moves) {
     ask();
     if (!(move.from_z < top) && !(move.to_z < top)) {
@@ -62,10 +74,12 @@ Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool
       continue;
     }
     if (!(whole_length(move) / longest < static_cast<double>(most - std::min(most, path.cuts.size()))))
-      return failure(ErrorCode::bad_input,
-                     fmt::format("{}:{}: the path in the stock is longer than {} half radii of the tool; "
-                                 "give the tool's diameter in mm, or simulate a part of the program",
-                                 name, move.line, most));
+      return failure(
+          ErrorCode::bad_input,
+          fmt::format("{}:{}: the path in the stock is longer than {} half radii of the tool, which "
+                      "is the most for {} moves; correct a place that lies too far off, give the "
+                      "tool's diameter in mm, or simulate a part of the program",
+                      name, move.line, most, moves.size()));
     const std::vector<Stroke> strokes = strokes_of(move, longest);
     double whole = 0;
     for (const Stroke& s : strokes) whole += length(s);
@@ -110,24 +124,28 @@ StrokeIndex index_over(const std::vector<Cut>& cuts, double cell) {
 }
 
 std::vector<bool> repeated(const std::vector<Cut>& cuts) {
-  struct Deepest {
-    double z, radius;
-  };
   // The ends of a stroke, in either order, and its centre tell it: an arc turns by at most a quarter.
-  std::map<std::array<double, 7>, Deepest> known;
-  std::vector<bool> found(cuts.size(), false);
-  for (std::size_t i = 0; i < cuts.size(); ++i) {
-    if (!cuts[i].level()) continue;
+  using Key = std::array<double, 7>;
+  const auto key_of = [&](std::uint32_t i) {
     const Stroke& s = cuts[i].stroke;
     const auto [a, b] = std::minmax({std::pair(s.from.x, s.from.y), std::pair(s.to.x, s.to.y)});
     const Place centre = s.arc ? s.centre : Place{};
-    const std::array<double, 7> key{
-        static_cast<double>(s.arc), a.first, a.second, b.first, b.second, centre.x, centre.y};
-    const auto [at, is_new] = known.try_emplace(key, Deepest{cuts[i].to_z, cuts[i].radius});
-    if (is_new) continue;
-    found[i] = at->second.z <= cuts[i].to_z && at->second.radius >= cuts[i].radius;
-    if (cuts[i].to_z <= at->second.z && cuts[i].radius >= at->second.radius)
-      at->second = {cuts[i].to_z, cuts[i].radius};
+    return Key{static_cast<double>(s.arc), a.first, a.second, b.first, b.second, centre.x, centre.y};
+  };
+  std::vector<std::uint32_t> level;
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    if (cuts[i].level()) level.push_back(static_cast<std::uint32_t>(i));
+  std::sort(level.begin(), level.end(), [&](std::uint32_t i, std::uint32_t j) {
+    const Key a = key_of(i), b = key_of(j);
+    return a != b ? a < b : i < j;
+  });
+  std::vector<bool> found(cuts.size(), false);
+  double deepest = 0, widest = 0;
+  for (std::size_t k = 0; k < level.size(); ++k) {
+    const Cut& cut = cuts[level[k]];
+    const bool is_first = k == 0 || key_of(level[k]) != key_of(level[k - 1]);
+    found[level[k]] = !is_first && deepest <= cut.to_z && widest >= cut.radius;
+    if (is_first || (cut.to_z <= deepest && cut.radius >= widest)) deepest = cut.to_z, widest = cut.radius;
   }
   return found;
 }

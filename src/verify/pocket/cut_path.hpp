@@ -46,7 +46,8 @@ struct CutPath {
 };
 
 /// Step 1 of docs/design/simulate.md: cuts the path below `top` into pieces no longer than `longest`.
-/// bad_input where there would be more than 1,500,000 and 4 for each move.
+/// bad_input where there would be more than 200,000 and 10,000 for each move, or than 1,500,000 and 4 for
+/// each.
 [[nodiscard]] Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool_radius,
                                        double longest, const std::string& name);
 
