@@ -72,6 +72,10 @@ Result<std::vector<Growth>> seat_changes(const Assembly& assembly, std::vector<d
   return changes;
 }
 
+tl::unexpected<Error> with_profile(const Error& error) {
+  return failure(error.code, "pressed again with the turned profile: " + error.message);
+}
+
 }  // namespace
 
 std::string_view name_of(Surface surface) noexcept {
@@ -125,20 +129,21 @@ Result<Corrected> corrected(const Assembly& assembly, const std::vector<std::vec
       assembly, {},
       {{ring, surface != Surface::bore, [&](double z) { return (turned(z) - made.nominal) / 2; }}});
   for (std::size_t i = 0; i < interferences.size(); ++i) {
-    LEKALO_TRY(Pressed one, again.press(interferences[i]));
-    const std::vector<double> after = growths_of(one);
+    Result<Pressed> one = again.press(interferences[i]);
+    if (!one) return with_profile(one.error());
+    const std::vector<double> after = growths_of(*one);
     made.variations.push_back({variation(growths(pressed[i], surface)), variation(made.profile, after)});
     if (i == at) made.growths = after;
-    made.pressed.push_back(std::move(one));
+    made.pressed.push_back(*std::move(one));
   }
   const Variation& left = made.variations[at];
   if (!(left.after <= std::max(kMostLeft, kPartLeft * left.before)))
     return failure(
         ErrorCode::bad_input,
-        fmt::format(
-            "pressed again with the turned profile the surface still varies by {:.3g} um of {:.3g}; no "
-            "profile is written",
-            1000 * left.after, 1000 * left.before));
+        fmt::format("pressed again with the turned profile the surface still varies by {:.3g} um of {:.3g}, "
+                    "so that no "
+                    "profile is written; choose a smaller interference, a thicker wall, or another surface",
+                    1000 * left.after, 1000 * left.before));
   return made;
 }
 

@@ -68,6 +68,7 @@ struct Pressing::Model {
   std::vector<Pair> pairs;
   std::vector<char> touching;        // of each pair
   std::vector<double> interference;  // of each seat
+  double turned_part = 0;            // of what is turned off seats: it comes with the first interference
   std::vector<double> moved;         // r and z of each node
   std::vector<double> forces;        // what holds each of them, N per radian
   double largest_force = 0;          // that a node ever held, by which what is left over is measured
@@ -76,8 +77,14 @@ struct Pressing::Model {
 
   Model(const Assembly& a, const Fineness& fineness, const std::vector<Turned>& turned, FirstSeat first);
 
-  // One step to other interferences; false where no solution was found, with everything as before.
-  bool step(const std::vector<double>& to, bool apart);
+  /// What the parts are pressed to in one step.
+  struct Goal {
+    std::vector<double> interference;
+    double turned_part = 1;
+  };
+
+  // One step; false where no solution was found, with everything as before.
+  bool step(const Goal& to, bool apart);
   [[nodiscard]] Pressed read() const;
 
  private:
@@ -86,15 +93,15 @@ struct Pressing::Model {
     std::size_t unknowns = 0;
   };
   [[nodiscard]] Numbering number() const;
-  bool solve(const std::vector<double>& to, std::vector<PlasticState>& after);
+  bool solve(const Goal& to, std::vector<PlasticState>& after);
   bool iterate(const Numbering& numbering, Envelope& matrix, std::vector<PlasticState>& after);
-  bool touch_anew(const std::vector<double>& to);
+  bool touch_anew(const Goal& to);
   /// The hub's node moves as it is told, and its force is the shaft's load.
   [[nodiscard]] bool is_held(const Pair& pair) const {
     return pair.seat == 0 && first_seat == FirstSeat::cylinder;
   }
-  [[nodiscard]] double overlap(const Pair& pair, const std::vector<double>& to) const {
-    return to[pair.seat] / 2 + pair.turned;
+  [[nodiscard]] static double overlap(const Pair& pair, const Goal& to) {
+    return to.interference[pair.seat] / 2 + to.turned_part * pair.turned;
   }
   [[nodiscard]] double turned_at(const std::vector<Turned>& turned, std::size_t ring, bool outer,
                                  double z) const {
@@ -232,7 +239,7 @@ bool Pressing::Model::iterate(const Numbering& numbering, Envelope& matrix,
 }
 
 /// Lets go of pairs that pull, and joins those that overlap. True where something changed.
-bool Pressing::Model::touch_anew(const std::vector<double>& to) {
+bool Pressing::Model::touch_anew(const Goal& to) {
   double largest = 0;
   for (const Pair& pair : pairs) largest = std::max(largest, std::abs(forces[2 * at(pair.hub)]));
   bool changed = false;
@@ -246,12 +253,12 @@ bool Pressing::Model::touch_anew(const std::vector<double>& to) {
   return changed;
 }
 
-bool Pressing::Model::solve(const std::vector<double>& to, std::vector<PlasticState>& after) {
+bool Pressing::Model::solve(const Goal& to, std::vector<PlasticState>& after) {
   for (int round = 0; round < kContactRounds; ++round) {
     const Numbering numbering = number();
     for (std::size_t p = 0; p < pairs.size(); ++p)
       if (is_held(pairs[p]))
-        moved[2 * at(pairs[p].hub)] = to[0] / 2;
+        moved[2 * at(pairs[p].hub)] = to.interference[0] / 2;
       else if (touching[p] != 0)
         moved[2 * at(pairs[p].hub)] = moved[2 * at(pairs[p].shaft)] + overlap(pairs[p], to);
     std::vector<std::size_t> first(numbering.unknowns);
@@ -274,14 +281,14 @@ bool Pressing::Model::solve(const std::vector<double>& to, std::vector<PlasticSt
   return false;
 }
 
-bool Pressing::Model::step(const std::vector<double>& to, bool apart) {
+bool Pressing::Model::step(const Goal& to, bool apart) {
   const std::vector<double> moved_before = moved, forces_before = forces;
   const std::vector<char> touching_before = touching;
   if (apart) std::fill(touching.begin(), touching.end(), 0);
   std::vector<PlasticState> after = plastic;
   if (solve(to, after)) {
     plastic = std::move(after);
-    interference = to;
+    interference = to.interference, turned_part = to.turned_part;
     return true;
   }
   moved = moved_before, forces = forces_before, touching = touching_before;
@@ -372,7 +379,16 @@ Pressing& Pressing::operator=(Pressing&&) noexcept = default;
 
 namespace {
 
-tl::unexpected<Error> no_solution(double part) {
+tl::unexpected<Error> no_solution(const Assembly& assembly, double part) {
+  const bool harden = std::all_of(assembly.rings.begin(), assembly.rings.end(), [](const Ring& ring) {
+    return ring.material.yield_mpa == 0 || ring.material.hardening_mpa > 0;
+  });
+  if (harden)
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format("beyond {:.3g} % of this interference no balance of the parts is found, though "
+                    "all of them harden; choose a smaller interference or a thicker wall",
+                    100 * part));
   return failure(ErrorCode::bad_input,
                  fmt::format("the parts carry no more than {:.3g} % of this interference: a part has yielded "
                              "through and does not harden; choose a smaller interference, a thicker wall, or "
@@ -384,16 +400,18 @@ tl::unexpected<Error> no_solution(double part) {
 
 Result<Pressed> Pressing::press(const std::vector<double>& interference) {
   Model& m = *model_;
-  const std::vector<double> from = m.interference;
+  const Model::Goal from{m.interference, m.turned_part};
   const auto place = [&](double part) {
-    std::vector<double> to = from;
-    for (std::size_t i = 0; i < to.size(); ++i) to[i] += part * (interference[i] - from[i]);
+    Model::Goal to = from;
+    for (std::size_t i = 0; i < to.interference.size(); ++i)
+      to.interference[i] += part * (interference[i] - from.interference[i]);
+    to.turned_part += part * (1 - from.turned_part);
     return to;
   };
   // As one step where nothing yields on the way; else in small ones, halved where Newton's iteration fails.
   const std::vector<PlasticState> before = m.plastic;
   const Model kept = m;
-  if (m.step(interference, false)) {
+  if (m.step({interference}, false)) {
     const bool same =
         std::equal(before.begin(), before.end(), m.plastic.begin(),
                    [](const PlasticState& a, const PlasticState& b) { return a.length == b.length; });
@@ -409,7 +427,7 @@ Result<Pressed> Pressing::press(const std::vector<double>& interference) {
     if (m.step(place(next), false)) {
       part = next;
     } else if ((size /= 2) < least) {
-      return no_solution(part);
+      return no_solution(m.assembly, part);
     }
   }
   return m.read();
@@ -421,7 +439,7 @@ Result<Pressed> Pressing::released() const {
   // Far apart: nothing touches, whatever has grown.
   std::vector<double> away = none;
   for (std::size_t i = 0; i < away.size(); ++i) away[i] = -apart.assembly.rings[i].outer_diameter;
-  if (!apart.step(away, true)) return no_solution(0);
+  if (!apart.step({away}, true)) return no_solution(apart.assembly, 0);
   Pressed pressed = apart.read();
   pressed.interference = none;
   return pressed;
