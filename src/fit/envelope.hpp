@@ -22,6 +22,8 @@ class Envelope {
   void solve(std::vector<double>& right) const;
 
  private:
+  void factor_four(double* row, std::size_t first, std::size_t from, std::size_t j) const;
+
   std::vector<std::size_t> first_;
   std::vector<std::size_t> start_;  // of each row: the place its column 0 would have, modulo 2^64
   std::vector<double> entries_;

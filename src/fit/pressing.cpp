@@ -16,7 +16,10 @@
 namespace lekalo::fit {
 namespace {
 
-constexpr double kSolved = 1e-9;  // of the forces, where an iteration ends
+constexpr double kSolved = 1e-9;        // of the forces, where an iteration ends
+constexpr double kNearlySolved = 1e-2;  // of the forces, from where a tangent is not made anew
+constexpr double kGoesOn = 0.1;         // of what was left before, which such a tangent has to leave
+constexpr std::size_t kElasticFactors = 3;
 constexpr int kIterations = 25;
 constexpr int kContactRounds = 40;
 constexpr int kHalvings = 8;
@@ -92,9 +95,22 @@ struct Pressing::Model {
     std::vector<int> of;  // of each component of a node: its unknown, or -1 where it is held at 0
     std::size_t unknowns = 0;
   };
+  /// The factored matrix of the assembly where nothing yields, which every step begins with. It hangs on what
+  /// touches alone.
+  struct ElasticFactor {
+    std::vector<int> of;  // the numbering
+    Envelope matrix;
+  };
+  /// Those of late, the newest last. Copies of a model share them.
+  std::shared_ptr<std::vector<ElasticFactor>> elastic = std::make_shared<std::vector<ElasticFactor>>();
+
   [[nodiscard]] Numbering number() const;
+  [[nodiscard]] Envelope envelope_of(const Numbering& numbering) const;
+  [[nodiscard]] const Envelope* elastic_factor(const Numbering& numbering) const;
   bool solve(const Goal& to, std::vector<PlasticState>& after);
-  bool iterate(const Numbering& numbering, Envelope& matrix, std::vector<PlasticState>& after);
+  bool iterate(const Numbering& numbering, std::vector<PlasticState>& after);
+  void find_forces(bool elastically, std::vector<PlasticState>& after, const Numbering& numbering,
+                   Envelope* matrix);
   bool touch_anew(const Goal& to);
   /// The hub's node moves as it is told, and its force is the shaft's load.
   [[nodiscard]] bool is_held(const Pair& pair) const {
@@ -169,50 +185,88 @@ Pressing::Model::Numbering Pressing::Model::number() const {
   return n;
 }
 
+Envelope Pressing::Model::envelope_of(const Numbering& numbering) const {
+  std::vector<std::size_t> first(numbering.unknowns);
+  for (std::size_t i = 0; i < first.size(); ++i) first[i] = i;
+  for (const MeshElement& element : mesh.elements) {
+    int lowest = static_cast<int>(first.size());
+    for (const int node : element.nodes)
+      for (const std::size_t c : {0U, 1U})
+        if (const int unknown = numbering.of[2 * at(node) + c]; unknown >= 0)
+          lowest = std::min(lowest, unknown);
+    for (const int node : element.nodes)
+      for (const std::size_t c : {0U, 1U})
+        if (const int unknown = numbering.of[2 * at(node) + c]; unknown >= 0)
+          first[at(unknown)] = std::min(first[at(unknown)], at(lowest));
+  }
+  return Envelope(first);
+}
+
+const Envelope* Pressing::Model::elastic_factor(const Numbering& numbering) const {
+  const auto found = std::find_if(elastic->begin(), elastic->end(),
+                                  [&](const ElasticFactor& factor) { return factor.of == numbering.of; });
+  return found == elastic->end() ? nullptr : &found->matrix;
+}
+
+/// Finds the forces and the plastic strains of the displacements. \param matrix  gets the tangent; may be
+/// null
+void Pressing::Model::find_forces(bool elastically, std::vector<PlasticState>& after,
+                                  const Numbering& numbering, Envelope* matrix) {
+  if (matrix != nullptr) matrix->clear();
+  std::fill(forces.begin(), forces.end(), 0.0);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const MeshElement& element = mesh.elements[e];
+    Material material = assembly.rings[at(element.ring)].material;
+    if (elastically) material.yield_mpa = 0;
+    std::array<std::size_t, 16> component{};
+    for (std::size_t i = 0; i < 16; ++i) component[i] = 2 * at(element.nodes[i / 2]) + i % 2;
+    std::array<std::array<double, 16>, 16> stiffness{};
+    for (std::size_t p = 0; p < kPoints; ++p) {
+      const StrainAt& b = strains[kPoints * e + p];
+      Tensor strain{};
+      for (std::size_t s = 0; s < 4; ++s)
+        for (std::size_t i = 0; i < 16; ++i) strain[s] += b.rows[s][i] * moved[component[i]];
+      const MaterialAnswer answer = answer_to(material, strain, plastic[kPoints * e + p]);
+      after[kPoints * e + p] = answer.plastic;
+      for (std::size_t s = 0; s < 4; ++s)
+        for (std::size_t i = 0; i < 16; ++i)
+          forces[component[i]] += b.volume * b.rows[s][i] * answer.stress[s];
+      if (matrix == nullptr) continue;
+      std::array<std::array<double, 16>, 4> tangent_rows{};
+      for (std::size_t s = 0; s < 4; ++s)
+        for (std::size_t t = 0; t < 4; ++t)
+          for (std::size_t i = 0; i < 16; ++i)
+            tangent_rows[s][i] += b.volume * answer.tangent[s][t] * b.rows[t][i];
+      for (std::size_t s = 0; s < 4; ++s)
+        for (std::size_t i = 0; i < 16; ++i)
+          for (std::size_t j = 0; j <= i; ++j) stiffness[i][j] += b.rows[s][i] * tangent_rows[s][j];
+    }
+    if (matrix == nullptr) continue;
+    for (std::size_t i = 0; i < 16; ++i)
+      for (std::size_t j = 0; j <= i; ++j) {
+        const int a = numbering.of[component[i]], b = numbering.of[component[j]];
+        if (a < 0 || b < 0) continue;
+        matrix->add(at(std::max(a, b)), at(std::min(a, b)), (i != j && a == b ? 2 : 1) * stiffness[i][j]);
+      }
+  }
+}
+
 /// Newton's iteration with the consistent tangent. The displacements satisfy the contact already.
-bool Pressing::Model::iterate(const Numbering& numbering, Envelope& matrix,
-                              std::vector<PlasticState>& after) {
+bool Pressing::Model::iterate(const Numbering& numbering, std::vector<PlasticState>& after) {
   std::vector<double> right(numbering.unknowns);
   const std::vector<double> before = forces;
+  Envelope tangent = envelope_of(numbering);
+  const Envelope* elastic_tangent = elastic_factor(numbering);
+  double left_before = HUGE_VAL;
+  bool is_factored = false;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     ask();
-    matrix.clear();
+    // The jump of the seat lies in one layer of elements at first; it is shared out before anything may
+    // yield.
+    const bool elastically = iteration == 0;
+    const bool has_factor = elastically ? elastic_tangent != nullptr : is_factored;
+    find_forces(elastically, after, numbering, has_factor ? nullptr : &tangent);
     std::fill(right.begin(), right.end(), 0.0);
-    std::fill(forces.begin(), forces.end(), 0.0);
-    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-      const MeshElement& element = mesh.elements[e];
-      Material material = assembly.rings[at(element.ring)].material;
-      // The jump of the seat lies in one layer of elements at first; it is shared out before anything may
-      // yield.
-      if (iteration == 0) material.yield_mpa = 0;
-      std::array<std::size_t, 16> component{};
-      for (std::size_t i = 0; i < 16; ++i) component[i] = 2 * at(element.nodes[i / 2]) + i % 2;
-      std::array<std::array<double, 16>, 16> stiffness{};
-      for (std::size_t p = 0; p < kPoints; ++p) {
-        const StrainAt& b = strains[kPoints * e + p];
-        Tensor strain{};
-        for (std::size_t s = 0; s < 4; ++s)
-          for (std::size_t i = 0; i < 16; ++i) strain[s] += b.rows[s][i] * moved[component[i]];
-        const MaterialAnswer answer = answer_to(material, strain, plastic[kPoints * e + p]);
-        after[kPoints * e + p] = answer.plastic;
-        std::array<std::array<double, 16>, 4> tangent_rows{};
-        for (std::size_t s = 0; s < 4; ++s)
-          for (std::size_t t = 0; t < 4; ++t)
-            for (std::size_t i = 0; i < 16; ++i)
-              tangent_rows[s][i] += b.volume * answer.tangent[s][t] * b.rows[t][i];
-        for (std::size_t s = 0; s < 4; ++s)
-          for (std::size_t i = 0; i < 16; ++i) {
-            forces[component[i]] += b.volume * b.rows[s][i] * answer.stress[s];
-            for (std::size_t j = 0; j <= i; ++j) stiffness[i][j] += b.rows[s][i] * tangent_rows[s][j];
-          }
-      }
-      for (std::size_t i = 0; i < 16; ++i)
-        for (std::size_t j = 0; j <= i; ++j) {
-          const int a = numbering.of[component[i]], b = numbering.of[component[j]];
-          if (a < 0 || b < 0) continue;
-          matrix.add(at(std::max(a, b)), at(std::min(a, b)), (i != j && a == b ? 2 : 1) * stiffness[i][j]);
-        }
-    }
     double left = 0;
     double largest = largest_force;
     for (std::size_t i = 0; i < moved.size(); ++i) {
@@ -222,16 +276,23 @@ bool Pressing::Model::iterate(const Numbering& numbering, Envelope& matrix,
     for (const Pair& pair : pairs)
       // While the jump of the seat lies in one layer, the hub's forces are those of no pressure.
       if (is_held(pair))
-        right[at(numbering.of[2 * at(pair.shaft)])] -= (iteration == 0 ? before : forces)[2 * at(pair.hub)];
+        right[at(numbering.of[2 * at(pair.shaft)])] -= (elastically ? before : forces)[2 * at(pair.hub)];
     for (const double r : right) left = std::max(left, std::abs(r));
     if (!std::isfinite(left)) return false;
-    if (iteration > 0 && left <= kSolved * largest) {
+    if (!elastically && left <= kSolved * largest) {
       largest_force = largest;
       return true;
     }
-    if (!matrix.factor()) return false;
-    matrix.solve(right);
+    if (!has_factor && !tangent.factor()) return false;
+    (elastically && elastic_tangent != nullptr ? *elastic_tangent : tangent).solve(right);
     work += numbering.unknowns;
+    if (elastically && elastic_tangent == nullptr) {
+      if (elastic->size() == kElasticFactors) elastic->erase(elastic->begin());
+      elastic->push_back({numbering.of, tangent});
+    }
+    // The tangent that has come so near leads on to the end.
+    is_factored = !elastically && left <= kNearlySolved * largest && left < kGoesOn * left_before;
+    left_before = left;
     for (std::size_t i = 0; i < moved.size(); ++i)
       if (numbering.of[i] >= 0) moved[i] += right[at(numbering.of[i])];
   }
@@ -261,21 +322,7 @@ bool Pressing::Model::solve(const Goal& to, std::vector<PlasticState>& after) {
         moved[2 * at(pairs[p].hub)] = to.interference[0] / 2;
       else if (touching[p] != 0)
         moved[2 * at(pairs[p].hub)] = moved[2 * at(pairs[p].shaft)] + overlap(pairs[p], to);
-    std::vector<std::size_t> first(numbering.unknowns);
-    for (std::size_t i = 0; i < first.size(); ++i) first[i] = i;
-    for (const MeshElement& element : mesh.elements) {
-      int lowest = static_cast<int>(first.size());
-      for (const int node : element.nodes)
-        for (const std::size_t c : {0U, 1U})
-          if (const int unknown = numbering.of[2 * at(node) + c]; unknown >= 0)
-            lowest = std::min(lowest, unknown);
-      for (const int node : element.nodes)
-        for (const std::size_t c : {0U, 1U})
-          if (const int unknown = numbering.of[2 * at(node) + c]; unknown >= 0)
-            first[at(unknown)] = std::min(first[at(unknown)], at(lowest));
-    }
-    Envelope matrix(first);
-    if (!iterate(numbering, matrix, after)) return false;
+    if (!iterate(numbering, after)) return false;
     if (!touch_anew(to)) return true;
   }
   return false;
