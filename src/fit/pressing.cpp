@@ -80,7 +80,7 @@ struct Pressing::Model {
 
   Model(const Assembly& a, const Fineness& fineness, const std::vector<Turned>& turned, FirstSeat first);
 
-  /// What the parts are pressed to in one step.
+  /// The parts are pressed to this in one step.
   struct Goal {
     std::vector<double> interference;
     double turned_part = 1;
