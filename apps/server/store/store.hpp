@@ -103,7 +103,7 @@ enum class StoreUse : std::uint8_t {
 /// The findings of a check of everything in a store.
 struct StoreCheck {
   std::int64_t layouts = 0, revisions = 0, photos = 0;
-  /// Of these layouts so many are not in the file: whoever brings it forward adds them beside damaged ones.
+  /// So many of these layouts are not in the file: whoever brings it forward adds them beside damaged ones.
   std::int64_t put_back = 0;
   std::vector<std::string> damage;  ///< sentences
   /// False where the file itself is damaged, so that a copy of its pages would be too.
