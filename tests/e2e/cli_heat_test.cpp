@@ -198,6 +198,7 @@ TEST(CliHeat, WhatIsWrongIsOneSentenceAndNothingIsWritten) {
         {{"--share", "0.1", "--hold", "hand"}, 2, "--hold"},
         {{"--share", "0.1", "--datum", "1,2"}, 2, "--datum"},
         {{"--share", "0.1", "--datum", "1,2,3", "--hold", "plate"}, 2, "--hold free"},
+        {{"--share", "0.1", "--datum", "100,8,-7"}, 3, "the datum X 100 Y 8 Z -7: the place is outside of"},
         {{"--share", "0.1", "--measured", "30,1,2,3"}, 2, "--measured: \"30,1,2,3\" is not a temperature"},
         {{"--share", "0.1", "--measured", "30,1,2,3,x"}, 2, "a time from 0 s on (in \"30,1,2,3,x\")"},
         {{"--share", "0.1", "--measured", "30,10,8,-7,100"}, 3, "state the time from its start"},
@@ -216,6 +217,8 @@ TEST(CliHeat, WhatIsWrongIsOneSentenceAndNothingIsWritten) {
     return words;
   };
   said(other(5, "40x36"), 2, "--stock");
+  said(other(15, "50"), 3,
+       "voxels of 50 mm are larger than the thickness of the stock of 10 mm; --voxel 2.5");
   said(other(5, "40x36x10@100,0"), 3, "the program lies outside of the stock");
   said(other(5, "40x36x10@5,-10"), 3, "beyond the stock's border");
   said(other(1, "still.ngc"), 3, "the tool never goes below Z 0");

@@ -132,5 +132,29 @@ TEST(JobsHeatControls, VoxelsThatAreTooLargeForTheMaterialAreNamed) {
   EXPECT_EQ(says(450, 4), "") << "copper";
 }
 
+TEST(JobsHeatControls, TooFewVoxelsAcrossAThinFloorAreNamed) {
+  const auto says = [](const char* stock, double pitch) {
+    HeatResultJob asked;
+    asked.heat = job_of("linuxcnc", LengthUnit::millimetre);
+    asked.heat.source.stock.block = heat::read_stock(stock);
+    asked.heat.pitch = pitch;
+    const auto made = heat_result(asked);
+    if (!made) return made.error().message;
+    for (const std::string& warning : made->warnings)
+      if (warning.find("across it") != std::string::npos) return warning;
+    return std::string();
+  };
+  EXPECT_EQ(
+      says("38x34x16", 4),
+      "the floor under the deepest cut is 8 mm thick, 2 voxels of 4 mm: with fewer than 4 across it what it "
+      "bends by, and the stress in it, may be a quarter off; --voxel 2 has them");
+  EXPECT_EQ(says("38x34x16", 2), "");
+  // The wall at X 18 of a stock that ends at X 21.
+  const std::string wall = says("21.5x34x16@-0.5,-10", 3);
+  EXPECT_TRUE(wall.starts_with("what stands behind a wall is 0.5 mm thick, 0.17 voxels of 3 mm")) << wall;
+  EXPECT_TRUE(wall.ends_with("--voxel 0.12 has them") || wall.ends_with("more than 2000000 in this stock"))
+      << wall;
+}
+
 }  // namespace
 }  // namespace lekalo::jobs::jobs_heat_controls_test

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "lekalo/jobs/heat_result.hpp"
@@ -109,6 +110,29 @@ TEST(JobsHeatCorrection, WhatCannotBeMovedIsToldInOneSentence) {
   steps.source.program.bytes.insert(steps.source.program.bytes.find("G1 X21 Y3"), "G91 G1 X0 Y0\nG90\n");
   EXPECT_NE(complaint_of(steps).find("a motion under G91 belongs to the path"), std::string::npos)
       << complaint_of(steps);
+}
+
+/// Its path is off the pocket on purpose. Whoever takes the errors of heat alone for those of the walls would
+/// correct it once more.
+TEST(JobsHeatCorrection, ACorrectedProgramIsToldFromOneThatFollowsTheWalls) {
+  ASSERT_TRUE(*usual) << usual->error().message;
+  const auto told = [](const HeatResult& made) {
+    for (const std::string& warning : made.warnings)
+      if (warning.find("in a cold workpiece") != std::string::npos) return warning;
+    return std::string();
+  };
+  EXPECT_EQ(told(**usual), "");
+  HeatResultJob again;
+  again.heat = usual_job().heat;
+  again.heat.source.program.bytes = (*usual)->correction->program;
+  const auto made = heat_result(again);
+  ASSERT_TRUE(made) << made.error().message;
+  const std::string said = told(*made), words = "from the walls as they are drawn they are ";
+  ASSERT_NE(said.find(words), std::string::npos) << said;
+  double least = 0, most = 0;
+  ASSERT_EQ(std::sscanf(said.c_str() + said.find(words) + words.size(), "%lf to %lf um", &least, &most), 2)
+      << said;
+  EXPECT_LT(std::max(std::abs(least), std::abs(most)), 0.3 * made->found.errors.largest()) << said;
 }
 
 TEST(JobsHeatCorrection, ThreadsChangeNoByte) {

@@ -311,6 +311,24 @@ TEST(JobsHeat, MeasurementsThatCannotBeAreToldInOneSentence) {
   EXPECT_EQ(said({{21, {10, 8, -4}, 12, 20}, {21, {10, 0, -2}, 12, 20}, {21, {30, 8, -2}, 12, 20}}), "");
 }
 
+TEST(JobsHeat, ADatumThatDoesNotStandIsToldInOneSentence) {
+  const auto said = [](heat::Place datum) {
+    HeatJob job = job_of();
+    job.holding.datum = datum;
+    const Result<HeatFound> found = heat(job);
+    return found ? std::string() : found.error().message;
+  };
+  EXPECT_EQ(
+      said({31, 8, -6}),
+      "the datum X 31 Y 8 Z -6: the place is outside of the stock, which goes from X -10 Y -10 Z -10 to X "
+      "30 Y 26 Z 0; state it in the program's coordinates, mm");
+  EXPECT_NE(said({10, 8, 0.1}).find("the place is outside of the stock"), std::string::npos);
+  // The program takes it away in the end, so that nothing would be there to lie still.
+  EXPECT_NE(said({10, 3.2, -2}).find("the datum X 10 Y 3.2 Z -2: the place is in the air"),
+            std::string::npos);
+  EXPECT_EQ(said({30, 26, -10}), "");
+}
+
 TEST(JobsHeat, AnOutlineOfABlockIsTheBlock) {
   HeatJob job = job_of();
   job.source.stock.block.reset();
@@ -340,6 +358,16 @@ TEST(JobsHeat, ImpossibleJobsAreToldInOneSentence) {
       "to be those of the program");
   job = job_of(), job.pitch = 0;
   EXPECT_EQ(complaint_of(job), "voxels of 0 mm cannot be made; state a pitch above 0");
+  // Voxels larger than what they divide, and as large as it.
+  job = job_of(), job.pitch = 50;
+  EXPECT_EQ(
+      complaint_of(job),
+      "voxels of 50 mm are larger than the thickness of the stock of 10 mm; --voxel 2.5 has 4 across it");
+  job = job_of(), job.source.stock.block = heat::read_stock("40x36x30"), job.pitch = 17;
+  EXPECT_EQ(complaint_of(job),
+            "voxels of 17 mm are larger than a side of the pocket of 16 mm; --voxel 4 has 4 across it");
+  job.pitch = 16;
+  EXPECT_EQ(complaint_of(job), "");
   job = job_of(), job.material = material(0.5, 0.5, "PMMA");
   EXPECT_NE(complaint_of(job).find("the figures of PMMA hold up to 105"), std::string::npos)
       << complaint_of(job);

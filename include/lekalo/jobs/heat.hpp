@@ -111,7 +111,7 @@ struct HeatFound {
   heat::Grid grid;
   std::vector<WallPoint> walls;
   std::vector<std::vector<WallVisit>> visits;  ///< of each of them, in their order
-  std::size_t uncut = 0;  ///< places of walls that the program does not cut
+  std::size_t uncut = 0;                       ///< places of walls that the program does not cut
   /// For the least film, the middle one and the greatest; one where it is one.
   std::vector<HeatCase> cases;
   /// The heat that goes into the workpiece, J, and the share, as measurements leave them. The heat is less in
@@ -145,7 +145,8 @@ struct HeatFound {
 /// Follows the program in voxels: heat enters where the tool cuts, material goes away, and the displacement
 /// is known whenever the tool is beside a place of a wall. docs/design/heat-walls.md.
 ///
-/// Errors: bad_input for what heat_source() and heat::Grid::divide refuse, where no place of a wall is cut,
+/// Errors: bad_input for what heat_source() and heat::Grid::divide refuse, for voxels larger than the stock
+/// or the pocket, for a datum that is outside of the stock or cut away, where no place of a wall is cut,
 /// where the workpiece surely gets warmer than the material's figures hold, and for measurements outside of
 /// the stock or of the program, in the air, where no heat has come, and which contradict what is stated or
 /// each other; refuted where the equations are not solved. Phases: "following the program", "heating" and,

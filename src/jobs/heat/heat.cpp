@@ -14,6 +14,7 @@
 #include "heat_border.hpp"
 #include "heat_measured.hpp"
 #include "heat_recorder.hpp"
+#include "heat_voxels.hpp"
 #include "heat_walls.hpp"
 #include "lekalo/base/angle.hpp"
 #include "lekalo/base/stop.hpp"
@@ -429,6 +430,8 @@ Result<HeatFound> heat(const HeatJob& job, const PhaseListener& phases) {
   const heat::StockBox& box = found.source.stock.box;
   LEKALO_TRY(found.grid, heat::Grid::divide({box.low_x, box.low_y, top - box.thickness},
                                             {box.high_x, box.high_y, top}, job.pitch));
+  LEKALO_CHECK(check_voxels(job, found.source));
+  LEKALO_CHECK(check_datum(job, found.source));
   LEKALO_TRY(CutWalls walls, cut_walls(source, found.source, job.pitch));
   found.walls = std::move(walls.points), found.visits = std::move(walls.visits), found.uncut = walls.uncut;
   std::vector<std::pair<double, const char*>> films{{job.film.middle(), "heating"}};

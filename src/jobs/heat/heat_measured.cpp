@@ -48,35 +48,40 @@ std::optional<double> lowest_over(const heat::ToolPiece& piece, Place at, double
   return std::min(tip(first), tip(last));
 }
 
-Result<void> check_one(const MeasuredTemperature& m, const HeatJob& job, const HeatSource& source,
-                       const StockBorder& border) {
+/// Refuses a place outside of the stock, or one that the tool takes off before a time. \param what  begins
+/// the sentence
+Result<void> check_place(const std::string& what, Place at, double until, const HeatJob& job,
+                         const HeatSource& source, const StockBorder& border) {
   const heat::StockBox& box = source.stock.box;
   const double top = job.source.machining.top;
+  if (!(border.inside(at.x, at.y) >= -kBesidePlace && at.z <= top + kBesidePlace &&
+        at.z >= top - box.thickness - kBesidePlace))
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format("{}: the place is outside of the stock, which goes from X {:g} Y {:g} Z {:g} to X "
+                    "{:g} Y {:g} Z {:g}{}; state it in the program's coordinates, mm",
+                    what, box.low_x, box.low_y, top - box.thickness, box.high_x, box.high_y, top,
+                    border.is_block() ? "" : " within its outline"));
+  const double radius = job.source.machining.tool_diameter / 2 - kBesidePlace;
+  for (const heat::ToolPiece& piece : source.pieces) {
+    if (piece.start > until) break;
+    const std::optional<double> low = lowest_over(piece, at, radius);
+    if (low && *low < at.z - kBesidePlace)
+      return failure(ErrorCode::bad_input,
+                     fmt::format("{}: the place is in the air, since the tool took it off after {:.3f} "
+                                 "s; state a place that still stands",
+                                 what, piece.start));
+  }
+  return {};
+}
+
+Result<void> check_one(const MeasuredTemperature& m, const HeatJob& job, const HeatSource& source,
+                       const StockBorder& border) {
   if (!(m.seconds >= 0 && m.seconds <= source.work.seconds))
     return failure(ErrorCode::bad_input,
                    fmt::format("measured {}: the program takes {:.3f} s; state the time from its start",
                                words_of(m), source.work.seconds));
-  if (!(border.inside(m.at.x, m.at.y) >= -kBesidePlace && m.at.z <= top + kBesidePlace &&
-        m.at.z >= top - box.thickness - kBesidePlace))
-    return failure(
-        ErrorCode::bad_input,
-        fmt::format(
-            "measured {}: the place is outside of the stock, which goes from X {:g} Y {:g} Z {:g} to X "
-            "{:g} Y {:g} Z {:g}{}; state it in the program's coordinates, mm",
-            words_of(m), box.low_x, box.low_y, top - box.thickness, box.high_x, box.high_y, top,
-            border.is_block() ? "" : " within its outline"));
-  const double radius = job.source.machining.tool_diameter / 2 - kBesidePlace;
-  for (const heat::ToolPiece& piece : source.pieces) {
-    if (piece.start > m.seconds) break;
-    const std::optional<double> low = lowest_over(piece, m.at, radius);
-    if (low && *low < m.at.z - kBesidePlace)
-      return failure(
-          ErrorCode::bad_input,
-          fmt::format("measured {}: the place is in the air, since the tool took it off after {:.3f} "
-                      "s; state a place that still stands",
-                      words_of(m), piece.start));
-  }
-  return {};
+  return check_place("measured " + words_of(m), m.at, m.seconds, job, source, border);
 }
 
 /// Linear along each axis between the middles of voxels, of which each counts by its material; none where
@@ -125,6 +130,13 @@ Result<void> check_measured(const HeatJob& job, const HeatSource& source) {
   const StockBorder border(source.stock);
   for (const MeasuredTemperature& m : job.measured) LEKALO_CHECK(check_one(m, job, source, border));
   return {};
+}
+
+Result<void> check_datum(const HeatJob& job, const HeatSource& source) {
+  if (!job.holding.datum) return {};
+  const Place at = *job.holding.datum;
+  return check_place(fmt::format("the datum X {:g} Y {:g} Z {:g}", at.x, at.y, at.z), at, source.work.seconds,
+                     job, source, StockBorder(source.stock));
 }
 
 void MeasuredRises::take(const heat::Body& body, const std::vector<double>& temperatures, double begin,

@@ -12,6 +12,8 @@ namespace lekalo::jobs {
 
 /// bad_input with one sentence where a measurement is outside of the stock or of the program, or in the air.
 [[nodiscard]] Result<void> check_measured(const HeatJob& job, const HeatSource& source);
+/// The same where the place that does not move is outside of the stock, or cut away by the program.
+[[nodiscard]] Result<void> check_datum(const HeatJob& job, const HeatSource& source);
 
 /// Follows the temperatures at measured places, step by step.
 class MeasuredRises {

@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include "heat_document.hpp"
+#include "heat_path.hpp"
 #include "heat_picture.hpp"
 #include "heat_scene.hpp"
+#include "heat_voxels.hpp"
 #include "lekalo/verify/claims.hpp"
 
 namespace lekalo::jobs {
@@ -38,6 +40,8 @@ std::vector<std::string> warnings_of(const HeatJob& job, const HeatFound& found)
         "less of it leaves with the chips than would, and walls may lie a fifth less far off; "
         "--voxel {:.2g} shows it",
         ahead, job.pitch, ahead));
+  for (const auto& told : {thin_voxels(job, found), path_off_walls(job, found)})
+    if (told) warnings.push_back(*told);
   if (const auto& read = found.source.stock.read)
     warnings.insert(warnings.end(), read->notices.begin(), read->notices.end());
   warnings.insert(warnings.end(), found.source.unsaid.begin(), found.source.unsaid.end());
