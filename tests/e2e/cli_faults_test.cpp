@@ -67,7 +67,7 @@ std::vector<Command> commands() {
       {"heat",
        {"heat",      "p.nc", "--pocket",         "pocket.json", "--stock",    "40x36x6", "--tool",  "6",
         "--teeth",   "3",    "--spindle",        "8000",        "--material", "6061-T6", "--share", "0.1",
-        "--cooling", "20",   "--stock-to-leave", "1",           "--voxel",    "9",       "--json",  "-o",
+        "--cooling", "20",   "--stock-to-leave", "1",           "--voxel",    "6",       "--json",  "-o",
         "h.json"},
        {"h.json", "h.svg"}},
   };

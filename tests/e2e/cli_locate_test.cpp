@@ -465,7 +465,7 @@ TEST_F(Plate, NamesThatAreNotUtf8Work) {
   EXPECT_EQ(ran.json()["inputs"][1]["path"], "bl\xEF\xBF\xBDnk.csv");
   EXPECT_EQ(ran.json()["warnings"].size(), 1U);
   ASSERT_TRUE(fs::exists(folder_ / "r\xe9sult.json"));
-  EXPECT_EQ(verify("r\xe9sult.json"), 3) << "the name in the result is not that of the file";
+  EXPECT_EQ(verify("r\xe9sult.json"), 4) << "the name in the result is not that of the file";
   EXPECT_EQ(run(folder_.path(), {"verify", "r\xe9sult.json", "--blank", name}).status, 0);
 }
 
