@@ -296,5 +296,19 @@ TEST(Assembly, WhatIsNoneIsRefusedByName) {
   EXPECT_NE(says({{{0, 18, 54, steel(1e5)}, {18, 36, 18, m}}}).find("yield stress"), std::string::npos);
 }
 
+/// The whole profile came with the first step, however small that was: no step was small enough, and the
+/// answer was that a part does not harden, of parts that do.
+TEST(Pressing, ALargeProfileOfASeatComesStepByStepAndPartsThatHardenCarryIt) {
+  const Material hard{"hard", 206000, 0.3, 340, 1000, 0};
+  const Assembly assembly{{{16, 40, 60, hard}, {40, 60, 40, hard}}};
+  Pressing pressing(assembly, {1.0 / 6, 1.0 / 3},
+                    {{0, true, [](double z) { return 0.2 * (1 - z * z / 400); }}});
+  const auto pressed = pressing.press({0.03});
+  ASSERT_TRUE(pressed) << pressed.error().message;
+  EXPECT_EQ(pressed->state, State::full);
+  EXPECT_NEAR(pressed->seats[0].pressure_mpa, 142.26, 0.01);
+  EXPECT_NEAR(in_middle(pressed->rings[1].outer).diameter, 0.30797, 1e-5);
+}
+
 }  // namespace
 }  // namespace lekalo::fit_pressing_test

@@ -149,7 +149,7 @@ TEST(JobsHeatControls, TooFewVoxelsAcrossAThinFloorAreNamed) {
       "the floor under the deepest cut is 8 mm thick, 2 voxels of 4 mm: with fewer than 4 across it what it "
       "bends by, and the stress in it, may be a quarter off; --voxel 2 has them");
   EXPECT_EQ(says("38x34x16", 2), "");
-  // The wall at X 18 of a stock that ends at X 21.
+  // The wall at X 0 of a stock that begins at X -0.5.
   const std::string wall = says("21.5x34x16@-0.5,-10", 3);
   EXPECT_TRUE(wall.starts_with("what stands behind a wall is 0.5 mm thick, 0.17 voxels of 3 mm")) << wall;
   EXPECT_TRUE(wall.ends_with("--voxel 0.12 has them") || wall.ends_with("more than 2000000 in this stock"))
