@@ -135,6 +135,37 @@ TEST(VerifyDrawnDxf, TheFileSaysItsUnitAndShowsItsLayers) {
   EXPECT_EQ(table("0 LAYER 2 A 70 0 62 7 290 0"), "e.dxf: line 30: lekalo writes no group 290 there");
 }
 
+/// Each was confirmed once: readers take one of two, and not all the same one.
+TEST(VerifyDrawnDxf, NothingIsSaidTwice) {
+  const auto refused = [](const std::string& entities, const std::string& said) {
+    EXPECT_NE(dxf(entities).find(said), std::string::npos) << entities << "\n" << dxf(entities);
+  };
+  refused("0 LINE 8 SHEET 8 CUT 10 1 20 2 11 3 21 5", "line 20: a second group 8");
+  refused("0 LINE 8 CUT 420 1 420 2 10 1 20 2 11 3 21 5", "a second group 420");
+  refused("0 LWPOLYLINE 8 CUT 90 3 90 2 70 1 10 0 20 0 10 4 20 0", "a second group 90");
+  refused("0 LWPOLYLINE 8 CUT 90 2 70 1 70 0 10 0 20 0 10 4 20 0", "a second group 70");
+  refused("0 TEXT 8 T 10 1 20 2 40 3 1 x 1 y", "a second group 1");
+  const std::string line = "0 LINE 8 M 10 1 20 2 11 3 21 5";
+  refused(line + " 0 ENDSEC 0 SECTION 2 ENTITIES " + line, "a section for the second time");
+  EXPECT_EQ(dxf_whole("0 SECTION 2 HEADER 9 $INSUNITS 70 1 9 $INSUNITS 70 4 0 ENDSEC 0 SECTION 2 ENTITIES " +
+                      line + kTail),
+            "e.dxf: line 12: it says its unit twice");
+}
+
+TEST(VerifyDrawnDxf, LettersAndCirclesAreShownAsTheyAreMeant) {
+  EXPECT_NE(dxf("0 CIRCLE 8 C 10 1 20 2 40 -5").find("a circle without a radius"), std::string::npos);
+  EXPECT_NE(dxf("0 CIRCLE 8 C 10 1 20 2 40 0").find("a circle without a radius"), std::string::npos);
+  const auto with = [](const std::string& version, const std::string& letters) {
+    return told(read_dxf(
+        {"e.dxf", dxf_text("0 SECTION 2 HEADER 9 $ACADVER 1 " + version +
+                           " 9 $INSUNITS 70 4 0 ENDSEC 0 SECTION 2 ENTITIES 0 TEXT 8 T 10 1 20 2 40 3 1") +
+                      letters + "\n" + dxf_text("0 ENDSEC 0 EOF")}));
+  };
+  EXPECT_EQ(with("AC1021", " Жук"), "T ' Жук' left 1,2 3,0 0,3\n") << "a blank moves the letters";
+  EXPECT_EQ(with("AC1015", "a "), "T 'a ' left 1,2 3,0 0,3\n");
+  EXPECT_EQ(with("AC1015", "Жук"), "e.dxf: its letters are UTF-8, which it does not say by $ACADVER AC1021");
+}
+
 TEST(VerifyDrawnDxf, AFileIsWholeAndItsBlocksAreEmpty) {
   const std::string line = "0 LINE 8 M 10 1 20 2 11 3 21 5", read = "M!: L 1,2 3,5\n";
   const std::string body = kHead + "0 SECTION 2 ENTITIES " + line;
@@ -167,10 +198,13 @@ TEST(VerifyDrawnDxf, AFileIsWholeAndItsBlocksAreEmpty) {
 
 // ---- SVG --------------------------------------------------------------------------------------------------
 
+const std::string kProlog = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+const std::string kSpaces =
+    R"( xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape")";
 std::string svg_whole(const std::string& text) { return told(read_svg({"e.svg", text})); }
 std::string svg(const std::string& body) {
-  return svg_whole(R"(<?xml version="1.0"?>
-<svg xmlns="x" version="1.1" width="100mm" height="50mm" viewBox="0 -50 100 50" data-lekalo-corner="0 0">
+  return svg_whole(kProlog + "<svg" + kSpaces + R"( version="1.1" width="100mm" height="100mm" )" +
+                   R"(viewBox="-50 -50 100 100" data-lekalo-corner="-50 -50">
 <g inkscape:groupmode="layer" inkscape:label="CUT" fill="none" stroke="#d00000" stroke-width="0.2">)" +
                    body + "</g>\n</svg>\n");
 }
@@ -195,8 +229,8 @@ TEST(VerifyDrawnSvg, PathsCirclesAndLinesAreReadWithYUp) {
           "stroke-width=\"1\"><text x=\"1\">any words</text>"),
       "");
   EXPECT_EQ(path("M0 0L4 0L4,-3"), "CUT!: L 0,0 4,0 L 4,0 4,3\n");
-  EXPECT_EQ(svg("<text transform=\"matrix(0 -2 1 0 3 -4)\" font-size=\"10\" text-anchor=\"end\" "
-                "fill=\"#0000ff\">a&lt;&amp;b</text>"),
+  EXPECT_EQ(svg("<text transform=\"matrix(0 -2 1 0 3 -4)\" font-family=\"sans-serif\" font-size=\"10\" "
+                "text-anchor=\"end\" fill=\"#0000ff\" stroke=\"none\">a&lt;&amp;b</text>"),
             "CUT#0000ff 'a<&b' right 3,4 0,14.4 -7.2,0\n");
 }
 
@@ -274,8 +308,74 @@ TEST(VerifyDrawnSvg, LinesAreShownAsLines) {
     EXPECT_NE(svg(line).find("a line in no colour"), std::string::npos) << line;
 }
 
+/// Each was confirmed once.
+TEST(VerifyDrawnSvg, WhatHidesLettersIsRefused) {
+  const auto text = [](const std::string& words, const std::string& rest = ">ab</text>") {
+    return svg("<text transform=\"matrix(1 0 0 1 3 -4)\" font-size=\"10\" text-anchor=\"start\"" + words +
+               rest);
+  };
+  const std::string fine = R"( font-family="sans-serif" fill="#000000" stroke="none")",
+                    strange = "a text that lekalo does not write so";
+  EXPECT_EQ(text(fine), "CUT#000000 'ab' left 3,4 7.2,0 0,7.2\n");
+  EXPECT_NE(text(fine, "/>ab").find("a text without letters"), std::string::npos);
+  for (const char* words :
+       {R"( font-family="sans-serif" stroke="none")", R"( font-family="sans-serif" fill="" stroke="none")",
+        R"( font-family="sans-serif" fill="none" stroke="none")",
+        R"( font-family="sans-serif" fill="#000000")",
+        R"( font-family="sans-serif" fill="#000000" stroke="#ff0000")",
+        R"( font-family="Symbol" fill="#000000" stroke="none")", R"( fill="#000000" stroke="none")"})
+    EXPECT_NE(text(words).find(strange), std::string::npos) << words;
+  const std::string label =
+      "</g><g inkscape:groupmode=\"layer\" inkscape:label=\"LABEL\" fill=\"none\" stroke=\"#008000\" "
+      "stroke-width=\"1\">";
+  EXPECT_NE(svg(label + "<text display=\"none\">a</text>").find("lekalo writes no attribute display there"),
+            std::string::npos);
+}
+
+TEST(VerifyDrawnSvg, WhatHidesLinesIsRefused) {
+  EXPECT_NE(svg(R"(<circle cx="1" cy="-2" r="-5"/>)").find("a circle without a radius"), std::string::npos);
+  EXPECT_NE(svg(R"(<circle cx="1" cy="-2" r="0"/>)").find("a circle without a radius"), std::string::npos);
+  EXPECT_EQ(path("M-50 0L50 50"), "CUT!: L -50,0 50,-50\n");
+  EXPECT_EQ(path("M-50 0A50 50 0 0 1 50 0Z"), "CUT: A 0,0 50 - -50,0 50,0 L 50,0 -50,0\n");
+  EXPECT_EQ(svg(R"(<circle cx="0" cy="0" r="50"/>)"), "CUT: A 0,0 50 + 50,0 50,0\n");
+  EXPECT_NE(svg(R"(<circle cx="0" cy="0" r="50.01"/>)").find("something lies beyond the page"),
+            std::string::npos);
+  for (const char* beyond : {"M-50.01 0L50 50", "M-50 1A50 50 0 0 0 50 1Z", "M-50 -1A50 50 0 0 1 50 -1Z",
+                             "M-50 0L50 50.01", "M0 50A50 50 0 0 1 50.01 0"})
+    EXPECT_NE(path(beyond).find("something lies beyond the page"), std::string::npos) << beyond;
+  EXPECT_NE(svg(R"(<text transform="matrix(1 0 0 1 51 -4)" font-size="10" text-anchor="end" )"
+                R"(font-family="sans-serif" fill="#000000" stroke="none">a</text>)")
+                .find("a text stands beyond the page"),
+            std::string::npos);
+  EXPECT_NE(svg("</g><g inkscape:label=\"A\" fill=\"none\" stroke=\"#008000\" stroke-width=\"1\">")
+                .find("a group that is no layer"),
+            std::string::npos);
+  EXPECT_NE(svg(R"(<line x1="1"y1="2" x2="3" y2="4"/>)").find("attributes that cannot be read"),
+            std::string::npos);
+}
+
+TEST(VerifyDrawnSvg, TheFileIsADrawingInUtf8WithoutStyles) {
+  const std::string page = "<svg" + kSpaces + R"( width="9mm" height="9mm" viewBox="0 -9 9 9"></svg>)";
+  EXPECT_EQ(svg_whole(kProlog + page), "");
+  const std::string strange = "something is drawn on no layer";
+  for (const char* words : {R"(<?xml version="1.0" encoding="ISO-8859-1"?>)", "<?xml version=\"1.0\"?>",
+                            R"(<?xml-stylesheet type="text/css" href="a.css"?>)"}) {
+    EXPECT_NE(svg_whole(words + page).find(strange), std::string::npos) << words;
+    EXPECT_NE(svg_whole(kProlog + words + page).find(strange), std::string::npos) << words;
+  }
+  EXPECT_NE(svg_whole(kProlog + kProlog + page).find(strange), std::string::npos);
+  EXPECT_NE(svg_whole(page + "x").find("text where lekalo writes none"), std::string::npos);
+  for (const char* space : {"http://www.w3.org/2000/svg\"", "namespaces/inkscape\""}) {
+    std::string other = page;
+    other.insert(other.find(space), "x");
+    EXPECT_NE(svg_whole(other).find("a page in another name space"), std::string::npos) << space;
+  }
+}
+
 TEST(VerifyDrawnSvg, ThePageIsAsLargeAsItsView) {
-  const auto page = [](const std::string& words) { return svg_whole("<svg " + words + "></svg>"); };
+  const auto page = [](const std::string& words) {
+    return svg_whole("<svg" + kSpaces + " " + words + "></svg>");
+  };
   EXPECT_EQ(page(R"(width="100mm" height="50mm" viewBox="0 -50 100 50")"), "");
   EXPECT_EQ(page(R"(width="100mm" height="50mm" viewBox="3 -54 100 50" data-lekalo-corner="3 4")"), "");
   const auto refused = [&](const std::string& words, const std::string& said) {
@@ -304,7 +404,7 @@ TEST(VerifyDrawnSvg, ThePageIsAsLargeAsItsView) {
 }
 
 TEST(VerifyDrawnSvg, AFileIsWhole) {
-  const std::string open = R"(<svg width="100mm" height="50mm" viewBox="0 -50 100 50">)";
+  const std::string open = "<svg" + kSpaces + R"( width="100mm" height="50mm" viewBox="0 -50 100 50">)";
   EXPECT_EQ(svg_whole(open + "</svg>"), "");
   EXPECT_EQ(svg_whole(open + "\r\n\t </svg>"), "");
   EXPECT_NE(svg_whole(open).find("an element is not closed"), std::string::npos);
@@ -336,6 +436,16 @@ TEST(VerifyDrawnHpgl, PensAreLayersAndUnitsAre40ToAMillimetre) {
   EXPECT_EQ(hpgl("SP5;PU0,0;PD;SP6;PD;SP7;PD;"), "DEFECT: L 0,0 0,0\nZONE: L 0,0 0,0\nAREA: L 0,0 0,0\n");
   EXPECT_EQ(hpgl("SP3;PU1,1;SI0.2,0.3;LO5;LBany; words\x03;"), "");
   EXPECT_EQ(hpgl("\nSP3;\r\nPU1,1;\r"), "");
+}
+
+/// Each was confirmed once: labels are for people, and their pen draws nothing else.
+TEST(VerifyDrawnHpgl, NothingIsDrawnBesideLabels) {
+  EXPECT_EQ(hpgl("SP3;PU0,0;PD1,1;"), "e.plt: instruction 4: lekalo writes no PD1,1 there");
+  EXPECT_EQ(hpgl("SP1;LBa\x03;"), "e.plt: instruction 3: lekalo writes no LBa there");
+  EXPECT_EQ(hpgl("LBa\x03;"), "e.plt: instruction 2: lekalo writes no LBa there");
+  EXPECT_EQ(hpgl("SP3;LBa\x03PD1,1;LB\x03;"), "e.plt: instruction 3: lekalo writes no LBa there");
+  EXPECT_EQ(told(read_hpgl({"e.plt", "IN;PA;SP3;SP0;LBa\x03;"})),
+            "e.plt: instruction 4: lekalo writes no LBa there");
 }
 
 TEST(VerifyDrawnHpgl, WhatLekaloDoesNotWriteIsRefused) {

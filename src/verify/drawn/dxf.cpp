@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "drawn_file.hpp"
 #include "lekalo/base/double_of_text.hpp"
@@ -17,7 +18,8 @@ namespace {
 struct Group {
   int code;
   std::string_view value;
-  std::size_t line;  ///< of the value, from 1
+  std::size_t line;            ///< of the value, from 1
+  std::string_view letters{};  ///< the value with the blanks around it
 };
 
 /// Reads pairs of lines: a code, and its value without blanks around it.
@@ -32,6 +34,7 @@ class Groups {
     const auto [end, error] = std::from_chars(code.data(), code.data() + code.size(), group.code);
     if (error != std::errc{} || end != code.data() + code.size()) return false;
     group.value = take_line();
+    group.letters = letters_;
     group.line = line_;
     return true;
   }
@@ -43,18 +46,20 @@ class Groups {
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());
     std::string_view line = rest_.substr(0, end);
     rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    letters_ = line;
+    while (!line.empty() && line.back() == ' ') line.remove_suffix(1);
     while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
     return line;
   }
 
-  std::string_view rest_;
+  std::string_view rest_, letters_;
   std::size_t line_ = 0;
 };
 
 class DxfReader {
  public:
-  explicit DxfReader(const Document& document) : name_(document.name), groups_(document.bytes) {}
+  explicit DxfReader(const Document& document) : document_(document), groups_(document.bytes) {}
 
   Result<DrawnFile> read() {
     Group group;
@@ -62,6 +67,7 @@ class DxfReader {
     while (complaint_.empty() && groups_.next(group)) {
       if (ended) complain(group, "it goes on after its end");
       if (group.code == 0) {
+        said_once_.clear();
         finish_entity();
         ended = group.value == "EOF";
         begin(group);
@@ -71,7 +77,12 @@ class DxfReader {
     }
     if (!ended) complain({0, "", groups_.line()}, "it ends in the middle");
     if (complaint_.empty() && scale_ == 0) complaint_ = "it does not say its unit";
-    if (!complaint_.empty()) return failure(ErrorCode::bad_input, fmt::format("{}: {}", name_, complaint_));
+    const bool is_plain = std::all_of(document_.bytes.begin(), document_.bytes.end(),
+                                      [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    if (complaint_.empty() && !is_plain && version_ != "AC1021")
+      complaint_ = "its letters are UTF-8, which it does not say by $ACADVER AC1021";
+    if (!complaint_.empty())
+      return failure(ErrorCode::bad_input, fmt::format("{}: {}", document_.name, complaint_));
     for (DrawnLine& line : lines_)
       for (Stroke& edge : line.edges) {
         edge.from = scale_ * edge.from, edge.to = scale_ * edge.to, edge.centre = scale_ * edge.centre;
@@ -112,11 +123,15 @@ class DxfReader {
     if (group.code != 2 || !section_.empty())
       complain(group, "a section without a name, or with a second one");
     section_ = group.value;
+    // Readers take one of two sections of a name.
+    if (!sections_.insert(section_).second) complain(group, "a section for the second time");
   }
 
   void take_header(const Group& group) {
     if (group.code == 9) variable_ = group.value;
+    if (variable_ == "$ACADVER" && group.code == 1) version_ = group.value;
     if (variable_ != "$INSUNITS" || group.code != 70) return;
+    if (scale_ != 0) complain(group, "it says its unit twice");
     scale_ = group.value == "4" ? 1 : group.value == "1" ? 25.4 : 0;
     if (scale_ == 0) complain(group, "its unit is neither mm nor inch");
   }
@@ -131,6 +146,11 @@ class DxfReader {
   }
 
   void take_entity(const Group& group) {
+    // Readers take one of two layers, colours, counts or letters.
+    constexpr std::array kOnce{8, 90, 70, 420, 1};
+    if (std::find(kOnce.begin(), kOnce.end(), group.code) != kOnce.end() &&
+        !said_once_.insert(group.code).second)
+      return complain(group, fmt::format("a second group {}", group.code));
     switch (group.code) {
       case 5:
       case 330:
@@ -151,7 +171,7 @@ class DxfReader {
         return;
       case 1:
         if (entity_ != "TEXT") break;
-        letters_ = group.value;
+        letters_ = group.letters;
         return;
       default:
         break;
@@ -235,6 +255,10 @@ class DxfReader {
 
   void add_circle() {
     if (!has({10, 20, 40})) return;
+    if (!(numbers_[40] > 0)) {
+      complaint_ = fmt::format("line {}: a circle without a radius", groups_.line());
+      return;
+    }
     const Place centre{numbers_[10], numbers_[20]}, start = centre + Place{numbers_[40], 0};
     lines_.push_back({layer_, {arc_about(start, start, centre, true)}, true});
   }
@@ -274,11 +298,13 @@ class DxfReader {
         {layer_, {line_between({numbers_[10], numbers_[20]}, {numbers_[11], numbers_[21]})}, false});
   }
 
-  const std::string& name_;
+  const Document& document_;
   Groups groups_;
   std::string complaint_;
   double scale_ = 0;
-  std::string section_, entity_, variable_, layer_, colour_;
+  std::string section_, entity_, variable_, version_, layer_, colour_;
+  std::set<std::string> sections_;
+  std::set<int> said_once_;  ///< codes of this entity's groups that stand once
   std::string_view count_, letters_;
   bool closed_ = false;
   std::vector<Vertex> vertices_;

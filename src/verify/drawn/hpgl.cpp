@@ -19,14 +19,17 @@ class HpglReader {
 
   Result<DrawnFile> read() {
     while (complaint_.empty() && skip_blanks()) {
-      // A label ends with the character ETX, so that it may hold a semicolon.
+      // A label ends with the first character ETX, so that it may hold a semicolon.
       const bool label = rest_.starts_with("LB");
-      const std::size_t end = rest_.find(label ? "\x03;" : ";");
+      const std::size_t end = rest_.find(label ? '\x03' : ';');
       if (end == std::string_view::npos) {
         complaint_ = "an instruction is cut off";
         break;
       }
-      if (!label) instruction(rest_.substr(0, end));
+      if (!label)
+        instruction(rest_.substr(0, end));
+      else if (pen_ != 3 || !rest_.substr(end + 1).starts_with(';'))
+        complain(rest_.substr(0, end));
       rest_.remove_prefix(end + (label ? 2 : 1));
       ++number_;
     }
@@ -60,7 +63,7 @@ class HpglReader {
       const std::vector<Place> places = read_places(values);
       if (places.size() > 1) complain(word);
       if (!places.empty()) at_ = places[0];
-    } else if (kind == "PD" && pen_ > 0) {
+    } else if (kind == "PD" && pen_ > 0 && pen_ != 3) {
       draw(read_places(values));
     } else if (!(pen_ == 3 && (kind == "SI" || word == "LO5"))) {
       complain(word);

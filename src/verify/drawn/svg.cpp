@@ -10,10 +10,15 @@
 
 #include "drawn_file.hpp"
 #include "lekalo/base/double_of_text.hpp"
+#include "placed_sheet.hpp"
 #include "verify/number/exact.hpp"
+#include "verify/number/span.hpp"
 
 namespace lekalo::verify {
 namespace {
+
+/// Doubles of a page's size and of what lies at its rim are off by less, mm.
+constexpr double kOffPage = 1e-6;
 
 using Attributes = std::map<std::string, std::string_view, std::less<>>;
 
@@ -62,16 +67,18 @@ class SvgReader {
     while (complaint_.empty()) {
       const std::size_t open = rest_.find('<');
       if (open == std::string_view::npos) break;
-      if (!in_text_ && rest_.substr(0, open).find_first_not_of(" \r\n\t") != std::string_view::npos)
-        complain("text where lekalo writes none");
+      if (!in_text_) refuse_words(rest_.substr(0, open));
       if (texts_open_) texts_.back().text = plain_letters(rest_.substr(0, open));
       rest_.remove_prefix(open + 1);
       const std::size_t close = rest_.find('>');
       if (close == std::string_view::npos) return complained("an element is cut off");
       element(rest_.substr(0, close));
       rest_.remove_prefix(close + 1);
+      ++elements_;
     }
+    refuse_words(rest_);
     if (depth_ != 0 || !page_) complain("an element is not closed");
+    if (complaint_.empty()) look_at_page();
     if (!complaint_.empty()) return complained(complaint_);
     return DrawnFile{std::move(lines_), std::move(texts_)};
   }
@@ -84,9 +91,15 @@ class SvgReader {
     if (complaint_.empty()) complaint_ = fmt::format("{}: {}", what, excerpt(current_));
   }
 
+  void refuse_words(std::string_view between) {
+    if (between.find_first_not_of(" \r\n\t") != std::string_view::npos)
+      complain("text where lekalo writes none");
+  }
+
   void element(std::string_view text) {
     current_ = text;
-    if (text.starts_with("?xml")) return;
+    // Other instructions name sheets of styles, and other encodings mean other letters.
+    if (elements_ == 0 && text == R"(?xml version="1.0" encoding="UTF-8"?)") return;
     if (text.starts_with("/")) {
       if (open_.empty() || text.substr(1) != open_.back())
         return complain("an element that is not open is closed");
@@ -98,12 +111,13 @@ class SvgReader {
     const bool alone = text.ends_with("/");
     if (alone) text.remove_suffix(1);
     if (!alone) ++depth_;
-    const std::size_t end = std::min(text.find_first_of(" \n"), text.size());
+    const std::size_t end = std::min(text.find(' '), text.size());
     const std::string_view word = text.substr(0, end);
     Attributes attributes;
     if (!take_attributes(text.substr(end), attributes)) return complain("attributes that cannot be read");
     if (word != "svg" && word != "g" && (open_.empty() || open_.back() != "g"))
       return complain("something is drawn on no layer");
+    if (alone && word == "text") complain("a text without letters");
     if (!alone) open_.push_back(word);
     if (word == "svg")
       page(attributes);
@@ -123,8 +137,9 @@ class SvgReader {
 
   static bool take_attributes(std::string_view text, Attributes& attributes) {
     for (;;) {
-      const std::size_t first = text.find_first_not_of(" \n");
+      const std::size_t first = text.find_first_not_of(' ');
       if (first == std::string_view::npos) return true;
+      if (first == 0) return false;
       text.remove_prefix(first);
       const std::size_t equals = text.find("=\"");
       if (equals == std::string_view::npos) return false;
@@ -159,6 +174,10 @@ class SvgReader {
     const double width = number(attributes, "width", "mm"), height = number(attributes, "height", "mm");
     const auto view = attributes.find("viewBox"), corner = attributes.find("data-lekalo-corner");
     if (view == attributes.end() || page_) return complain("a page without a viewBox, or a second one");
+    // A page in another name space is no drawing, and shows nothing.
+    if (said(attributes, "xmlns") != "http://www.w3.org/2000/svg" ||
+        said(attributes, "xmlns:inkscape") != "http://www.inkscape.org/namespaces/inkscape")
+      complain("a page in another name space");
     Words words(view->second);
     const double x = words.number(), y = words.number(), across = words.number(), down = words.number();
     if (!words.fine() || !words.done() || across != width || down != height)
@@ -168,12 +187,35 @@ class SvgReader {
     if (!at.fine() || !at.done() || left != x || low != -y - height)
       complain("the corner of the page is not that of its viewBox");
     page_ = true;
+    low_ = {left, low}, high_ = {left + width, low + height};
+  }
+
+  /// Readers show nothing beyond the page.
+  void look_at_page() {
+    const auto is_shown = [&](Place p) {
+      return p.x >= low_.x - kOffPage && p.x <= high_.x + kOffPage && p.y >= low_.y - kOffPage &&
+             p.y <= high_.y + kOffPage;
+    };
+    std::vector<Stroke> pieces;
+    for (const DrawnLine& line : lines_)
+      for (const Stroke& edge : line.edges) add_pieces(edge, kInfinity, pieces);
+    for (const Stroke& piece : pieces) {
+      bool all = is_shown(piece.from) && is_shown(piece.to);
+      for (const Place way : {Place{1, 0}, Place{-1, 0}, Place{0, 1}, Place{0, -1}}) {
+        const Place extreme = piece.centre + piece.radius * way;
+        all = all && (!piece.arc || distance(extreme, piece) > kOffPage || is_shown(extreme));
+      }
+      if (!all) return complain("something lies beyond the page");
+    }
+    for (const DrawnLetters& text : texts_)
+      if (!is_shown(text.at)) return complain("a text stands beyond the page");
   }
 
   void layer(const Attributes& attributes) {
     only(attributes, {"inkscape:groupmode", "inkscape:label", "fill", "stroke", "stroke-width"});
     const auto label = attributes.find("inkscape:label");
-    if (depth_ != 2 || label == attributes.end()) return complain("a group that is no layer");
+    if (depth_ != 2 || label == attributes.end() || said(attributes, "inkscape:groupmode") != "layer")
+      return complain("a group that is no layer");
     layer_ = label->second;
     if (said(attributes, "fill") != "none" || !is_colour(said(attributes, "stroke")) ||
         !(number(attributes, "stroke-width") > 0))
@@ -240,6 +282,7 @@ class SvgReader {
     only(attributes, {"cx", "cy", "r", "stroke", "data-lekalo-arcs"});
     const Place centre{number(attributes, "cx"), -number(attributes, "cy")},
         start = centre + Place{number(attributes, "r"), 0};
+    if (!(start.x > centre.x)) return complain("a circle without a radius");
     lines_.push_back({layer_, {arc_about(start, start, centre, true)}, true, own_colour(attributes)});
   }
 
@@ -252,7 +295,8 @@ class SvgReader {
   /// A text on a part has a transformation; a label has a place.
   void letters(const Attributes& attributes) {
     in_text_ = true;
-    if (layer_ == "LABEL") return;
+    if (layer_ == "LABEL")
+      return only(attributes, {"x", "y", "font-family", "font-size", "text-anchor", "fill", "stroke"});
     only(attributes, {"transform", "font-family", "font-size", "text-anchor", "fill", "stroke"});
     const std::string_view place = said(attributes, "transform"), anchor = said(attributes, "text-anchor");
     if (!place.starts_with("matrix(") || !place.ends_with(")")) return complain("a text without its place");
@@ -266,7 +310,10 @@ class SvgReader {
                               : anchor == "middle" ? "middle"
                               : anchor == "end"    ? "right"
                                                    : nullptr;
-    if (known == nullptr || !(height > 0)) return complain("a text that lekalo does not write so");
+    // Other fonts may have other letters, and a layer's lines and no areas are drawn.
+    if (known == nullptr || !(height > 0) || said(attributes, "font-family") != "sans-serif" ||
+        !is_colour(said(attributes, "fill")) || said(attributes, "stroke") != "none")
+      return complain("a text that lekalo does not write so");
     // The axes of the element have y down.
     texts_.push_back({layer_,
                       std::string(said(attributes, "fill")),
@@ -305,6 +352,8 @@ class SvgReader {
   std::vector<std::string_view> open_;  ///< names of the elements that are not closed yet
   std::string complaint_, layer_;
   int depth_ = 0;
+  std::size_t elements_ = 0;
+  Place low_, high_;  ///< corners of the page, mm, y up
   bool in_text_ = false, texts_open_ = false, page_ = false;
   std::vector<DrawnLine> lines_;
   std::vector<DrawnLetters> texts_;
