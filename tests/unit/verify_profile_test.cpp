@@ -76,6 +76,9 @@ TEST(VerifyProfileMoves, WhatIsNotWrittenThereIsRefusedWithItsLine) {
   refused("G0 X+1", no_word);
   refused("G0 X1.2.3", no_word);
   refused("G-1 X1", no_word);
+  refused("G-0 X1", no_word);
+  refused("G0 Z5\nG0 X1 Y2\nM3\nG1 Z-1\nG1 X3\nM5\nG0 X9",
+          "p.nc:8: a tool that stands still goes through the material");
   refused("G100 X1", no_word);
   refused("G1.05 X1", no_word);
   refused("M3.05", no_word);
@@ -466,6 +469,34 @@ TEST(VerifyProfile, WhatIsNotCutToTheBottomIsNotCut) {
   EXPECT_EQ(judged(at(-2, way_round(10, 10, 20, 20, 0.5), "G0 X10 Y9.5\n") + ring(6) + small(6)), "");
 }
 
+/// Each was confirmed once: a pass that does not reach the bottom, and a stretch between joints.
+TEST(VerifyProfile, NothingAtAllIsCutInWhatIsLoose) {
+  const auto at = [](double z, const std::string& way, const std::string& start) {
+    return "G0 Z5\n" + start + fmt::format("M3\nG1 Z{}\n", z) + way + "G0 Z5\nM5\n";
+  };
+  const auto hole = [&](double z) { return at(-z, "G1 X23.5\nY23.5\nX16.5\nY16.5\n", "G0 X16.5 Y16.5\n"); };
+  const std::string ring = at(-6, way_round(10, 10, 20, 20, 0.5), "G0 X10 Y9.5\n"),
+                    small = at(-6, way_round(50, 10, 10, 10, 0.5), "G0 X50 Y9.5\n");
+  EXPECT_EQ(judged(hole(6) + hole(2) + ring + small), "");
+  EXPECT_EQ(judged(hole(6) + ring + hole(2) + small),
+            "line 24: hole 1 of placement 1 is cut after the outline of placement 1, which encloses it\n");
+  cases::Json layout = cases::empty_layout();
+  cases::add_part(layout, "frame",
+                  cases::outline_json(cases::rectangle(0, 0, 40, 40), {cases::rectangle(10, 10, 18, 18)}));
+  cases::add_part(layout, "plate", cases::outline_json(cases::rectangle(0, 0, 10, 10)));
+  cases::place(layout, "frame", 10, 10);
+  cases::place(layout, "plate", 24, 24);
+  const std::string
+      slug = within(20, 20, 18, 18, 0.5),
+      outline = around(10, 10, 40, 40, 0.5),
+      held =
+          "G0 X30.5 Y23.5\nM3\nG1 X34\nG3 X34.5 Y24 I0 J0.5\nG1 Y34\nG3 X34 Y34.5 I-0.5 J0\nG1 X24\n"
+          "G3 X23.5 Y34 I0 J-0.5\nG1 Y24\nG3 X24 Y23.5 I0.5 J0\nG1 X29\nM5\n";
+  EXPECT_EQ(judged_by(layout.dump(), held + slug + outline, with_joints(0.5)), "");
+  EXPECT_EQ(judged_by(layout.dump(), slug + held + outline, with_joints(0.5)),
+            "line 11: the outline of placement 2 is cut after hole 1 of placement 1, which encloses it\n");
+}
+
 TEST(VerifyProfile, NoKerfOfANeighbourEntersAJoint) {
   const auto beside = [](double x) {
     cases::Json layout = cases::empty_layout();
@@ -492,6 +523,10 @@ TEST(VerifyProfile, PiercesAndLeadsMeetNoKerfThatIsThere) {
   };
   const std::string inside = "G0 X20 Y20\nM3\nG1 X20 Y16.5\nX23.5\nY23.5\nX16.5\nY16.5\nX20\nM5\n";
   EXPECT_EQ(judged_by(layout_text(), inside + led(10, 10, 20, 4) + led(50, 10, 10, 4), words), "");
+  // A contour that was cut all round is there when it is cut again, which was confirmed once.
+  EXPECT_EQ(
+      judged_by(layout_text(), inside + led(10, 10, 20, 4) + led(50, 10, 10, 4) + led(50, 10, 10, 4), words),
+      "line 37: the pierce or its lead meets a kerf that is there before it\n");
   // The kerf about the ring has a corner about (30, 10).
   const auto said = [&](double x) {
     return judged_by(layout_text(),

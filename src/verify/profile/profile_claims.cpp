@@ -33,12 +33,20 @@ struct Wanted {
 
 /// The closed part of a chain and the lead before it.
 struct Loop {
-  std::size_t line = 0;
   ContourRing ring;
   std::size_t of = 0;  ///< the contour that it follows
 };
 
 constexpr std::size_t kFollowsNothing = static_cast<std::size_t>(-1);
+
+/// A cut, and what it follows.
+struct Followed {
+  std::size_t line = 0;
+  std::size_t of = kFollowsNothing;   ///< the contour
+  bool through = false;               ///< down to the bottom
+  bool closed = false;                ///< all round, and not a stretch between joints
+  std::optional<std::size_t> loop{};  ///< its place among the loops, where it is one that cuts through
+};
 
 class ProfileCheck {
  public:
@@ -68,7 +76,7 @@ class ProfileCheck {
       cuts.push_back(chain);
       if (chain.rapid) report_.findings.push_back(fmt::format("line {}: a rapid motion cuts", chain.line));
       keep_out(chain);
-      contour_of_.push_back(follow(chain));
+      followed_.push_back(follow(chain));
     }
     check_joints(cuts);
     for (const Wanted& wanted : wanted_)
@@ -125,23 +133,30 @@ class ProfileCheck {
       }
   }
 
-  /// The number of the contour that the closed part of a chain follows, or its stretch between joints.
-  std::size_t follow(const CutChain& chain) {
+  /// The contour that the closed part of a chain follows, or its stretch between joints.
+  Followed follow(const CutChain& chain) {
+    Followed followed{chain.line, kFollowsNothing, is_through(chain), false};
     const Place end = chain.edges.back().to;
     const auto first = std::find_if(chain.edges.begin(), chain.edges.end(),
                                     [&](const Stroke& s) { return s.from.x == end.x && s.from.y == end.y; });
-    if (first == chain.edges.end()) return follow_stretch(chain);
-    Loop loop{chain.line, ContourRing({Strokes(first, chain.edges.end())}, 0.1 * half_), 0};
+    if (first == chain.edges.end()) {
+      followed.of = follow_stretch(chain);
+      return followed;
+    }
+    followed.closed = true;
+    Loop loop{ContourRing({Strokes(first, chain.edges.end())}, 0.1 * half_), 0};
     for (std::size_t i = 0; i < wanted_.size(); ++i) {
       if (!follows(loop.ring, wanted_[i])) continue;
-      if (!is_through(chain)) return i;
+      followed.of = i;
+      if (!followed.through) return followed;
       wanted_[i].cut = true;
       loop.of = i;
+      followed.loop = loops_.size();
       loops_.push_back(std::move(loop));
-      return i;
+      return followed;
     }
     report_.findings.push_back(fmt::format("line {}: the cut follows no contour of a part", chain.line));
-    return kFollowsNothing;
+    return followed;
   }
 
   /// A pass that does not reach the bottom cuts nothing out: others come after it, or it leaves joints as
@@ -219,7 +234,7 @@ class ProfileCheck {
     for (const CutChain& chain : chains) extent.add(chain.edges);
     StrokeIndex index(extent.low, extent.high, 1 + length(extent.high - extent.low) / 300);
     Strokes there;
-    std::vector<std::size_t> contour_of_piece;
+    std::vector<std::size_t> cut_of_piece;
     std::vector<std::uint32_t> near;
     for (std::size_t c = 0; c < chains.size(); ++c) {
       const CutChain& chain = chains[c];
@@ -228,7 +243,8 @@ class ProfileCheck {
         report_.findings.push_back(
             fmt::format("line {}: the pierce of {} mm enters a part", chain.line, words_.pierce_diameter_mm));
       Strokes led;
-      if (contour_of_[c] != kFollowsNothing && !is_beside(pierce, wanted_[contour_of_[c]].ring))
+      const Followed& own = followed_[c];
+      if (own.of != kFollowsNothing && !is_beside(pierce, wanted_[own.of].ring))
         add_pieces(chain.edges[0], kInfinity, led);
       bool meets = false;
       const auto look = [&](const Stroke& piece, double reach) {
@@ -236,7 +252,9 @@ class ProfileCheck {
         near.clear();
         index.near(at_share(piece, 0.5), 0.5 * length(piece) + reach, near);
         for (const std::uint32_t i : near) {
-          if (contour_of_piece[i] == contour_of_[c]) continue;
+          // Stretches of one contour begin beside each other: their joints are looked at instead.
+          const Followed& before = followed_[cut_of_piece[i]];
+          if (before.of == own.of && !before.closed && !own.closed) continue;
           std::vector<Place> crossings;
           add_crossings(piece, there[i], crossings);
           meets = meets || !crossings.empty() || !(distance_apart(piece, there[i]) >= reach - kRounding);
@@ -252,7 +270,7 @@ class ProfileCheck {
       for (const Stroke& piece : pieces) {
         index.add(static_cast<std::uint32_t>(there.size()), piece);
         there.push_back(piece);
-        contour_of_piece.push_back(contour_of_[c]);
+        cut_of_piece.push_back(c);
       }
     }
     report_.notes.push_back(
@@ -263,29 +281,30 @@ class ProfileCheck {
     return ring.distance_of(p) <= half_ + slack();
   }
 
-  /// Looks for parts that several kerfs surround together: they are as loose as those that one does.
+  /// Looks for parts that several kerfs surround together: they are as loose as those that one does. Passes
+  /// that do not reach the bottom free nothing, and are cut in what is loose no more than others are.
   void check_loose(const std::vector<CutChain>& chains) {
     LooseCheck loose(2 * half_);
-    std::vector<std::size_t> contour_of_cut;
-    std::vector<const CutChain*> cuts;
+    std::vector<std::size_t> through_before;
+    std::size_t through = 0;
     for (std::size_t c = 0; c < chains.size(); ++c) {
-      if (!is_through(chains[c])) continue;
-      loose.add(chains[c].edges, contour_of_[c]);
-      contour_of_cut.push_back(contour_of_[c]);
-      cuts.push_back(&chains[c]);
+      through_before.push_back(through);
+      if (!followed_[c].through) continue;
+      loose.add(chains[c].edges, followed_[c].of);
+      ++through;
     }
     if (!loose.kerfs_meet()) return;
-    for (std::size_t k = 0; k < cuts.size(); ++k) {
-      const std::size_t of = contour_of_cut[k];
-      if (of == kFollowsNothing) continue;
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+      const Followed& cut = followed_[c];
+      if (cut.of == kFollowsNothing) continue;
       if (loose.steps() > kMostLooseSteps) {
         report_.unchecked.push_back(
             "order: the cuts are too many to look for parts that several kerfs free together");
         return;
       }
-      if (!loose.is_loose(wanted_[of].ring.pieces[0].from, k, of)) continue;
+      if (!loose.is_loose(wanted_[cut.of].ring.pieces[0].from, through_before[c], cut.of)) continue;
       report_.findings.push_back(fmt::format("line {}: {} is cut when the kerfs before it have made it loose",
-                                             cuts[k]->line, wanted_[of].name()));
+                                             cut.line, wanted_[cut.of].name()));
       return;
     }
   }
@@ -338,17 +357,21 @@ class ProfileCheck {
     return true;
   }
 
-  /// A part that a loop encloses would be loose after it. No contour comes near a loop of another, while the
-  /// loops of neighbours may share a line. Returns false after a finding.
+  /// A part that a loop encloses would be loose after it, so that nothing is cut there any more, be it a pass
+  /// that does not reach the bottom. No contour comes near a loop of another, while the loops of neighbours
+  /// may share a line. Returns false after a finding.
   bool check_order() {
-    for (auto first = loops_.begin(); first != loops_.end(); ++first)
-      for (auto later = std::next(first); later != loops_.end(); ++later)
-        if (first->of != later->of && first->ring.encloses(wanted_[later->of].ring.pieces[0].from)) {
-          report_.findings.push_back(fmt::format("line {}: {} is cut after {}, which encloses it",
-                                                 later->line, wanted_[later->of].name(),
-                                                 wanted_[first->of].name()));
-          return false;
-        }
+    std::size_t before = 0;
+    for (const Followed& cut : followed_) {
+      for (std::size_t i = 0; cut.of != kFollowsNothing && i < before; ++i) {
+        const Loop& first = loops_[i];
+        if (first.of == cut.of || !first.ring.encloses(wanted_[cut.of].ring.pieces[0].from)) continue;
+        report_.findings.push_back(fmt::format("line {}: {} is cut after {}, which encloses it", cut.line,
+                                               wanted_[cut.of].name(), wanted_[first.of].name()));
+        return false;
+      }
+      if (cut.loop) before = *cut.loop + 1;
+    }
     return true;
   }
 
@@ -366,7 +389,7 @@ class ProfileCheck {
   std::vector<Loop> loops_;
   double deepest_ = 0;
   bool by_power_ = false;                               ///< marks are engraved without a Z
-  std::vector<std::size_t> contour_of_;                 ///< by chain
+  std::vector<Followed> followed_;                      ///< by cut
   std::vector<std::vector<ContourStretch>> stretches_;  ///< by contour
   ClaimReport report_;
 };
@@ -384,7 +407,8 @@ Result<ClaimReport> verify_profile(const Document& program, const Document& layo
                     program.name, sheets.size(), sheets[0].name));
   LEKALO_TRY(const ProfileProgram read, read_profile(program, words.control));
   ClaimReport report = ProfileCheck(sheets[0], words).checked(read.chains);
-  report.unchecked = read.unsaid.sentences();
+  const std::vector<std::string>& unsaid = read.unsaid.sentences();
+  report.unchecked.insert(report.unchecked.end(), unsaid.begin(), unsaid.end());
   return report;
 }
 

@@ -100,7 +100,8 @@ class ProfileReader {
   static bool keep(char letter, double value, Block& block) {
     if (letter == 'G' || letter == 'M') {
       const double tenths = value * 10;
-      if (tenths != std::nearbyint(tenths) || !(tenths >= 0 && tenths < 1000)) return false;
+      // Controls know no G-0.
+      if (tenths != std::nearbyint(tenths) || std::signbit(value) || !(tenths < 1000)) return false;
       (letter == 'G' ? block.g : block.m).push_back(static_cast<int>(tenths));
       return true;
     }
@@ -178,6 +179,7 @@ class ProfileReader {
       going_on_ = false;
       return;
     }
+    if (!on_ && z_ && *z_ < 0) complain("a tool that stands still goes through the material");
     if (!cuts) {
       if (pierced_ && (to.x != pierced_->x || to.y != pierced_->y)) complain(kNothingCut);
       going_on_ = false;
