@@ -3,7 +3,8 @@
 Of JSON: every number by its last place (or the least that a claim tells apart) up and down, by its sign and by more,
 every text and truth, every member and item taken out, members given twice and members that are not known, neighbours
 of a list exchanged and lists turned round. Of a text of lines: every number by one in its last digit and by its sign,
-every word taken out, every line taken out, every two lines exchanged. Of a binary STL: every triangle taken out, given
+every word taken out, every line taken out, every two lines exchanged. Of a program besides: every cut taken out, made
+once more at the end or moved, and of several passes the first once more, and the last not. Of a binary STL: every triangle taken out, given
 twice, exchanged with the next or turned round, its normal and attribute, a corner of it alone, and every corner of the
 surface in all of its triangles.
 """
@@ -146,6 +147,46 @@ def of_text(text, skip=lambda line: False, decimals=None):
             left = line[:found.start()] + line[found.end():]
             if left.strip():
                 yield Change(path, "word deleted", changed([left]), line)
+
+
+def cuts_of(lines):
+    """The cuts of a profile program, from the way there to the way to the next, as (first line, line behind it), and the
+    line of the way home. Marks have no comment before them."""
+    begins = [k for k, line in enumerate(lines) if re.match(r"G0 X", line)]
+    heads = [k - lines[k - 1].startswith("(PLACEMENT") for k in begins]
+    return list(zip(heads, heads[1:])), heads[-1]
+
+
+def of_program(text, decimals=None):
+    """All changes of a profile program, as of any text, and of whole cuts."""
+    yield from of_text(text, decimals=decimals)
+    lines = text.splitlines(keepends=True)
+    cuts, last = cuts_of(lines)
+
+    def moved(begin, end, place):
+        rest = lines[:begin] + lines[end:]
+        place -= end - begin if place >= end else 0
+        return lambda: "".join(rest[:place] + lines[begin:end] + rest[place:])
+
+    def put(made, begin, end):
+        return lambda: "".join(lines[:begin] + made + lines[end:])
+
+    for k, (begin, end) in enumerate(cuts):
+        there, is_mark = lines[begin:end], not lines[begin].startswith("(PLACEMENT")
+        path = f"mark {k}" if is_mark else f"cut {k}"
+        if k + 1 < len(cuts):
+            yield Change(path, "moved to the end", moved(begin, end, last), there)
+        yield Change(path, "once more at the end", put(there, last, last), there)
+        if is_mark:
+            continue
+        yield Change(path, "deleted", put([], begin, end), there)
+        if k + 1 < len(cuts):
+            yield Change(path, "moved behind the next", moved(begin, end, cuts[k + 1][1]), there)
+        passes = [i for i, line in enumerate(there) if line.startswith("G1 Z")]
+        if len(passes) > 1:
+            yield Change(path, "first pass once more at the end",
+                         put(there[:passes[1]] + [line for line in there if line.startswith("G0 Z")], last, last), there)
+            yield Change(path, "no last pass", put(there[:passes[-1]] + there[-1:], begin, end), there)
 
 
 def of_stl(text):

@@ -8,6 +8,7 @@ import re
 from dataclasses import dataclass, field
 
 import changes
+import cuts
 import demands
 import layouts
 import solids
@@ -33,6 +34,9 @@ LETTERED = "\n".join(
     ["0", "SECTION", "2", "ENTITIES", "0", "LWPOLYLINE", "8", "CUT", "90", "4", "70", "1", "10", "0", "20", "0", "10", "30", "20",
      "0", "10", "30", "20", "20", "10", "0", "20", "20", "0", "LINE", "8", "BEND", "62", "5", "10", "2", "20", "3", "11", "28",
      "21", "3", "0", "TEXT", "8", "NAME", "10", "5", "20", "8", "40", "3", "1", "N 7", "0", "ENDSEC", "0", "EOF", ""])
+LAYERS = {"format": "lekalo-layers/1", "layers": [{"name": "ENG", "role": "engrave"}, {"name": "BEND", "role": "bend"}]}
+SMALL = '<svg xmlns="http://www.w3.org/2000/svg" width="14mm" height="10mm" viewBox="0 0 14 10">' \
+        '<rect width="14" height="10"/></svg>'
 ORDER = "file,quantity,material,thickness,customer,due,label\na.svg,1,steel,2,Orlova,2026-12-01,7\n" \
         "b.svg,2,birch,9,,,\nb.svg,1,steel,2,,2026-12-02,\n"
 SHEET = "steel 2 mm#1"
@@ -105,6 +109,8 @@ def all_changes(kind, text):
         return list(changes.of_json(text, kind.step))
     if kind.form == "stl":
         return list(changes.of_stl(text))
+    if kind.form == "program":
+        return list(changes.of_program(text, kind.decimals))
     return list(changes.of_text(text, kind.skip, kind.decimals))
 
 
@@ -169,6 +175,7 @@ def kinds():
                truth.rewritten, form="text", report_of="r.json")
     yield from of_solids()
     yield from of_layouts()
+    yield from of_cuts()
     yield from of_stocks()
     yield from of_pockets()
     yield from of_fits()
@@ -368,6 +375,65 @@ def of_layouts():
         yield Kind(f"export, {form.upper()}, another layout", frames, drawn, "nested.json", of_drawn,
                    layouts.export(within, ("steel 2 mm", 0) if sheet else None),
                    step=lambda value, way, _, step=step: value + way * step)
+
+
+def entity(kind, layer, *numbers, colour=None):
+    """An entity of a DXF: its numbers are those of the codes 10, 20, 40 and so on that the kind has."""
+    codes = {"LINE": (10, 20, 11, 21), "CIRCLE": (10, 20, 40), "ARC": (10, 20, 40, 50, 51), "TEXT": (10, 20, 40)}[kind]
+    groups = [(0, kind), (8, layer)] + [(62, colour)] * (colour is not None) + list(zip(codes, numbers))
+    groups += [(1, text) for text in numbers[len(codes):]]
+    return "".join(f"{code}\n{value}\n" for code, value in groups)
+
+
+def plate_with_marks():
+    """A plate with a window that holds another part, lines and letters to engrave in colours of their own, a bend."""
+    sides = [(x, y) for x0, y0, x1, y1 in ((0, 0, 60, 40), (30, 10, 54, 34))
+             for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))]
+    rings = [entity("LINE", "CUT", *a, *b) for k in (0, 4) for a, b in zip(sides[k:k + 4], sides[k + 1:k + 4] + sides[k:k + 1])]
+    marks = [entity("LINE", "ENG", 4, 4, 20, 4, colour=5), entity("LINE", "MARKS", 4, 24, 20, 36),
+             entity("LINE", "BEND", 0, 8, 60, 8, colour=3), entity("CIRCLE", "ENG", 10, 30, 3),
+             entity("ARC", "MARKS", 15, 22, 4, 10, 140), entity("TEXT", "ENG", 4, 12, 5, "N 7", colour=1),
+             entity("TEXT", "MARKS", 4, 18, 3, "ab")]
+    return ("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" +
+            "".join(rings + marks) + "0\nENDSEC\n0\nEOF\n")
+
+
+MARKED = {"plate.dxf": plate_with_marks(), "small.svg": SMALL, "layers.json": json.dumps(LAYERS)}
+MARKED_NEST = [["new", "--part", "plate.dxf=2", "--part", "small.svg=2", "--sheet", "140x60=1", "--gap", "4",
+                "--layer-rules", "layers.json", "-o", "job.json"], ["nest", "job.json", "--work", "1000", "-o", "nested.json"]]
+# Of nine squares the kerfs run into each other, so that the eight around the middle free it.
+NINE = {"s.svg": SMALL.replace("14", "10")}
+NINE_NEST = [["new", "--part", "s.svg=9", "--sheet", "36x36=1", "--gap", "1", "-o", "job.json"],
+             ["nest", "job.json", "--work", "1000", "-o", "nested.json"]]
+
+
+def of_cuts():
+    """Programs with pierces, joints, tabs and marks."""
+    laser = ["--process", "laser", "--lead-in", "3"]
+    router = ["--process", "router", "--depth", "4", "--pass", "2", "--plunge", "200", "--speed", "9000"]
+    joints = ["--joints", "2", "--joint-width", "0.8"]
+    tipping = ["--joints", "tipping", "--joint-width", "0.5", "--slat-pitch", "30"]
+    beam = ["--engrave-feed", "4000", "--engrave-speed", "300", "--speed", "900"]
+    tool = ["--engrave-feed", "1000", "--engrave-depth", "0.3"]
+    disc = ["--pierce-diameter", "2"]
+    for name, kerf, words, stated in (
+            ("pierces", 0.3, laser + disc, {"pierce": 2}),
+            ("joints", 0.3, laser + disc + joints, {"pierce": 2, "joint": 0.8}),
+            ("joints, tipping", 0.5, laser + tipping + ["--unit", "inch", "--lead", "arc"], {"joint": 0.5}),
+            ("tabs", 2, router + joints + ["--tab-height", "1"], {"joint": 0.8}),
+            ("engraved", 0.3, laser + beam + disc, {"pierce": 2}),
+            ("engraved by a router", 2, router + tool, {})):
+        asked = [word for option, value in (("--pierce-diameter", stated.get("pierce")),
+                                            ("--joint-width", stated.get("joint"))) if value
+                 for word in (option, str(value))]
+        cut = ["export", "nested.json", "--format", "gcode", "--kerf", str(kerf), "--feed", "2000", "-o", "cut.nc"]
+        yield Kind("program, profile with " + name, [], MARKED_NEST + [cut + words], "cut.nc",
+                   ["verify", "cut.nc", "--kerf", str(kerf), "--layout", "nested.json"] + asked,
+                   cuts.program("140x60", kerf, **stated), form="program", decimals=1, written=MARKED)
+    nine = ["export", "nested.json", "--format", "gcode", "--kerf", "0.8", "--feed", "2000", "-o", "cut.nc"]
+    yield Kind("program, profile, kerfs that meet", [], NINE_NEST + [nine + ["--process", "laser"]], "cut.nc",
+               ["verify", "cut.nc", "--kerf", "0.8", "--layout", "nested.json"],
+               cuts.program("36x36", 0.8, heaps=True), form="program", decimals=1, written=NINE)
 
 
 def of_stocks():

@@ -96,7 +96,7 @@ class Walk:
             self.faults.append(f"as it is it gives {ran.returncode}: {ran.stderr.decode()[:600]}")
         self.text = folder.read(kind.target)
         # Half of the numbers of a program or a table are told to more digits than anything claims.
-        count = (count + 1) // 2 if kind.form == "text" else count
+        count = (count + 1) // 2 if kind.form not in ("json", "stl") else count
         self.oracle = kind.oracle(truth.Context(folder, kind, self.text))
         self.changes = [c for c in kinds.all_changes(kind, self.text)]
         if count:
