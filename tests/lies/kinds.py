@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 import changes
 import cuts
 import demands
+import drawn
+import drawn_changes
 import layouts
 import solids
 import stocks
@@ -109,8 +111,10 @@ def all_changes(kind, text):
         return list(changes.of_json(text, kind.step))
     if kind.form == "stl":
         return list(changes.of_stl(text))
-    if kind.form == "program":
-        return list(changes.of_program(text, kind.decimals))
+    ways = {"program": changes.of_program, "dxf": drawn_changes.of_dxf, "svg": drawn_changes.of_svg,
+            "hpgl": drawn_changes.of_hpgl}
+    if kind.form in ways:
+        return list(ways[kind.form](text, kind.decimals))
     return list(changes.of_text(text, kind.skip, kind.decimals))
 
 
@@ -176,6 +180,7 @@ def kinds():
     yield from of_solids()
     yield from of_layouts()
     yield from of_cuts()
+    yield from of_drawn()
     yield from of_stocks()
     yield from of_pockets()
     yield from of_fits()
@@ -434,6 +439,14 @@ def of_cuts():
     yield Kind("program, profile, kerfs that meet", [], NINE_NEST + [nine + ["--process", "laser"]], "cut.nc",
                ["verify", "cut.nc", "--kerf", "0.8", "--layout", "nested.json"],
                cuts.program("36x36", 0.8, heaps=True), form="program", decimals=1, written=NINE)
+
+
+def of_drawn():
+    """Exports of layouts with lines and texts on their parts, in colours and on layers of their own."""
+    for form in ("dxf", "svg", "hpgl"):
+        yield Kind(f"export with marks, {form.upper()}", [], MARKED_NEST + [["export", "nested.json", "--format", form, "-o", "out"]],
+                   "out", ["verify", "out", "--layout", "nested.json"], drawn.export(form), form=form, decimals=5,
+                   written=MARKED)
 
 
 def of_stocks():
