@@ -30,6 +30,7 @@ import tempfile
 
 import changes
 import kinds
+import strangers
 import truth
 
 
@@ -104,6 +105,9 @@ class Walk:
         self.others = self.of_inputs(folder)
         if count:
             self.others = draw.sample(self.others, min(count // 2 + 1, len(self.others)))
+        self.swaps = list(self.of_strangers(folder))
+        if count:
+            self.swaps = draw.sample(self.swaps, min((count + 3) // 4, len(self.swaps)))
 
     def of_inputs(self, folder):
         """Every input as bytes: changed, cut off, empty, another file of the set, gone."""
@@ -120,6 +124,25 @@ class Walk:
                     made.append((name, "exchanged for " + other, folder.read(other)))
             made.append((name, "gone", None))
         return made
+
+    def of_strangers(self, folder):
+        """Every file that the result was made from, or is held against, exchanged for another of its kind; and where
+        the result says its digest, that with it, so that nothing but the meaning is amiss."""
+        named = self.kind.inputs + [word for word in self.kind.verify[1:] if (folder.path / word).is_file()]
+        for name in dict.fromkeys(named):
+            if name in (self.kind.target, self.kind.report_of):
+                continue
+            text = folder.read(name)
+            for how, other in strangers.of(name, text):
+                if other == text:
+                    continue
+                yield name, how, other, None
+                said = self.kind.report_of or self.kind.target
+                result = folder.read(said)
+                # A layout with a piece elsewhere may keep all that a report says of it.
+                if kinds.digest(text) in result and how != "a piece elsewhere":
+                    yield name, how + ", and its digest", other, (said, result.replace(kinds.digest(text),
+                                                                                       kinds.digest(other)))
 
     def tell(self, folder, change):
         """Exit status and words of verify after a change."""
@@ -172,6 +195,15 @@ class Walk:
                         folder.write(name, text)
                     others.append((name, how, folder.run(self.kind.verify)))
                     folder.write(name, before)
+                for name, how, text, result in self.swaps[share::jobs]:
+                    before = {name: folder.read(name)}
+                    folder.write(name, text)
+                    if result:
+                        before[result[0]] = folder.read(result[0])
+                        folder.write(*result)
+                    others.append((name, how, folder.run(self.kind.verify)))
+                    for one, old in before.items():
+                        folder.write(one, old)
                 return told, others
 
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
