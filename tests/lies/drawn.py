@@ -4,6 +4,8 @@ import math
 import re
 import xml.etree.ElementTree as ElementTree
 
+import cuts
+
 WITHIN = 2e-6  # mm
 LAYERS = {"CUT", "SHEET", "DEFECT", "ZONE", "AREA", "MARK", "LABEL"}
 
@@ -253,5 +255,72 @@ def export(form):
             if form == "hpgl":
                 return same_lines(shown, after) or None
             return other_frame == frame and same_in_any_order(shown, after) or None
+        return answer
+    return oracle
+
+
+UNIT = 0.025  # mm
+STEP = 0.02  # mm along the way of a knife's axis
+
+
+def tips_of(strokes, offset):
+    """Where the tip of a trailing blade goes in each stroke, from a blade that points along +x; with no offset it is
+    where the axis is."""
+    forward, made = (1.0, 0.0), []
+    for stroke in strokes:
+        x, y = (UNIT * n for n in stroke[0])
+        tip = (x - offset * forward[0], y - offset * forward[1])
+        way = [tip]
+        for place in stroke[1:]:
+            u, v = UNIT * place[0] - x, UNIT * place[1] - y
+            steps = max(1, math.ceil(math.hypot(u, v) / STEP))
+            for k in range(1, steps + 1):
+                axis = (x + u * k / steps, y + v * k / steps)
+                if offset:
+                    size = math.dist(axis, tip)
+                    forward = ((axis[0] - tip[0]) / size, (axis[1] - tip[1]) / size)
+                    tip = (axis[0] - offset * forward[0], axis[1] - offset * forward[1])
+                else:
+                    tip = axis
+                way.append(tip)
+            x, y = x + u, y + v
+        made.append(way)
+    return made
+
+
+def knife(offset=0.0, tolerance=0.1):
+    """The tip of a knife goes along all outlines and nowhere else. A drag knife makes a stroke for each."""
+    def oracle(context):
+        layout = context.json("nested.json")
+        stock = layout["placements"][0]["stock"]
+        contours = cuts.Judge(layout, stock, 1).contours
+        _, before = hpgl(context.text)
+        rest = [line for line in before if line[0] != 1]
+        known = [line for line in before if line[0] == 1]
+
+        def follows(strokes):
+            if offset and len(strokes) != len(contours):
+                return False
+            ways = tips_of(strokes, offset)
+            within = tolerance + 0.005
+            if any(min(contour.near.off(p) for contour in contours) > within for way in ways for p in way[::5]):
+                return False
+            near = cuts.Near([way + way[-2:0:-1] for way in ways if len(way) > 1])
+            return all(near.off(p) <= within for contour in contours
+                       for p in cuts.samples_of(contour.ring + contour.ring[:1], 0.2))
+
+        if not follows([line for _, line in known]):
+            raise RuntimeError(context.kind.name + ": the plot is not right by drawn.py")
+
+        def answer(change):
+            try:
+                _, after = hpgl(change.text())
+            except (Strange, ValueError, KeyError, TypeError, IndexError):
+                return None
+            if after == before:
+                return "information"
+            if not same_lines(rest, [line for line in after if line[0] != 1]):
+                return None
+            return follows([line for pen, line in after if pen == 1]) or None
         return answer
     return oracle

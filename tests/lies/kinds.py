@@ -447,6 +447,14 @@ def of_drawn():
         yield Kind(f"export with marks, {form.upper()}", [], MARKED_NEST + [["export", "nested.json", "--format", form, "-o", "out"]],
                    "out", ["verify", "out", "--layout", "nested.json"], drawn.export(form), form=form, decimals=5,
                    written=MARKED)
+    # The marks and labels of such a plot are those of others.
+    pair = [["new", "--part", "s.svg=2", "--sheet", "30x20=1", "--gap", "2", "-o", "job.json"],
+            ["nest", "job.json", "--work", "1000", "-o", "nested.json"]]
+    for process, words, known in (("drag-knife", ["--blade-offset", "0.5"], drawn.knife(0.5)),
+                                  ("tangential-knife", ["--turn-above", "20"], drawn.knife())):
+        plot = ["export", "nested.json", "--format", "hpgl", "--process", process, "-o", "out"]
+        yield Kind(f"plot, {process}", [], pair + [plot + words], "out", ["verify", "out", "--layout", "nested.json"] + words,
+                   known, form="hpgl", written=NINE)
 
 
 def of_stocks():
