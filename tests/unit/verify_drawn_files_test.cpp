@@ -343,10 +343,10 @@ TEST(VerifyDrawnSvg, WhatHidesLinesIsRefused) {
   for (const char* beyond : {"M-50.01 0L50 50", "M-50 1A50 50 0 0 0 50 1Z", "M-50 -1A50 50 0 0 1 50 -1Z",
                              "M-50 0L50 50.01", "M0 50A50 50 0 0 1 50.01 0"})
     EXPECT_NE(path(beyond).find("something lies beyond the page"), std::string::npos) << beyond;
-  EXPECT_NE(svg(R"(<text transform="matrix(1 0 0 1 51 -4)" font-size="10" text-anchor="end" )"
-                R"(font-family="sans-serif" fill="#000000" stroke="none">a</text>)")
-                .find("a text stands beyond the page"),
-            std::string::npos);
+  const std::string words =
+      "<text transform=\"matrix(1 0 0 1 51 -4)\" font-size=\"10\" text-anchor=\"end\" "
+      "font-family=\"sans-serif\" fill=\"#000000\" stroke=\"none\">a</text>";
+  EXPECT_NE(svg(words).find("a text stands beyond the page"), std::string::npos);
   EXPECT_NE(svg("</g><g inkscape:label=\"A\" fill=\"none\" stroke=\"#008000\" stroke-width=\"1\">")
                 .find("a group that is no layer"),
             std::string::npos);
