@@ -357,7 +357,7 @@ TEST(VerifyDrawnSvg, WhatHidesLinesIsRefused) {
 TEST(VerifyDrawnSvg, TheFileIsADrawingInUtf8WithoutStyles) {
   const std::string page = "<svg" + kSpaces + R"( width="9mm" height="9mm" viewBox="0 -9 9 9"></svg>)";
   EXPECT_EQ(svg_whole(kProlog + page), "");
-  const std::string strange = "something is drawn on no layer";
+  const std::string strange = "attributes that cannot be read";
   for (const char* words : {R"(<?xml version="1.0" encoding="ISO-8859-1"?>)", "<?xml version=\"1.0\"?>",
                             R"(<?xml-stylesheet type="text/css" href="a.css"?>)"}) {
     EXPECT_NE(svg_whole(words + page).find(strange), std::string::npos) << words;

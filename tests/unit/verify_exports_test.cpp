@@ -104,7 +104,8 @@ TEST(VerifyExports, WhatWasExportedIsTheLayout) {
 
 /// An SVG with this on one layer.
 std::string drawn_on(const std::string& layer, const std::string& what) {
-  return R"(<svg width="9mm" height="9mm" viewBox="0 -9 9 9"><g inkscape:groupmode="layer" inkscape:label=")" +
+  return R"(<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" )"
+         R"(width="200mm" height="200mm" viewBox="-100 -100 200 200" data-lekalo-corner="-100 -100"><g inkscape:groupmode="layer" inkscape:label=")" +
          layer + R"(" fill="none" stroke="#d00000" stroke-width="0.2">)" + what + "</g></svg>";
 }
 

@@ -479,7 +479,7 @@ TEST(VerifyProfile, NothingAtAllIsCutInWhatIsLoose) {
                     small = at(-6, way_round(50, 10, 10, 10, 0.5), "G0 X50 Y9.5\n");
   EXPECT_EQ(judged(hole(6) + hole(2) + ring + small), "");
   EXPECT_EQ(judged(hole(6) + ring + hole(2) + small),
-            "line 24: hole 1 of placement 1 is cut after the outline of placement 1, which encloses it\n");
+            "line 30: hole 1 of placement 1 is cut after the outline of placement 1, which encloses it\n");
   cases::Json layout = cases::empty_layout();
   cases::add_part(layout, "frame",
                   cases::outline_json(cases::rectangle(0, 0, 40, 40), {cases::rectangle(10, 10, 18, 18)}));
