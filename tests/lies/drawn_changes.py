@@ -94,7 +94,7 @@ def of_dxf(text, decimals=None):
             yield Change(path, "moved to the front", moved(begin, behind, 0), section)
             yield Change(path, "another name", put(begin + 1, begin + 2, [("2", section + "2")]), section)
     for k in range(at["HEADER"] + 2, ends["HEADER"]):
-        if pairs[k][0].strip() == "9":
+        if pairs[k][0].strip() == "9" and pairs[k][1] not in ("$EXTMIN", "$EXTMAX"):  # information
             name, value = pairs[k][1], pairs[k + 1]
             yield Change(f"header {name}", "deleted", put(k, k + 2, []), value)
             yield Change(f"header {name}", "given twice", put(k, k, [pairs[k], value]), value)

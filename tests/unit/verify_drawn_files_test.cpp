@@ -145,6 +145,9 @@ TEST(VerifyDrawnDxf, NothingIsSaidTwice) {
   refused("0 LWPOLYLINE 8 CUT 90 3 90 2 70 1 10 0 20 0 10 4 20 0", "a second group 90");
   refused("0 LWPOLYLINE 8 CUT 90 2 70 1 70 0 10 0 20 0 10 4 20 0", "a second group 70");
   refused("0 TEXT 8 T 10 1 20 2 40 3 1 x 1 y", "a second group 1");
+  refused("0 LINE 8 M 10 1 20 2 30 0 30 0 11 3 21 5", "a second group 30");
+  refused("0 LINE 8 M 10 1 20 2 11 3 21 5 31 0 31 0", "a second group 31");
+  refused("0 LWPOLYLINE 8 CUT 90 2 70 1 43 0 43 0 10 0 20 0 10 4 20 0", "a second group 43");
   const std::string line = "0 LINE 8 M 10 1 20 2 11 3 21 5";
   refused(line + " 0 ENDSEC 0 SECTION 2 ENTITIES " + line, "a section for the second time");
   EXPECT_EQ(dxf_whole("0 SECTION 2 HEADER 9 $INSUNITS 70 1 9 $INSUNITS 70 4 0 ENDSEC 0 SECTION 2 ENTITIES " +

@@ -146,8 +146,8 @@ class DxfReader {
   }
 
   void take_entity(const Group& group) {
-    // Readers take one of two layers, colours, counts or letters.
-    constexpr std::array kOnce{8, 90, 70, 420, 1};
+    // Readers take one of two layers, colours, counts, letters, heights or widths.
+    constexpr std::array kOnce{8, 90, 70, 420, 1, 30, 31, 43};
     if (std::find(kOnce.begin(), kOnce.end(), group.code) != kOnce.end() &&
         !said_once_.insert(group.code).second)
       return complain(group, fmt::format("a second group {}", group.code));
