@@ -141,8 +141,8 @@ Result<Corrected> corrected(const Assembly& assembly, const std::vector<std::vec
     return failure(
         ErrorCode::bad_input,
         fmt::format("pressed again with the turned profile the surface still varies by {:.3g} um of {:.3g}, "
-                    "so that no "
-                    "profile is written; choose a smaller interference, a thicker wall, or another surface",
+                    "so that no profile is written; choose a smaller interference, a thicker wall, or "
+                    "another surface",
                     1000 * left.after, 1000 * left.before));
   return made;
 }

@@ -43,9 +43,8 @@ std::optional<std::string> path_off_walls(const HeatJob& job, const HeatFound& f
   if (!(own.largest() > kOther)) return std::nullopt;
   return fmt::format(
       "the program's path leaves walls {:+.2f} to {:+.2f} um off their places in {} in a cold workpiece, as "
-      "one "
-      "does that was corrected or has coarse chords; the errors said here are those of heat and count from "
-      "there: from the walls as they are drawn they are {:+.2f} to {:+.2f} um at the middles",
+      "one does that was corrected or has coarse chords; the errors said here are those of heat and count "
+      "from there: from the walls as they are drawn they are {:+.2f} to {:+.2f} um at the middles",
       own.least, own.most, job.source.pocket.name, all.least, all.most);
 }
 

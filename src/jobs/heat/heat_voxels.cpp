@@ -14,7 +14,8 @@
 namespace lekalo::jobs {
 namespace {
 
-/// A plate bends as it does within 6 % with so many voxels across it, and within a quarter with half as many.
+/// With so many voxels across it a plate bends within 7 % of what it should, and with half as many it is four
+/// times as much (docs/design/heat.md).
 constexpr double kAcross = 4;
 /// A size is a whole number of voxels in spite of rounding.
 constexpr double kRounding = 1e-9;

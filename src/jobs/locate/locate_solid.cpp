@@ -88,8 +88,7 @@ void warn_of_units(const SolidLocateJob& job, const SolidInputs& in, std::vector
   const auto extent = [](Vector v) { return fmt::format("{:.4g} x {:.4g} x {:.4g} mm", v.x, v.y, v.z); };
   warnings.push_back(
       fmt::format("{} measures {} and {} {}, so {} seems to be in {}; --units is said of both files: convert "
-                  "one of them, "
-                  "or give it as 3MF, which says its own unit",
+                  "one of them, or give it as 3MF, which says its own unit",
                   job.part.name, extent(part), job.blank.name, extent(blank), small, unit));
 }
 
@@ -98,8 +97,7 @@ void warn_of_exchange(const SolidLocateJob& job, const SolidInputs& in, std::vec
   if (!in.part.volume || !in.blank.volume || in.demands || !(*in.part.volume > *in.blank.volume)) return;
   warnings.push_back(
       fmt::format("{} has a volume of {:.4g} mm3 and {} only {:.4g}, so it fits nowhere; is --part the "
-                  "blank, and --blank "
-                  "the part?",
+                  "blank, and --blank the part?",
                   job.part.name, *in.part.volume, job.blank.name, *in.blank.volume));
 }
 
