@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -68,9 +69,9 @@ struct Cubes {
     return most;
   }
 
-  void expect_optimum(double optimum, double gap = 0.01) const {
+  void expect_optimum(double optimum, double gap = 0.01, std::uint64_t work = 100'000) const {
     RunControl run;
-    run.work_limit = 100'000;
+    run.work_limit = work;
     const auto found = locate_solid(problem, {.gap = gap, .run = run});
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(found->status, Status::optimal);
@@ -170,6 +171,21 @@ TEST(SolidDatums, ClimbsEndWithinThemHoweverSmallAScaleIs) {
     ASSERT_TRUE(placed) << placed.error().message;
     EXPECT_TRUE(placed->inside);
     EXPECT_GT(placed->clearance, 0.69);
+  }
+}
+
+/// The allowance of the top does not change across the axis, so that programs are highest on the border of
+/// its tolerance. All that they led to was just beyond it, and the search took long or did not end.
+TEST(SolidDatums, AllowancesAlongAnAxisAreFoundWithinIt) {
+  Random random(cases::seed(), 98);
+  for (int k = 0; k < 5; ++k) {
+    Cubes cubes(random, SolidFreedom::xyz);
+    auto& demands = cubes.problem.demands;
+    demands.assign(12, std::nullopt);
+    demands[2] = demands[3] = SolidDemand{0, 1};
+    cubes.hold(On::axis, {0, 0.02, 0}, {0, 0, 1}, 0.011, {{0, 0, -5}, {0, 0, 5}});
+    cubes.hold(On::plane, {0, 0, 5.5}, {0, 0, 1}, 0.25, {{-5, -5, 5}, {5, 5, 5}});
+    cubes.expect_optimum(0.75, 0.01, 1'000);
   }
 }
 

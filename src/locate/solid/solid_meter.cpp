@@ -454,7 +454,7 @@ MeasuredPose SolidMeter::measure(const Motion& motion) const {
 /// Says where the surfaces of what has a demand are apart from the blank's if it lies in the blank, and no
 /// surface of the blank in the part; and if datums are kept.
 bool SolidMeter::inside(const Motion& motion) const {
-  if (beyond_datums(motion) > 0) return false;
+  if (!keeps_datums(motion)) return false;
   if (!has_demands()) return clearance_.inside(motion);
   const auto lies_outside = [&](Vector q) { return !clearance_.part().holds(motion.back(q)); };
   return std::all_of(demanded_.begin(), demanded_.end(),

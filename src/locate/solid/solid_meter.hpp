@@ -130,6 +130,7 @@ class SolidMeter {
   [[nodiscard]] MeasuredSolid measure_pairs(const FramedPose& pose, double most, std::size_t count,
                                             std::vector<SolidContact>& contacts) const;
   [[nodiscard]] MeasuredPose measure(const solid::Motion& motion) const;
+  [[nodiscard]] bool keeps_datums(const solid::Motion& motion) const { return !(beyond_datums(motion) > 0); }
   /// How far the points of a datum are off at a pose at most, mm.
   [[nodiscard]] double off(const SolidDatum& datum, const solid::Motion& motion) const;
   /// No point of a SolidNear is farther from the blank's surface at a pose, mm.

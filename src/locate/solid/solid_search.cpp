@@ -107,6 +107,21 @@ double SolidSearch::size(const SolidCell& cell) const {
   return std::max({half.at.x, half.at.y, half.at.z, x.x, x.y, x.z});
 }
 
+/// The pose next to one off a datum, on the way to the best one, that keeps all datums. Where allowances do
+/// not change across a datum, programs are highest on its border, and all that they lead to lies just beyond
+/// it.
+std::optional<FramedPose> SolidSearch::drawn_in(const FramedPose& pose) const {
+  constexpr double kNearest = 1.0 / 1024;
+  if (!best_.inside || best_.pose.chart != pose.chart || meter_.keeps_datums(meter_.frame().motion(pose)))
+    return std::nullopt;
+  for (double share = kNearest; share < 1; share *= 2) {
+    const FramedPose drawn{pose.x + share * (best_.pose.x - pose.x),
+                           pose.at + share * (best_.pose.at - pose.at), pose.chart};
+    if (meter_.keeps_datums(meter_.frame().motion(drawn))) return drawn;
+  }
+  return std::nullopt;
+}
+
 /// Bounds a box by the program of what is known. Where that is highest and nothing known is in the way of a
 /// better pose, it makes known what a glance meets, or a measurement where that is nothing new.
 void SolidSearch::bound(Node& node, Found& found) const {
@@ -214,6 +229,12 @@ void SolidSearch::bound(Node& node, Found& found) const {
       ++found.work;
       if (here->better_than(found.best)) found.best = *here;
       added = learn_contacts();
+      if (const auto drawn = drawn_in(pose)) {
+        const auto there = measured_unless_stopped(meter_, *drawn, most, kLooked, options_.run, contacts);
+        if (!there) break;
+        ++found.work;
+        if (there->better_than(found.best)) found.best = *there;
+      }
     }
     if (added == 0) break;
   }

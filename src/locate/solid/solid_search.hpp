@@ -53,6 +53,7 @@ class SolidSearch {
   void climb_first();
   [[nodiscard]] Node first_box(std::uint8_t chart);
   void bound(Node& node, Found& found) const;
+  [[nodiscard]] std::optional<FramedPose> drawn_in(const FramedPose& pose) const;
   void learn(Node& node, Found& found);
   void add_effects(const Node& node, const CellView& view, Steps& matters) const;
   [[nodiscard]] std::array<Node, 2> halves(const Node& node);
