@@ -79,8 +79,8 @@ show "$lekalo" simulate demo-out/cover.ngc --pocket examples/pockets/cover.json 
 # By how much its walls are off because they were cut warm, and its program with the finishing passes moved by that: 1 um
 # of overcut is allowed, so the figures have to be closely known. What is computed and not proved, verify names (exit
 # status 1).
-show "$lekalo" heat demo-out/cover.ngc --pocket examples/pockets/cover.json --stock 100x70x12 --tool 6 --teeth 3 --spindle 12000 \
-  --material 6061-T6 --share 0.09..0.11 --cutting-force 500 --force-exponent 0.25 --cooling 15..25 --voxel 3 \
+show "$lekalo" heat demo-out/cover.ngc --pocket examples/pockets/cover.json --stock 108x78x16 --tool 6 --teeth 3 --spindle 12000 \
+  --material 6061-T6 --share 0.09..0.11 --cutting-force 500 --force-exponent 0.25 --cooling 15..25 --voxel 2.9 \
   -o demo-out/heat.json --corrected demo-out/cover-corrected.ngc --picture demo-out/heat.png \
   --maps demo-out/heat-maps.png --report demo-out/heat.pdf --animation demo-out/heat.html
 show "$lekalo" verify demo-out/heat.json || [ $? -eq 1 ]
