@@ -12,6 +12,7 @@
 #include "certificate.hpp"
 #include "rims.hpp"
 #include "scan_widths.hpp"
+#include "self_crossing.hpp"
 #include "solid_document.hpp"
 #include "solid_features.hpp"
 #include "solid_near.hpp"
@@ -112,6 +113,7 @@ class SolidCheck {
 
   Result<std::optional<SolidMesh>> read_input(const char* role, const Document& document,
                                               const WrittenSolid& written);
+  Result<void> check_crossings(const SolidMesh& mesh, const std::string& name);
   [[nodiscard]] Result<Json> certificate_of() const;
   Result<std::optional<ScanWidths>> widths_by_touches(const SolidMesh& blank);
   Result<bool> check_scan(SolidMesh& blank);
@@ -180,7 +182,36 @@ Result<std::optional<SolidMesh>> SolidCheck::read_input(const char* role, const 
   }
   if (d_.demands && &written == &d_.part) LEKALO_CHECK(read_demands(reading));
   LEKALO_TRY(SolidMesh made, closed(std::move(reading.mesh), document.name));
+  // All that a scan or touches prove rests on the odd count alone, and so on no side of the blank's sheets.
+  if (&written == &d_.part || !d_.scan) LEKALO_CHECK(check_crossings(made, document.name));
   return made;
+}
+
+/// Refuses a mesh that goes through itself so that inside changes sides: then nothing says where the material
+/// is.
+Result<void> SolidCheck::check_crossings(const SolidMesh& mesh, const std::string& name) {
+  const SelfCrossings found = self_crossings(PlacedSolid(mesh));
+  const auto where = [&](const SelfCrossing& crossing) {
+    return fmt::format("({:.6g}, {:.6g}, {:.6g}), on triangle {}", crossing.place[0], crossing.place[1],
+                       crossing.place[2], mesh.numbers[crossing.triangle] + 1);
+  };
+  if (found.changing)
+    return failure(
+        ErrorCode::bad_input,
+        fmt::format("{}: the surface crosses itself at {}, where inside changes from one side of it "
+                    "to the other, so that nothing says where the material is",
+                    name, where(*found.changing)));
+  if (found.first)
+    note(fmt::format(
+        "{}: the surface crosses itself at {}; what lies between was not found to be {:g} mm thick "
+        "anywhere, and what is inside was told by an odd count",
+        name, where(*found.first), found.depth));
+  if (!found.complete)
+    note(fmt::format(
+        "{}: that the surface does not cross itself was not rechecked to the end, for too many of "
+        "its triangles lie on each other",
+        name));
+  return {};
 }
 
 /// Rebuilds the demands from the file of features, and holds what the result says of them against it.
