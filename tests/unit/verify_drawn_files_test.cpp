@@ -166,7 +166,12 @@ TEST(VerifyDrawnDxf, LettersAndCirclesAreShownAsTheyAreMeant) {
   };
   EXPECT_EQ(with("AC1021", " Жук"), "T ' Жук' left 1,2 3,0 0,3\n") << "a blank moves the letters";
   EXPECT_EQ(with("AC1015", "a "), "T 'a ' left 1,2 3,0 0,3\n");
-  EXPECT_EQ(with("AC1015", "Жук"), "e.dxf: its letters are UTF-8, which it does not say by $ACADVER AC1021");
+  const std::string unsaid = "e.dxf: its letters are UTF-8, which it does not say by $ACADVER AC1021";
+  EXPECT_EQ(with("AC1015", "Жук"), unsaid);
+  EXPECT_EQ(with("AC1015 9 $MENU 1 AC1021", "Жук"), unsaid) << "another variable";
+  EXPECT_EQ(with("AC1015 9 $ACADVER 3 AC1021", "Жук"), unsaid) << "no text";
+  // What was wrong before is told.
+  EXPECT_EQ(with("AC1015 9 $INSUNITS 70 6", "Жук"), "e.dxf: line 12: its unit is neither mm nor inch");
 }
 
 TEST(VerifyDrawnDxf, AFileIsWholeAndItsBlocksAreEmpty) {
@@ -343,8 +348,9 @@ TEST(VerifyDrawnSvg, WhatHidesLinesIsRefused) {
   EXPECT_EQ(svg(R"(<circle cx="0" cy="0" r="50"/>)"), "CUT: A 0,0 50 + 50,0 50,0\n");
   EXPECT_NE(svg(R"(<circle cx="0" cy="0" r="50.01"/>)").find("something lies beyond the page"),
             std::string::npos);
-  for (const char* beyond : {"M-50.01 0L50 50", "M-50 1A50 50 0 0 0 50 1Z", "M-50 -1A50 50 0 0 1 50 -1Z",
-                             "M-50 0L50 50.01", "M0 50A50 50 0 0 1 50.01 0"})
+  for (const char* beyond :
+       {"M-50.01 0L50 50", "M-50 1A50 50 0 0 0 50 1Z", "M-50 -1A50 50 0 0 1 50 -1Z", "M-50 0L50 50.01",
+        "M0 50A50 50 0 0 1 50.01 0", "M-49 40A50 50 0 0 1 -49 -40Z", "M49 40A50 50 0 0 0 49 -40Z"})
     EXPECT_NE(path(beyond).find("something lies beyond the page"), std::string::npos) << beyond;
   const std::string words =
       "<text transform=\"matrix(1 0 0 1 51 -4)\" font-size=\"10\" text-anchor=\"end\" "
@@ -353,6 +359,11 @@ TEST(VerifyDrawnSvg, WhatHidesLinesIsRefused) {
   EXPECT_NE(svg("</g><g inkscape:label=\"A\" fill=\"none\" stroke=\"#008000\" stroke-width=\"1\">")
                 .find("a group that is no layer"),
             std::string::npos);
+  for (
+      const char* group :
+      {R"(</g><g inkscape:groupmode="layer" fill="none" stroke="#008000" stroke-width="1">)",
+       R"(<g inkscape:groupmode="layer" inkscape:label="A" fill="none" stroke="#008000" stroke-width="1"></g>)"})
+    EXPECT_NE(svg(group).find("a group that is no layer"), std::string::npos) << group;
   EXPECT_NE(svg(R"(<line x1="1"y1="2" x2="3" y2="4"/>)").find("attributes that cannot be read"),
             std::string::npos);
 }

@@ -299,10 +299,12 @@ TEST(VerifyExports, AMarkRunsAlongTheGrainOfItsPart) {
   ASSERT_EQ(judged(text, marks), "");
   const std::size_t at = text.find("<line"), end = text.find("/>", at) + 2;
   const auto with = [&](double x1, double y1, double x2, double y2) {
-    return judged(text.substr(0, at) + "<line x1=\"" + std::to_string(x1) + "\" y1=\"" + std::to_string(-y1) +
-                      "\" x2=\"" + std::to_string(x2) + "\" y2=\"" + std::to_string(-y2) + "\"/>" +
-                      text.substr(end),
-                  marks);
+    // With fewer decimals a long line would not run along the grain.
+    return judged(
+        text.substr(0, at) +
+            fmt::format(R"(<line x1="{:.12f}" y1="{:.12f}" x2="{:.12f}" y2="{:.12f}"/>)", x1, -y1, x2, -y2) +
+            text.substr(end),
+        marks);
   };
   // The D is mirrored and turned by 33.3 degrees about (75, 30): its round side shows to the other side, and
   // its grain runs at 180 - 30 + 33.3 degrees.

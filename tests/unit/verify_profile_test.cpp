@@ -121,8 +121,10 @@ TEST(VerifyProfileMoves, WhatIsNotWrittenThereIsRefusedWithItsLine) {
   EXPECT_EQ(cuts("G0 X.01 Y0\nM3\nG2 X-.005 Y0 I-.01 J0"), "4: A 0,0 0.0075 - 0.01,0 -0.005,0\n");
   // A hole that is burnt or drilled is no cut that anything follows.
   refused("G0 X1 Y1\nM3\nG1 Z-1\nG0 Z2", "the beam or tool goes into the material where nothing is cut");
-  refused("G0 X1 Y1\nM3\nM5\nG0 X5", "the beam or tool goes into the material where nothing is cut");
-  refused("G0 X1 Y1\nM3\nM5\nG0 Y5", "the beam or tool goes into the material where nothing is cut");
+  refused("G0 X1 Y1\nM3\nM5\nG0 X5",
+          "p.nc:5: before it the beam or tool goes into the material where nothing is cut");
+  refused("G0 X1 Y1\nM3\nM5\nG0 Y5",
+          "p.nc:5: before it the beam or tool goes into the material where nothing is cut");
   refused("G0 X1 Y1\nG0 Z-1\nM3\nG0 Z2\nG0 X5",
           "the beam or tool goes into the material where nothing is cut");
   EXPECT_EQ(cuts("G0 X1 Y1\nM3\nM5\nG0 X1 Y1\nM3\nG1 X5"), "7: L 1,1 5,1\n");
@@ -579,6 +581,29 @@ TEST(VerifyProfile, PiercesAndLeadsMeetNoKerfThatIsThere) {
   EXPECT_NE(
       judged_by(layout_text(), inside + "G0 X90 Y90\nM3\nG1 X95\nM5\n", words).find("the cut is not closed"),
       std::string::npos);
+}
+
+TEST(VerifyProfile, OnlyStretchesOfOneContourMayBeginBesideEachOther) {
+  const std::string meets = "the pierce or its lead meets a kerf that is there before it";
+  // The second one begins 1.5 mm behind the end of the first; its disc enters the joint, and nothing else.
+  const std::string first = "G0 X15.5 Y-4\nM3\nG1 Y-0.5\n" + kRight + "G1 Y14\nM5\n",
+                    second = "G0 X31.5 Y15.5\nM3\nG1 X30.5\n" + kAbove + "G1 Y14\nM5\n",
+                    third = "G0 X-4 Y12.5\nM3\nG1 X-0.5\n" + kLeft + "M5\n";
+  EXPECT_EQ(judged_by(plate(), first + second + third, with_joints(0.5, 3)),
+            "line 11: what is burnt enters the joint behind line 4\n");
+  const std::string closed = around(0, 0, 30, 30, 0.5), stretch = "G0 X0 Y-0.5\nM3\nG1 X25\nM5\n";
+  for (const std::string& cut : {closed + stretch, stretch + closed}) {
+    const std::string said = judged_by(plate(), cut, with_joints(0.5, 1));
+    EXPECT_NE(said.find(meets), std::string::npos) << said;
+  }
+  // Stretches of two contours.
+  cases::Json pair = cases::empty_layout();
+  cases::add_part(pair, "plate", cases::outline_json(cases::rectangle(0, 0, 30, 30)));
+  cases::place(pair, "plate", 0, 0);
+  cases::place(pair, "plate", 31.2, 0);
+  const std::string said = judged_by(
+      pair.dump(), "G0 X30.5 Y25\nM3\nG1 Y5\nM5\nG0 X30.7 Y15\nM3\nG1 Y20\nM5\n", with_joints(0.5, 1));
+  EXPECT_NE(said.find("line 8: " + meets), std::string::npos) << said;
 }
 
 TEST(VerifyProfile, WhatSeveralKerfsFreeTogetherIsLoose) {

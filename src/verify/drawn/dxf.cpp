@@ -76,11 +76,11 @@ class DxfReader {
       }
     }
     if (!ended) complain({0, "", groups_.line()}, "it ends in the middle");
-    if (complaint_.empty() && scale_ == 0) complaint_ = "it does not say its unit";
-    const bool is_plain = std::all_of(document_.bytes.begin(), document_.bytes.end(),
-                                      [](char c) { return static_cast<unsigned char>(c) < 0x80; });
-    if (complaint_.empty() && !is_plain && version_ != "AC1021")
-      complaint_ = "its letters are UTF-8, which it does not say by $ACADVER AC1021";
+    if (scale_ == 0) complain("it does not say its unit");
+    const bool is_plain = std::ranges::none_of(
+        document_.bytes, [](char c) { return (static_cast<unsigned char>(c) & 0x80) != 0; });
+    if (!is_plain && version_ != "AC1021")
+      complain("its letters are UTF-8, which it does not say by $ACADVER AC1021");
     if (!complaint_.empty())
       return failure(ErrorCode::bad_input, fmt::format("{}: {}", document_.name, complaint_));
     for (DrawnLine& line : lines_)
@@ -94,8 +94,11 @@ class DxfReader {
   }
 
  private:
+  void complain(const std::string& what) {
+    if (complaint_.empty()) complaint_ = what;
+  }
   void complain(const Group& group, const std::string& what) {
-    if (complaint_.empty()) complaint_ = fmt::format("line {}: {}", group.line, what);
+    complain(fmt::format("line {}: {}", group.line, what));
   }
 
   void begin(const Group& group) {

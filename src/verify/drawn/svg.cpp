@@ -192,23 +192,21 @@ class SvgReader {
 
   /// Readers show nothing beyond the page.
   void look_at_page() {
-    const auto is_shown = [&](Place p) {
-      return p.x >= low_.x - kOffPage && p.x <= high_.x + kOffPage && p.y >= low_.y - kOffPage &&
-             p.y <= high_.y + kOffPage;
+    const auto is_beyond = [&](Place p) {
+      return std::max({low_.x - p.x, low_.y - p.y, p.x - high_.x, p.y - high_.y}) > kOffPage;
     };
     std::vector<Stroke> pieces;
     for (const DrawnLine& line : lines_)
       for (const Stroke& edge : line.edges) add_pieces(edge, kInfinity, pieces);
     for (const Stroke& piece : pieces) {
-      bool all = is_shown(piece.from) && is_shown(piece.to);
-      for (const Place way : {Place{1, 0}, Place{-1, 0}, Place{0, 1}, Place{0, -1}}) {
-        const Place extreme = piece.centre + piece.radius * way;
-        all = all && (!piece.arc || distance(extreme, piece) > kOffPage || is_shown(extreme));
-      }
-      if (!all) return complain("something lies beyond the page");
+      // The places of an arc that go farthest along the axes are those nearest to its circle's.
+      std::vector<Place> farthest{piece.from, piece.to};
+      for (const Place way : {Place{1, 0}, Place{-1, 0}, Place{0, 1}, Place{0, -1}})
+        farthest.push_back(nearest_on(piece, piece.centre + piece.radius * way));
+      if (std::ranges::any_of(farthest, is_beyond)) return complain("something lies beyond the page");
     }
     for (const DrawnLetters& text : texts_)
-      if (!is_shown(text.at)) return complain("a text stands beyond the page");
+      if (is_beyond(text.at)) return complain("a text stands beyond the page");
   }
 
   void layer(const Attributes& attributes) {

@@ -23,6 +23,8 @@ std::size_t most_cuts(std::size_t moves) {
   return std::min(kCuts + kCutsAMove * moves, kMostCuts + kMoreCutsAMove * moves);
 }
 
+bool is_below(const Move& move, double top) { return move.from_z < top || move.to_z < top; }
+
 double whole_length(const Move& move) {
   return move.arc ? 2 * kPi * move.turns * length(move.from - move.centre) : length(move.to - move.from);
 }
@@ -63,13 +65,13 @@ Result<CutPath> cut_path(const std::vector<Move>& moves, double top, double tool
   const std::size_t most = most_cuts(moves.size());
   double expected = 0;
   for (const Move& move : moves)
-    if (move.from_z < top || move.to_z < top) expected += 1 + std::ceil(whole_length(move) / longest);
+    if (is_below(move, top)) expected += 1 + std::ceil(whole_length(move) / longest);
   // Vectors that grow would take half as much again. An arc of more turns has a few more cuts.
   path.cuts.reserve(static_cast<std::size_t>(std::min(expected, static_cast<double>(most))));
   path.strokes.reserve(path.cuts.capacity());
   for (const Move& move : moves) {
     ask();
-    if (!(move.from_z < top) && !(move.to_z < top)) {
+    if (!is_below(move, top)) {
       down = false;
       continue;
     }
@@ -135,10 +137,7 @@ std::vector<bool> repeated(const std::vector<Cut>& cuts) {
   std::vector<std::uint32_t> level;
   for (std::size_t i = 0; i < cuts.size(); ++i)
     if (cuts[i].level()) level.push_back(static_cast<std::uint32_t>(i));
-  std::sort(level.begin(), level.end(), [&](std::uint32_t i, std::uint32_t j) {
-    const Key a = key_of(i), b = key_of(j);
-    return a != b ? a < b : i < j;
-  });
+  std::ranges::sort(level, {}, [&](std::uint32_t i) { return std::pair(key_of(i), i); });
   std::vector<bool> found(cuts.size(), false);
   double deepest = 0, widest = 0;
   for (std::size_t k = 0; k < level.size(); ++k) {

@@ -93,15 +93,16 @@ void drop_repeats(Kept& all) {
   std::ranges::sort(order);
   std::vector<char> first(order.size(), 1);
   bool alike = false, alone = false, any = false;
-  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-    while (end < order.size() && order[end].first == order[begin].first) ++end;
+  for (auto begin = order.begin(); begin != order.end();) {
+    const auto end =
+        std::find_if(begin, order.end(), [&](const auto& one) { return one.first != begin->first; });
     alone = alone || end - begin == 1;
     any = any || end - begin > 1;
-    for (std::size_t k = begin + 1; k < end; ++k) {
-      first[order[k].second] = 0;
-      alike = alike ||
-              from_least(all.triangles[order[k].second]) == from_least(all.triangles[order[begin].second]);
+    for (auto again = begin + 1; again != end; ++again) {
+      first[again->second] = 0;
+      alike = alike || from_least(all.triangles[again->second]) == from_least(all.triangles[begin->second]);
     }
+    begin = end;
   }
   if (!any || (!alike && alone && !open_edge(all.triangles))) return;
   Kept once;
