@@ -27,6 +27,13 @@ struct Box3 {
 /// Returns a number that the distance of two boxes is not below.
 [[nodiscard]] double gap(const Box3& a, const Box3& b);
 
+/// Says whether two boxes have a point in common.
+[[nodiscard]] inline bool meet(const Box3& a, const Box3& b) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (a.low[axis] > b.high[axis] || b.low[axis] > a.high[axis]) return false;
+  return true;
+}
+
 /// A tree over boxes in space. Each node has the box of all below it, and halves them by their middles.
 class BoxTree {
  public:
@@ -40,6 +47,12 @@ class BoxTree {
   template <class Concerns, class Visit>
   void visit(const Concerns& concerns, const Visit& visit) const {
     descend(0, concerns, visit);
+  }
+
+  /// Calls visit(number, number) once for each two of its boxes that meet, until it returns false.
+  template <class Visit>
+  void visit_meeting(const Visit& visit) const {
+    static_cast<void>(meet_within(0, visit));
   }
 
   /// Calls visit(number, other's number) for the pairs of two trees whose boxes come within `limit` of each
@@ -70,6 +83,36 @@ class BoxTree {
     }
     for (std::uint32_t k = node.begin; k < node.end; ++k)
       if (concerns(boxes_[order_[k]])) visit(order_[k]);
+  }
+
+  template <class Visit>
+  [[nodiscard]] bool meet_within(std::uint32_t at, const Visit& visit) const {
+    ask();
+    const Node& node = nodes_[at];
+    if (node.second != 0)
+      return meet_within(at + 1, visit) && meet_within(node.second, visit) &&
+             meet_across(at + 1, node.second, visit);
+    for (std::uint32_t k = node.begin; k < node.end; ++k)
+      for (std::uint32_t l = k + 1; l < node.end; ++l)
+        if (meet(boxes_[order_[k]], boxes_[order_[l]]) && !visit(order_[k], order_[l])) return false;
+    return true;
+  }
+
+  template <class Visit>
+  [[nodiscard]] bool meet_across(std::uint32_t at, std::uint32_t there, const Visit& visit) const {
+    ask();
+    const Node &mine = nodes_[at], &its = nodes_[there];
+    if (!meet(mine.box, its.box)) return true;
+    if (mine.second == 0 && its.second == 0) {
+      for (std::uint32_t k = mine.begin; k < mine.end; ++k)
+        for (std::uint32_t l = its.begin; l < its.end; ++l)
+          if (meet(boxes_[order_[k]], boxes_[order_[l]]) && !visit(order_[k], order_[l])) return false;
+      return true;
+    }
+    // The node of more boxes is opened; it is no leaf, because one of the two is none.
+    if (mine.end - mine.begin >= its.end - its.begin)
+      return meet_across(at + 1, there, visit) && meet_across(mine.second, there, visit);
+    return meet_across(at, there + 1, visit) && meet_across(at, its.second, visit);
   }
 
   template <class Visit>

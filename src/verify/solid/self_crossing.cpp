@@ -152,27 +152,35 @@ class CrossingSearch {
   };
 
   void look_at_pairs() {
-    const BoxTree& tree = body_.tree();
     std::size_t left = limits::most_meeting_pieces(body_.mesh().triangles.size());
-    double limit = 0;
-    tree.visit_pairs(tree, limit, [&](std::uint32_t a, std::uint32_t b) {
-      if (left-- == 0) found_.complete = false, limit = -kInfinity;
-      if (a != b) look_at_pair(a, b);
+    body_.tree().visit_meeting([&](std::uint32_t a, std::uint32_t b) {
+      found_.complete = left-- > 0;
+      // One that lies on one side of the other's plane, but for a corner of both, does not meet its inside.
+      if (found_.complete && look_at_edges(a, b)) look_at_edges(b, a);
+      return found_.complete;
     });
   }
 
-  /// Notes the edges of s that run through t's inside. A corner that both have lies in t's plane.
-  void look_at_pair(std::uint32_t s, std::uint32_t t) {
+  /// Notes the edges of s that run through t's inside. Returns whether t's may run through that of s.
+  bool look_at_edges(std::uint32_t s, std::uint32_t t) {
     const auto &of_s = body_.mesh().triangles[s], &of_t = body_.mesh().triangles[t];
     std::array<bool, 3> common{};
     for (std::size_t k = 0; k < 3; ++k) common[k] = std::ranges::find(of_t, of_s[k]) != of_t.end();
-    if (std::ranges::count(common, true) > 1) return;
+    if (std::ranges::count(common, true) > 1) return false;
     const Triangle3 at = body_.triangle(t), from = body_.triangle(s);
     const Vec3 n = normal(at);
     std::array<int, 3> side{};
-    for (std::size_t k = 0; k < 3; ++k) side[k] = sure_sign(dot(n, from[k] - at[0]));
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!common[k]) side[k] = sure_sign(dot(n, from[k] - at[0]));
+    const auto lies = [&](int where) {
+      for (std::size_t k = 0; k < 3; ++k)
+        if (!common[k] && side[k] != where) return false;
+      return true;
+    };
+    if (lies(1) || lies(-1)) return false;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3;
+      // A corner that both have lies in t's plane.
       if (common[k] || common[next] || side[k] * side[next] > 0) continue;
       if (passes_by(at, from[k], from[next]) || is_beside(at, from[k], from[next])) continue;
       if (!runs_through(s, k, t)) continue;
@@ -183,6 +191,7 @@ class CrossingSearch {
       if (!found_.first) found_.first = SelfCrossing{place, s};
       if (to_look_at_.size() < kMostCloseLooks) to_look_at_.push_back({s, t, place});
     }
+    return true;
   }
 
   /// Says exactly whether edge k of s runs through t's inside from one side to the other.
