@@ -11,8 +11,8 @@
 #include "lekalo/base/stop.hpp"
 #include "support/solids.hpp"
 #include "support/verify_solids.hpp"
+#include "verify/number/both.hpp"
 #include "verify/solid/scan_widths.hpp"
-#include "verify/solid/solid_number.hpp"
 #include "verify/solid/solid_window.hpp"
 
 namespace lekalo::verify::verify_solid_number_test {

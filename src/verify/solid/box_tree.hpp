@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lekalo/base/stop.hpp"
-#include "vec3.hpp"
+#include "verify/number/vec3.hpp"
 
 namespace lekalo::verify {
 

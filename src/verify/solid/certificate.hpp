@@ -8,7 +8,7 @@
 #include "rims.hpp"
 #include "solid_document.hpp"
 #include "solid_features.hpp"
-#include "solid_number.hpp"
+#include "verify/number/both.hpp"
 
 namespace lekalo::verify {
 

@@ -9,7 +9,7 @@
 #include "placed_solid.hpp"
 #include "solid_features.hpp"
 #include "solid_near.hpp"
-#include "solid_number.hpp"
+#include "verify/number/both.hpp"
 #include "verify/read/json.hpp"
 
 namespace lekalo::verify {

@@ -8,7 +8,7 @@
 
 #include "lekalo/base/stop.hpp"
 #include "solid_mesh.hpp"
-#include "vec3.hpp"
+#include "verify/number/vec3.hpp"
 
 namespace lekalo::verify {
 namespace {

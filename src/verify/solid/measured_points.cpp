@@ -8,8 +8,8 @@
 #include "lekalo/base/limits.hpp"
 #include "lekalo/base/stop.hpp"
 #include "placed_solid.hpp"
-#include "solid_number.hpp"
 #include "triangle_distance.hpp"
+#include "verify/number/both.hpp"
 
 namespace lekalo::verify {
 namespace {

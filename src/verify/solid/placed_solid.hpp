@@ -5,7 +5,7 @@
 
 #include "box_tree.hpp"
 #include "solid_mesh.hpp"
-#include "vec3.hpp"
+#include "verify/number/vec3.hpp"
 
 namespace lekalo::verify {
 

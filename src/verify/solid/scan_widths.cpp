@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "lekalo/base/stop.hpp"
-#include "solid_number.hpp"
+#include "verify/number/both.hpp"
 
 namespace lekalo::verify {
 namespace {

@@ -16,10 +16,10 @@
 #include "solid_document.hpp"
 #include "solid_features.hpp"
 #include "solid_near.hpp"
-#include "solid_number.hpp"
 #include "solid_window.hpp"
 #include "touch_widths.hpp"
 #include "triangle_distance.hpp"
+#include "verify/number/both.hpp"
 #include "verify/pocket/program_check.hpp"
 
 namespace lekalo::verify {

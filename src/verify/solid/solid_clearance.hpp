@@ -5,7 +5,7 @@
 
 #include "lekalo/base/error.hpp"
 #include "placed_solid.hpp"
-#include "solid_number.hpp"
+#include "verify/number/both.hpp"
 
 namespace lekalo::verify {
 

@@ -14,8 +14,8 @@
 #include "lekalo/base/limits.hpp"
 #include "lekalo/base/stop.hpp"
 #include "solid_document.hpp"
-#include "solid_number.hpp"
 #include "triangle_distance.hpp"
+#include "verify/number/both.hpp"
 #include "verify/read/fields.hpp"
 
 namespace lekalo::verify {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solid_mesh.hpp"
-#include "solid_number.hpp"
+#include "verify/number/both.hpp"
 
 namespace lekalo::verify {
 

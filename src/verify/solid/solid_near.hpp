@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "placed_solid.hpp"
-#include "solid_number.hpp"
+#include "verify/number/both.hpp"
 
 namespace lekalo::verify {
 

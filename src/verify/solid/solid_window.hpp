@@ -5,7 +5,7 @@
 #include <string>
 
 #include "solid_document.hpp"
-#include "solid_number.hpp"
+#include "verify/number/both.hpp"
 
 namespace lekalo::verify {
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "verify/number/exact.hpp"
-#include "verify/number/span.hpp"
+#include "exact.hpp"
+#include "span.hpp"
 
 namespace lekalo::verify {
 

@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "exact.hpp"
 #include "vec3.hpp"
-#include "verify/number/exact.hpp"
 
 namespace lekalo::verify {
 
