@@ -146,6 +146,48 @@ TEST(SolidReader, TrianglesWithoutAreaAreLeftOutUnlessTheSurfaceClosesAlongThem)
   EXPECT_EQ(reading("v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\nf 1 2 3\n"), "s: none of its triangles has an area");
 }
 
+TEST(SolidReader, TrianglesThatRepeatOthersAreLeftOutUnlessBodiesTouchThere) {
+  const auto numbers = [](const Mesh& mesh) {
+    const auto read = read_solid({"s", obj(mesh)});
+    return closed(read->mesh, "s")->numbers;
+  };
+  const std::vector<std::uint32_t> twelve{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+  for (std::size_t k = 0; k < 12; ++k) {
+    // Once more, and so open; twice more; and once more from the other side.
+    const solid::Triangle again = cube().triangles[k];
+    for (const std::vector<solid::Triangle>& more :
+         {std::vector{again}, {again, again}, {{again[1], again[0], again[2]}}}) {
+      Mesh mesh = cube();
+      mesh.triangles.insert(mesh.triangles.end(), more.begin(), more.end());
+      EXPECT_EQ(numbers(mesh), twelve) << k;
+    }
+    Mesh before = cube();
+    before.triangles.insert(before.triangles.begin(), {again[2], again[0], again[1]});
+    std::vector<std::uint32_t> left = twelve;
+    left.push_back(12);
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+    EXPECT_EQ(numbers(before), left) << k;
+  }
+  // A body that is written twice, or from both sides.
+  for (const bool turned : {false, true}) {
+    Mesh mesh = cube();
+    for (solid::Triangle t : cube().triangles) {
+      if (turned) std::swap(t[0], t[1]);
+      mesh.triangles.push_back(t);
+    }
+    EXPECT_EQ(numbers(mesh), twelve);
+  }
+  // Two bodies that have a face in common: it is there twice, from both sides.
+  Mesh pair = cube(), other = cube();
+  for (solid::Vector& v : other.vertices) v.x = 3 - v.x;
+  pair.vertices.insert(pair.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const auto& [a, b, c] : other.triangles) pair.triangles.push_back({b + 8, a + 8, c + 8});
+  EXPECT_EQ(reading(obj(pair)), "closed, 12 vertices, 24 triangles");
+  // Where one of them is inside out, nothing closes without both faces.
+  for (std::size_t k = 12; k < 24; ++k) std::swap(pair.triangles[k][0], pair.triangles[k][1]);
+  EXPECT_EQ(reading(obj(pair)), "closed, 12 vertices, 24 triangles");
+}
+
 TEST(SolidReader, WhatIsNotReadIsSaidAndLeftOpen) {
   EXPECT_EQ(reading("ISO-10303-21;\n"), "open: it is none of STL, OBJ, PLY and 3MF");
   EXPECT_EQ(reading(""), "open: it is none of STL, OBJ, PLY and 3MF");

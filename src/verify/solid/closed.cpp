@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <compare>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -91,23 +92,22 @@ void drop_repeats(Kept& all) {
   for (std::size_t k = 0; k < all.triangles.size(); ++k) order.emplace_back(sorted(all.triangles[k]), k);
   ask(order.size());
   std::ranges::sort(order);
-  std::vector<char> first(order.size(), 1);
-  bool alike = false, alone = false, any = false;
+  std::vector<std::size_t> first;
+  bool alike = false, alone = false;
   for (auto begin = order.begin(); begin != order.end();) {
     const auto end =
         std::find_if(begin, order.end(), [&](const auto& one) { return one.first != begin->first; });
-    alone = alone || end - begin == 1;
-    any = any || end - begin > 1;
-    for (auto again = begin + 1; again != end; ++again) {
-      first[again->second] = 0;
-      alike = alike || from_least(all.triangles[again->second]) == from_least(all.triangles[begin->second]);
-    }
+    first.push_back(begin->second);
+    alone = alone || std::next(begin) == end;
+    alike = alike || std::any_of(std::next(begin), end, [&](const auto& again) {
+              return from_least(all.triangles[again.second]) == from_least(all.triangles[begin->second]);
+            });
     begin = end;
   }
-  if (!any || (!alike && alone && !open_edge(all.triangles))) return;
+  if (first.size() == order.size() || (!alike && alone && !open_edge(all.triangles))) return;
+  std::ranges::sort(first);
   Kept once;
-  for (std::size_t k = 0; k < first.size(); ++k)
-    if (first[k] != 0) once.add(all.triangles[k], all.numbers[k]);
+  for (const std::size_t k : first) once.add(all.triangles[k], all.numbers[k]);
   if (!open_edge(once.triangles)) all = std::move(once);
 }
 
