@@ -137,7 +137,7 @@ class CrossingSearch {
     found_.depth = std::min(kThick, kThickPart * near_length(whole.high - whole.low));
   }
 
-  SelfCrossings run() && {
+  SelfCrossings run() {
     look_at_pairs();
     for (const auto& [triangle, through, place] : to_look_at_)
       if (changes_at(triangle, through, place) || changes_at(through, triangle, place)) return found_;
