@@ -114,14 +114,10 @@ std::vector<std::string> proof_sentences(const io::LocateDocument& d, int decima
   return sentences;
 }
 
-namespace {
-
 std::string as_sentence(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
-  return text + ".";
+  return text.ends_with('.') ? text : text + ".";
 }
-
-}  // namespace
 
 std::vector<std::string> assumption_sentences(const io::LocateDocument& d, int decimals) {
   std::vector<std::string> sentences;

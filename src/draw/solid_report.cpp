@@ -13,6 +13,7 @@
 #include "lekalo/base/rounding.hpp"
 #include "lekalo/io/text/words.hpp"
 #include "report_parts.hpp"
+#include "report_words.hpp"
 
 namespace lekalo::draw {
 namespace {
@@ -249,7 +250,8 @@ class SolidReportPage {
   }
   [[nodiscard]] ReportNotes notes() const {
     ReportNotes notes{report_.warnings, scene_.notes, {}};
-    notes.assumptions.insert(notes.assumptions.end(), report_.assumptions.begin(), report_.assumptions.end());
+    for (const std::string& assumption : report_.assumptions)
+      notes.assumptions.push_back(as_sentence(assumption));
     notes.assumptions.push_back("Looked at: placements " + window_text(report_) + " from the start.");
     notes.measured =
         scene_.allowances.empty()

@@ -960,6 +960,24 @@ TEST(JobsLocateSolid, PointsAreMeshedAndThePlacementHoldsInTheTrueBlank) {
   EXPECT_EQ(verdict(job, located), verify::Verdict::unproved);
 }
 
+/// The page that is filed away did not say what its figures rest on.
+TEST(JobsLocateSolid, TheReportOfAScanSaysWhatIsAssumed) {
+  std::vector<solid::Vector> points;
+  SolidLocateJob job = points_job(points);
+  job.outputs.report = PictureForm::svg;
+  const LocatedSolid located = made(job);
+  ASSERT_TRUE(located.document.scan);
+  EXPECT_GE(located.document.scan->assumptions.size(), 3U);
+  for (const char* words : {">Every corner of the scan", ">A ball of 5 mm radius comes from outside",
+                            ">The blank has no closed voids.", ">The underside at z = "})
+    EXPECT_TRUE(says(located.report, words)) << words;
+  EXPECT_TRUE(says(located.report, fmt::format("{} points, mm", points.size())));
+  job.options.scan->underside.reset();
+  const LocatedSolid open = made(job);
+  ASSERT_GT(open.document.scan->unknown_triangles, 0U);
+  EXPECT_TRUE(says(open.report, "triangles of the scan are unknown, so nothing is proved of the blank."));
+}
+
 TEST(JobsLocateSolid, EveryMeasuredPointHasItsDistanceFromThePlacedPart) {
   std::vector<solid::Vector> points;
   SolidLocateJob job = points_job(points);

@@ -33,7 +33,7 @@ struct SolidReport {
   std::size_t certificate_boxes = 0;
   /// The file that holds it, if not the result.
   std::optional<io::FileRecord> certificate_file;
-  std::vector<std::string> warnings, assumptions;  ///< sentences
+  std::vector<std::string> warnings, assumptions;  ///< sentences, or as a result has them
   std::uint64_t work = 0;
 };
 

@@ -135,13 +135,23 @@ Result<std::string> page_of(draw::SolidScene scene, const io::SolidDocument& d, 
   report.scene = std::move(scene);
   report.freedom = d.freedom, report.shift = d.window.shift, report.turn_deg = d.window.turn_deg;
   report.farthest_turn_deg = d.window.farthest_turn_deg(d.freedom);
-  for (const io::SolidInputRecord& input : d.inputs)
+  for (const io::SolidInputRecord& input : d.inputs) {
+    const bool points = input.role == "points";
+    const std::string size =
+        fmt::format("{} {}", points ? input.points : input.triangles, points ? "points" : "triangles");
     report.inputs.push_back(
-        {input.role, input.file,
-         input.unit ? fmt::format("{} triangles, {}", input.triangles, io::name_of(*input.unit)) : ""});
+        {input.role, input.file, input.unit ? fmt::format("{}, {}", size, io::name_of(*input.unit)) : ""});
+  }
   const bool kept = d.certificate_file || !d.proof.trees.empty();
   report.certificate_boxes = kept ? d.certificate_boxes : 0, report.certificate_file = d.certificate_file;
   report.warnings = d.warnings, report.work = d.work;
+  if (d.scan) {
+    report.assumptions = d.scan->assumptions;
+    if (d.scan->unknown_triangles > 0)
+      report.assumptions.push_back(
+          fmt::format("{} triangles of the scan are unknown, so nothing is proved of the blank",
+                      d.scan->unknown_triangles));
+  }
   if (form == PictureForm::pdf) return draw::solid_report_pdf(report, d.threads);
   if (form == PictureForm::png) return draw::solid_report_png(report, 1654, d.threads);
   return draw::solid_report_svg(report, d.threads);
