@@ -57,6 +57,14 @@ show "$lekalo" locate --part $solid/part.stl --blank $solid/casting.stl --freedo
   --offset-out demo-out/housing-offset.txt -o demo-out/housing-nc.json
 show "$lekalo" verify demo-out/housing-nc.json
 
+# Such a casting as points that a scanner saw on a table: they become a mesh first, and all that is assumed is told.
+stated=(--uncertainty 0.01 --min-radius 5 --underside z=-22.6 --flat 0.05 --min-allowance 1 --gap 0.05)
+show "$lekalo" locate --part $solid/part.stl --blank $solid/scan.ply --mesh demo-out/housing-scan.ply "${stated[@]}" \
+  --picture demo-out/housing-scan.png --report demo-out/housing-scan.pdf -o demo-out/housing-scan.json
+show "$lekalo" verify demo-out/housing-scan.json
+show "$lekalo" locate --part $solid/part.stl --blank demo-out/housing-scan.ply "${stated[@]}" --method climb \
+  --start demo-out/housing-scan.json --picture demo-out/housing-scan.html
+
 # The same casting, touched by a probe instead of scanned: its mesh is moved to the touches.
 show "$lekalo" locate --part $solid/part.stl --blank $solid/touches.xyz --nominal-blank $solid/casting.stl --form 0.1 \
   --ball 3 --uncertainty 0.005 --mesh demo-out/housing-touched.ply --min-allowance 1 --gap 0.05 -o demo-out/housing-touched.json
@@ -105,6 +113,7 @@ say "  flange.svg, flange.pdf, flange.json, flange.nc, flange.csv  a part of pri
 say "                                     report, result, program, allowance along the outline; flange.png, flange-report.png"
 say "  housing.png, housing.pdf, housing.html, housing.json, housing-proof.json  a housing with a bore in its casting, in space:"
 say "                                     picture, report, a page that turns, result and its proof"
+say "  housing-scan.png, housing-scan.pdf, housing-scan.html, housing-scan.json  the same in a scan of such a casting"
 say "  shoes.json, shoes.svg, shoes.pdf   a pair of shoes on a hide with defects and zones: layout and picture"
 say "  shoes-nested.json, shoes-nested.svg  three pairs laid out by lekalo nest"
 say "  cover.ngc, cover.png, cover.html   a pocket with an island: the program that clears it, its path by engagement, played"

@@ -1,5 +1,6 @@
-"""Writes part.stl, casting.stl, touches.xyz and touches-directions.xyz beside itself: a housing with a blind bore, the
-casting that it is cut from, and where a probe's ball touched that casting when it lay a little elsewhere.
+"""Writes part.stl, casting.stl, touches.xyz, touches-directions.xyz and scan.ply beside itself: a housing with a blind
+bore, the casting that it is cut from, where a probe's ball touched that casting when it lay a little elsewhere, and
+what a scanner saw of another such casting, which stood on a table and whose core had a rounded end.
 
 The casting has 1.6 to 3.5 mm of stock, its core is moved and tilted, and it lies turned by 3.5 degrees, as castings do
 on a table. Where the part is in it is what `lekalo locate` finds.
@@ -7,6 +8,7 @@ on a table. Where the part is in it is what `lekalo locate` finds.
 
 import math
 import pathlib
+import random
 import struct
 
 AROUND = 48  # points around the outside and around the bore
@@ -64,6 +66,56 @@ def touched(triangles, radius):
     (folder / "touches-directions.xyz").write_text("".join(f"{p} {n}\n" for p, n in zip(lines, directions)))
 
 
+def scanned(low, high, core, floor, round_end, step, noise):
+    """Points (x, y, z) some `step` apart on all but the underside, off the surface by up to `noise`."""
+    x, y, r = core
+    foot = low[2] + 0.3  # next to the table nothing is seen
+    draw = random.Random(1)
+    points = []
+
+    def see(p, n):
+        off = draw.uniform(-noise, noise)
+        points.append(tuple(a + off * b for a, b in zip(p, n)))
+
+    def steps(a, b):
+        count = math.ceil(abs(b - a) / step)
+        return [a + (b - a) * k / count for k in range(count + 1)]
+
+    def around(radius):
+        count = max(1, math.ceil(2 * math.pi * radius / step))
+        return [(math.cos(2 * math.pi * k / count), math.sin(2 * math.pi * k / count)) for k in range(count)]
+
+    for u in steps(low[0], high[0]):
+        for v in steps(low[1], high[1]):
+            if math.hypot(u - x, v - y) > r + step / 2:
+                see((u, v, high[2]), (0, 0, 1))
+        for w in steps(foot, high[2])[:-1]:
+            see((u, low[1], w), (0, -1, 0)), see((u, high[1], w), (0, 1, 0))
+    for v in steps(low[1], high[1])[1:-1]:
+        for w in steps(foot, high[2])[:-1]:
+            see((low[0], v, w), (-1, 0, 0)), see((high[0], v, w), (1, 0, 0))
+    for c, s in around(r):
+        for w in steps(floor + round_end, high[2]):
+            see((x + r * c, y + r * s, w), (-c, -s, 0))
+    for angle in steps(0, round_end * math.pi / 2)[1:]:
+        a = angle / round_end
+        out = r - round_end + round_end * math.cos(a)
+        for c, s in around(out):
+            see((x + out * c, y + out * s, floor + round_end - round_end * math.sin(a)),
+                (-c * math.cos(a), -s * math.cos(a), math.sin(a)))
+    for out in steps(r - round_end, 0)[1:]:
+        for c, s in around(out):
+            see((x + out * c, y + out * s, floor), (0, 0, 1))
+    return points
+
+
+def write_points(name, points):
+    head = "ply\nformat binary_little_endian 1.0\n" + f"element vertex {len(points)}\n"
+    head += "".join(f"property float {axis}\n" for axis in "xyz") + "end_header\n"
+    data = head.encode() + b"".join(struct.pack("<3f", *p) for p in points)
+    (pathlib.Path(__file__).parent / f"{name}.ply").write_bytes(data)
+
+
 def write(name, triangles):
     data = name.encode().ljust(80) + struct.pack("<I", len(triangles))
     for triangle in triangles:
@@ -75,4 +127,6 @@ if __name__ == "__main__":
     write("part", housing((-55, -35, -20), (55, 35, 20), (8, 2, 24), (8, 2, 24), -8))
     rough = housing((-57.4, -38.1, -22.6), (58.2, 37.3, 23.5), (8.3, 1.8, 22.2), (8.9, 2.3, 21.0), -5.4)
     write("casting", turned(rough, (0.3, -0.2, 1), 3.5, (2.5, -1.5, 1.25)))
+    seen = scanned((-57.4, -38.1, -22.6), (58.2, 37.3, 23.5), (8.5, 2, 21.5), -5.4, 6, 2, 0.018)
+    write_points("scan", turned([seen], (0, 0, 1), 3.5, (2.5, -1.5, 0))[0])
     touched(turned(rough, (0.2, -0.3, 1), 3.9, (2.1, -0.9, 1.5)), 1.5)
