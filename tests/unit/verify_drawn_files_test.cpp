@@ -346,6 +346,8 @@ TEST(VerifyDrawnSvg, WhatHidesLinesIsRefused) {
   EXPECT_EQ(path("M-50 0L50 50"), "CUT!: L -50,0 50,-50\n");
   EXPECT_EQ(path("M-50 0A50 50 0 0 1 50 0Z"), "CUT: A 0,0 50 - -50,0 50,0 L 50,0 -50,0\n");
   EXPECT_EQ(svg(R"(<circle cx="0" cy="0" r="50"/>)"), "CUT: A 0,0 50 + 50,0 50,0\n");
+  EXPECT_EQ(path("M0 0L50.0000019073486328125 0"), "CUT!: L 0,0 50,0\n") << "as far off as it may be";
+  EXPECT_NE(path("M0 0L50.0000020 0").find("something lies beyond the page"), std::string::npos);
   EXPECT_NE(svg(R"(<circle cx="0" cy="0" r="50.01"/>)").find("something lies beyond the page"),
             std::string::npos);
   for (const char* beyond :

@@ -319,7 +319,7 @@ TEST(VerifyExports, AMarkRunsAlongTheGrainOfItsPart) {
     if (!said.empty()) continue;
     EXPECT_NE(with(x, y, x + 2 * c + 0.001 * s, y + 2 * s - 0.001 * c), "");
     EXPECT_NE(with(x, y, x + 30 * c, y + 30 * s), "");
-    EXPECT_NE(with(x - 30 * c, y - 30 * s, x, y), "");
+    EXPECT_NE(with(x + 30 * c, y + 30 * s, x, y), "");
   }
   EXPECT_TRUE(found);
 }

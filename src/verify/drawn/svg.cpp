@@ -18,7 +18,7 @@ namespace lekalo::verify {
 namespace {
 
 /// Doubles of a page's size and of what lies at its rim are off by less, mm.
-constexpr double kOffPage = 1e-6;
+constexpr double kOffPage = 0x1p-19;
 
 using Attributes = std::map<std::string, std::string_view, std::less<>>;
 
