@@ -85,6 +85,20 @@ TEST(SelfCrossings, WhatTouchesNestsOrIsThinKeepsItsInside) {
   EXPECT_EQ(thin.depth, 0.02);
 }
 
+/// The point of a void touches a slanting face from inside, or goes through it by the last digit.
+TEST(SelfCrossings, TheLastDigitDecides) {
+  const auto tetrahedron = [](Vector a, Vector b, Vector c, Vector d) {
+    return Mesh{{a, b, c, d}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  };
+  const Mesh body = tetrahedron({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 3});
+  for (const auto& [beyond, goes_through] : {std::pair(0.0, false), {0x1p-52, true}, {-0x1p-52, false}}) {
+    const SelfCrossings found = crossings_of(both(
+        body, tetrahedron({0.25, 0.25, 0.25}, {0.5, 0.25, 0.25}, {0.25, 0.5, 0.25}, {1, 1, 1 + beyond})));
+    EXPECT_EQ(found.first.has_value(), goes_through) << beyond;
+    EXPECT_FALSE(found.changing) << beyond;
+  }
+}
+
 /// Which way triangles are turned says nothing, as nothing else here asks for it.
 TEST(SelfCrossings, TurnedTrianglesMeanTheSame) {
   Mesh body = block({-50, -5, -5}, {50, 5, 5}), other = block({-5, -50, -5}, {5, 50, 5});

@@ -200,7 +200,7 @@ class CrossingSearch {
     const Exact3 &p = of_s[k], &q = of_s[(k + 1) % 3];
     if (sgn(height(of_t, p)) * sgn(height(of_t, q)) >= 0) return false;
     const int first = sgn(turn_about(of_t[0], of_t[1], p, q));
-    return first != 0 && sgn(turn_about(of_t[1], of_t[2], p, q)) == first &&
+    return sgn(turn_about(of_t[1], of_t[2], p, q)) == first &&
            sgn(turn_about(of_t[2], of_t[0], p, q)) == first;
   }
 
