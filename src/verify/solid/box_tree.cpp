@@ -13,7 +13,8 @@ constexpr std::uint32_t kLeaf = 4;
 double gap(const Box3& a, const Box3& b) {
   double sum = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    // Most boxes that are asked for meet, so that nothing is worked out along an axis that does not part them.
+    // Most boxes that are asked for meet, so that nothing is worked out along an axis that does not part
+    // them.
     const double least = std::max(a.low[axis] - b.high[axis], b.low[axis] - a.high[axis]);
     if (!(least > 0)) continue;
     const double sure = step_down(least);
