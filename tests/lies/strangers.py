@@ -44,6 +44,15 @@ def of_layout(layout):
     yield "a piece less", other
 
 
+def is_start(digest, result):
+    """Says whether a result names a file with this digest as the one that its search began from."""
+    try:
+        inputs = json.loads(result)["inputs"]
+    except (ValueError, KeyError, TypeError):
+        return False
+    return any(one.get("role") == "start" and one.get("sha256") == digest for one in inputs)
+
+
 def of(name, text):
     """Files that may be named in the place of this one, each with what it is."""
     ending = name.rsplit(".", 1)[-1].lower()

@@ -139,8 +139,10 @@ class Walk:
                 yield name, how, other, None
                 said = self.kind.report_of or self.kind.target
                 result = folder.read(said)
-                # A layout with a piece elsewhere may keep all that a report says of it.
-                if kinds.digest(text) in result and how != "a piece elsewhere":
+                # A layout with a piece elsewhere may keep all that a report says of it, and of where a search
+                # began nothing is claimed (docs/formats.md).
+                if kinds.digest(text) in result and how != "a piece elsewhere" and \
+                        not strangers.is_start(kinds.digest(text), result):
                     yield name, how + ", and its digest", other, (said, result.replace(kinds.digest(text),
                                                                                        kinds.digest(other)))
 
