@@ -79,6 +79,9 @@ struct ProfileOptions {
   /// shortest travels.
   double heat_spread_mm = 0;
   JointOptions joints;
+  /// Straight edges of two parts that face each other at one kerf, within the tolerance, are cut once
+  /// (docs/design/common-line.md); not with joints or a heat spread.
+  bool common_line = false;
 };
 
 /// The lines of a program that cut one contour, its travel and its remark among them.
@@ -117,6 +120,13 @@ struct ProfileProgram {
   /// where a joint would hold on to a slug that falls: they have none.
   std::size_t joints = 0, jointed_parts = 0;
   std::vector<std::uint64_t> unheld;
+  /// The length of edges that two parts share. With common lines they are cut once, in so many lines, and
+  /// these run beside either part at half the kerf, so far off at most. Without, they are cut twice.
+  double shared_mm = 0;
+  std::size_t common_lines = 0;
+  double common_off_mm = 0;
+  /// Lines that begin in a kerf which is there already, where no lead has room.
+  std::size_t starts_in_kerfs = 0;
 };
 
 /// Returns the shortest lead whose pierce lies clear of the contour that it leads to, mm; 0 where the
@@ -134,6 +144,10 @@ struct ProfileProgram {
 /// a cut that would enter a part by more than the tolerance (naming both), where a pierce of the stated
 /// diameter has no place (naming all such cuts), and where joints have none (naming all such parts). The
 /// operator gets no program in which such a cut is left.
+///
+/// With common lines parts that share edges are cut as one cluster: the lines between them, the pockets that
+/// they surround, and one outline around all of them. An edge is cut once. Parts on two sides of a line are
+/// named together in remarks, and CutLines name the one with the lowest id.
 ///
 /// Nothing is cut that is loose: besides what lies in a hole or an outline, parts whose neighbours' kerfs
 /// close round them come before the last of these (docs/design/cut-order.md).

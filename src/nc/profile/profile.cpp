@@ -8,6 +8,9 @@
 #include <optional>
 #include <string>
 
+#include "common_cuts.hpp"
+#include "common_stretch.hpp"
+#include "lekalo/base/joined_text.hpp"
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "profile_engraving.hpp"
@@ -96,6 +99,7 @@ Result<void> check_options(const ProfileOptions& o) {
     return failure(ErrorCode::usage, "a router does not pierce: leave the pierce time out");
   LEKALO_CHECK(check_holes(o));
   LEKALO_CHECK(check_pierce_and_order(o));
+  LEKALO_CHECK(check_common_line(o));
   return check_joints(o);
 }
 
@@ -105,7 +109,7 @@ constexpr double kDiameterRounding = 1e-3;  // mm
 
 /// The rule of options.holes by which a contour is cut; none for outlines and larger holes.
 std::optional<std::size_t> hole_rule(const ProfilePart& part, const Cut& cut, const ProfileOptions& options) {
-  if (cut.outline || options.holes.empty()) return std::nullopt;
+  if (!cut.is_hole() || options.holes.empty()) return std::nullopt;
   const geom::Contour& contour = part.region.holes[cut.hole];
   double length = 0;
   for (const geom::Edge& edge : contour) length += length_of(edge);
@@ -136,7 +140,7 @@ CutTerms terms_of(const ProfilePart& part, const Cut& cut, const ProfileOptions&
 tl::unexpected<Error> entered(const std::vector<ProfilePart>& parts, const Cut& cut,
                               const KerfProof::Finding& finding, const ProfileOptions& options) {
   const ProfilePart &own = parts[cut.part], &other = parts[finding.part];
-  const std::string contour = cut.outline ? "the outline" : fmt::format("hole {}", cut.hole + 1);
+  const std::string contour = cut.is_hole() ? fmt::format("hole {}", cut.hole + 1) : "the outline";
   if (cut.part == finding.part)
     return failure(
         ErrorCode::bad_input,
@@ -163,6 +167,19 @@ Result<double> proved_depth(const std::vector<ProfilePart>& parts, const Cut& cu
   return finding.deepest_mm;
 }
 
+/// The words for the operator before a cut.
+std::string remark_on(const std::vector<ProfilePart>& parts, const Cut& cut) {
+  if (cut.is_hole()) return fmt::format("placement {} hole {}", parts[cut.part].id, cut.hole + 1);
+  if (cut.members.empty()) return fmt::format("placement {} outline", parts[cut.part].id);
+  std::vector<std::uint64_t> ids;
+  for (const std::size_t member : cut.members) ids.push_back(parts[member].id);
+  return fmt::format("common {} of placements {}",
+                     cut.is_line   ? "line"
+                     : cut.outline ? "outline"
+                                   : "pocket",
+                     joined_text(ids, " "));
+}
+
 /// The distance from the kerf of that corner of the contour which is farthest from it.
 double left_over(const geom::Contour& contour, const std::vector<WrittenEdge>& path,
                  const Resolution& resolution, double half_kerf) {
@@ -183,6 +200,14 @@ double left_over(const geom::Contour& contour, const std::vector<WrittenEdge>& p
     most = std::max(most, least - half_kerf);
   }
   return most;
+}
+
+/// Keeps the largest of left_over() of all contours.
+void tell_left_over(const ProfilePart& part, const Cut& cut, const ProfileOptions& options,
+                    ProfileProgram& program) {
+  const double left = left_over(cut.outline ? part.region.outer : part.region.holes[cut.hole], cut.path,
+                                resolution_of(options), 0.5 * options.kerf_mm);
+  if (left > program.left_over_mm) program.left_over_mm = left, program.left_over_of = part.id;
 }
 
 tl::unexpected<Error> too_long() {
@@ -218,6 +243,13 @@ std::vector<WrittenEdge> begun_at(std::vector<WrittenEdge> path, std::size_t edg
   return path;
 }
 
+/// The path of a line, from its other end.
+std::vector<WrittenEdge> turned_path(std::vector<WrittenEdge> path) {
+  std::reverse(path.begin(), path.end());
+  for (WrittenEdge& edge : path) std::swap(edge.from, edge.to);
+  return path;
+}
+
 /// A path that is cut from one pierce on.
 struct Stretch {
   const Start* start = nullptr;
@@ -228,6 +260,7 @@ struct Stretch {
 std::vector<Stretch> stretches_of(const Cut& cut, const Starts& its, std::size_t first,
                                   const ProfileOptions& options) {
   const Start& start = its.choices[first];
+  if (cut.is_line) return {{&start, start.from_end ? turned_path(cut.path) : cut.path}};
   const std::vector<WrittenEdge> path = begun_at(cut.path, start.edge);
   if (options.process == Process::router) return {{&start, path}};
   std::vector<Stretch> stretches;
@@ -253,27 +286,33 @@ std::size_t joints_of(const std::vector<WrittenEdge>& path) {
 
 }  // namespace
 
-Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, const std::string& name,
+Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& placed, const std::string& name,
                                        const ProfileOptions& options) {
   LEKALO_CHECK(check_options(options));
-  if (parts.empty()) return failure(ErrorCode::bad_input, "there is no part to cut");
+  if (placed.empty()) return failure(ErrorCode::bad_input, "there is no part to cut");
   const Resolution resolution = resolution_of(options);
-  LEKALO_TRY(std::vector<Cut> cuts, compensated_cuts(parts, options));  // steps 3 and 4
+  LEKALO_TRY(std::vector<Cut> cuts, compensated_cuts(placed, options));  // steps 3 and 4
+  const KerfProof proof(placed, options);
+  ProfileProgram program;
+  std::vector<ProfilePart> parts = placed;  // clusters are added to them
+  for (const Cut& cut : cuts) {
+    LEKALO_CHECK(proved_depth(parts, cut, cut.path, proof, options));
+    tell_left_over(parts[cut.part], cut, options, program);
+  }
+  CommonCuts common;
+  if (options.common_line) {
+    LEKALO_TRY(common, take_common_cuts(parts, cuts, proof, options));
+    program.shared_mm = common.shared_mm, program.common_lines = common.lines;
+    program.common_off_mm = common.off_mm;
+  } else {
+    program.shared_mm = common_stretches(cuts, options).length_mm;
+  }
 
   // Step 5. The path is proved as it will be written, after starts_of has begun new edges in it.
-  const KerfProof proof(parts, options);
   const KerfsAround kerfs(cuts, options);
-  ProfileProgram program;
   program.cuts_by_hole.resize(options.holes.size());
   std::vector<CutTerms> terms;
-  for (const Cut& cut : cuts) {
-    const ProfilePart& part = parts[cut.part];
-    terms.push_back(terms_of(part, cut, options));
-    LEKALO_CHECK(proved_depth(parts, cut, cut.path, proof, options));
-    const double left = left_over(cut.outline ? part.region.outer : part.region.holes[cut.hole], cut.path,
-                                  resolution, 0.5 * options.kerf_mm);
-    if (left > program.left_over_mm) program.left_over_mm = left, program.left_over_of = part.id;
-  }
+  for (const Cut& cut : cuts) terms.push_back(terms_of(parts[cut.part], cut, options));
   OrderRules rules{enclosing_cuts(parts, cuts, resolution), {}, options.heat_spread_mm};
   const std::vector<JointGround> no_grounds;
   LEKALO_TRY(JointedCuts jointed,
@@ -281,27 +320,32 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, co
   program.jointed_parts = jointed.parts;
   program.unheld = jointed.unheld;
   std::vector<Starts> starts;
-  for (std::size_t c = 0; c < cuts.size(); ++c)
-    starts.push_back(jointed.starts[c].empty() ? starts_of(cuts[c].path, c, terms[c].lead_in_mm,
-                                                           {proof, kerfs, jointed.grounds}, options)
-                                               : Starts{std::move(jointed.starts[c])});
+  for (std::size_t c = 0; c < cuts.size(); ++c) {
+    const Surroundings around{proof, kerfs, jointed.grounds};
+    if (cuts[c].is_line)
+      starts.push_back(line_starts_of(cuts[c], c, around, options));
+    else if (jointed.starts[c].empty())
+      starts.push_back(starts_of(cuts[c].path, c, terms[c].lead_in_mm, around, options));
+    else
+      starts.push_back({std::move(jointed.starts[c])});
+  }
   LEKALO_CHECK(check_pierces(parts, cuts, starts, options));
   LEKALO_TRY(rules.rings, loose_rings(parts, cuts, rules.enclosing, options));
   std::vector<OrderedCut> order = ordered_cuts(starts, rules, kerfs, resolution);  // step 6
+  put_common_cuts_in_order(common, cuts, starts, resolution, order);
   LEKALO_CHECK(check_crossings(parts, cuts, order, settle_starts(starts, options, order), options, program));
   tell_heat(starts, order, kerfs, options, program);
 
   // Steps 7 and 8.
   ProfileWriter writer(name, options);
   Point here;
-  LEKALO_CHECK(engrave(parts, options, resolution, writer, program, here));
+  LEKALO_CHECK(engrave(placed, options, resolution, writer, program, here));
   for (const OrderedCut& ordered : order) {
     const Cut& cut = cuts[ordered.cut];
     const Starts& its = starts[ordered.cut];
     const CutTerms& on_terms = terms[ordered.cut];
     const std::size_t first_line = writer.line_count() + 1;
-    writer.comment(fmt::format("placement {} {}", parts[cut.part].id,
-                               cut.outline ? "outline" : fmt::format("hole {}", cut.hole + 1)));
+    writer.comment(remark_on(parts, cut));
     for (const Stretch& stretch : stretches_of(cut, its, ordered.start, options)) {
       const Start& start = *stretch.start;
       std::vector<WrittenEdge> all = start.lead;
@@ -313,7 +357,7 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& parts, co
       here = resolution.mm(stretch.path.back().to);
       program.cut_mm += length_of(all, resolution);
       if (on_terms.lead_in_mm > 0 && start.lead.empty())
-        ++program.bare_starts;
+        ++(start.in_kerf_of.empty() ? program.bare_starts : program.starts_in_kerfs);
       else if (start.lead_mm < on_terms.lead_in_mm)
         ++program.shortened_leads;
     }

@@ -1,6 +1,7 @@
 #include "profile_around.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "lekalo/geom/edge_distance.hpp"
@@ -55,6 +56,32 @@ bool KerfsAround::keeps_apart(std::size_t own, const geom::Edge& line, double by
   return tree_->visit_meeting_while(geom::grown(geom::curve_box(curve), by), [&](std::uint32_t i) {
     return cut_of_[i] == own || distance_at_least(curve, edges_[i]) >= by;
   });
+}
+
+bool KerfsAround::goes_along(std::size_t own, const WrittenEdge& line) const {
+  const geom::Curve curve = geom::make_curve(edge_mm(line, resolution_));
+  const double half = 0.5 * kerf_;
+  return !tree_->visit_meeting_while(geom::grown(geom::curve_box(curve), half), [&](std::uint32_t i) {
+    const geom::Edge& edge = edges_[i].edge;
+    if (cut_of_[i] == own || edge.kind != geom::EdgeKind::line) return true;
+    if (!(std::abs(geom::cross(curve.unit, edges_[i].unit)) < 0.2)) return true;
+    const double first = geom::dot(edge.from - curve.edge.from, curve.unit),
+                 last = geom::dot(edge.to - curve.edge.from, curve.unit);
+    const double both = std::min(std::max(first, last), curve.length) - std::max(std::min(first, last), 0.0);
+    return !(both > half && geom::closest_points(curve, edges_[i]).distance < half);
+  });
+}
+
+std::vector<std::size_t> KerfsAround::holding(std::size_t own, WrittenPoint p, double within) const {
+  const geom::Point at = resolution_.mm(p);
+  std::vector<std::size_t> cuts;
+  tree_->visit_meeting(geom::grown({at, at}, within), [&](std::uint32_t i) {
+    if (cut_of_[i] != own && geom::norm(geom::nearest_on(edges_[i], at) - at) <= within)
+      cuts.push_back(cut_of_[i]);
+  });
+  std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  return cuts;
 }
 
 double KerfsAround::distance(std::size_t cut, geom::Point p) const {

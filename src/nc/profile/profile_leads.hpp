@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "profile_around.hpp"
@@ -10,13 +12,26 @@ namespace lekalo::nc {
 
 /// A place where a cut may begin.
 struct Start {
-  std::vector<WrittenEdge> lead;  ///< one edge, or none: pierced on the contour
+  std::vector<WrittenEdge> lead;  ///< one edge, of a line up to two; or none: pierced on the contour
   std::size_t edge = 0;           ///< the path begins at the first point of this edge
   WrittenPoint pierce, on_contour;
   /// The cuts whose kerf lead or pierce meet, ascending: they should not be there yet.
   std::vector<std::size_t> met;
   double lead_mm = 0;  ///< the length or radius of the lead
   bool behind_joint = false;
+  bool from_end = false;  ///< of a line: it is cut from its end to its beginning
+  /// Of a line without a lead: the cuts in whose kerf it begins. Where one of them is there nothing is
+  /// pierced.
+  std::vector<std::size_t> in_kerf_of{};
+
+  /// How unwelcome the start is when the cuts are there for which `is_there` says so.
+  template <class IsThere>
+  [[nodiscard]] std::size_t unwelcome(const IsThere& is_there) const {
+    constexpr std::size_t kPiercesAPart = 1000;
+    if (!in_kerf_of.empty())
+      return std::any_of(in_kerf_of.begin(), in_kerf_of.end(), is_there) ? 1 : kPiercesAPart;
+    return static_cast<std::size_t>(std::count_if(met.begin(), met.end(), is_there));
+  }
 };
 
 /// The starts of one cut.
@@ -59,5 +74,10 @@ struct Surroundings {
 inline constexpr std::size_t kMostStarts = 12;
 [[nodiscard]] Starts starts_of(std::vector<WrittenEdge>& path, std::size_t own, double lead_in_mm,
                                const Surroundings& around, const ProfileOptions& options);
+
+/// The starts of a common line: at either of its ends that may come first, with leads in the scrap beyond it,
+/// straight on or aslant, or in the kerf into which it runs.
+[[nodiscard]] Starts line_starts_of(const Cut& line, std::size_t own, const Surroundings& around,
+                                    const ProfileOptions& options);
 
 }  // namespace lekalo::nc

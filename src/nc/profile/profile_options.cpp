@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "lekalo/base/joined_text.hpp"
+
 namespace lekalo::nc {
 namespace {
 
@@ -60,7 +62,29 @@ Result<void> check_pierce_and_order(const ProfileOptions& o) {
   return {};
 }
 
+Result<void> check_common_line(const ProfileOptions& o) {
+  if (!o.common_line) return {};
+  if (o.joints.wanted())
+    return failure(ErrorCode::usage,
+                   "common lines and joints do not go together: a line between two parts cannot hold either "
+                   "in the sheet; leave one of them out");
+  if (o.heat_spread_mm > 0)
+    return failure(ErrorCode::usage,
+                   "common lines and a spread of heat do not go together: the lines of a cluster are cut one "
+                   "after the other; leave one of them out");
+  return {};
+}
+
 std::string name_of_cut(const std::vector<ProfilePart>& parts, const Cut& cut) {
+  if (!cut.members.empty()) {
+    std::vector<std::uint64_t> ids;
+    for (const std::size_t member : cut.members) ids.push_back(parts[member].id);
+    return fmt::format("{} of placements {}",
+                       cut.is_line   ? "a common line"
+                       : cut.outline ? "the common outline"
+                                     : "a pocket",
+                       joined_text(ids, ", "));
+  }
   const std::uint64_t id = parts[cut.part].id;
   return cut.outline ? fmt::format("the outline of placement {}", id)
                      : fmt::format("hole {} of placement {}", cut.hole + 1, id);

@@ -16,6 +16,9 @@ namespace lekalo::nc {
 /// Fails with ErrorCode::usage for a pierce, a spread of heat or joints that the other options do not allow.
 [[nodiscard]] Result<void> check_pierce_and_order(const ProfileOptions& options);
 
+/// Fails with ErrorCode::usage for common lines beside what does not go with them.
+[[nodiscard]] Result<void> check_common_line(const ProfileOptions& options);
+
 /// Fails with ErrorCode::bad_input where a cut has no start, naming all such cuts.
 [[nodiscard]] Result<void> check_pierces(const std::vector<ProfilePart>& parts, const std::vector<Cut>& cuts,
                                          const std::vector<Starts>& starts, const ProfileOptions& options);

@@ -168,8 +168,7 @@ class Tour {
 
   /// How many kerfs the lead of a start meets that are there before it.
   [[nodiscard]] std::size_t crossed(std::size_t cut, const Start& start) const {
-    return static_cast<std::size_t>(std::count_if(
-        start.met.begin(), start.met.end(), [&](std::size_t other) { return place_[other] < place_[cut]; }));
+    return start.unwelcome([&](std::size_t other) { return place_[other] < place_[cut]; });
   }
 
   void choose_starts() {
@@ -291,8 +290,11 @@ class SpreadTour {
 std::vector<std::size_t> enclosing_cuts(const std::vector<ProfilePart>& parts, const std::vector<Cut>& cuts,
                                         const Resolution& resolution) {
   std::vector<std::size_t> enclosing(cuts.size()), outline_of(parts.size());
-  for (std::size_t c = 0; c < cuts.size(); ++c)
-    if (cuts[c].outline) outline_of[cuts[c].part] = c;
+  for (std::size_t c = 0; c < cuts.size(); ++c) {
+    if (!cuts[c].outline) continue;
+    outline_of[cuts[c].part] = c;
+    for (const std::size_t member : cuts[c].members) outline_of[member] = c;
+  }
   struct Hole {
     std::size_t cut;
     double area;
@@ -300,12 +302,16 @@ std::vector<std::size_t> enclosing_cuts(const std::vector<ProfilePart>& parts, c
   };
   std::vector<Hole> holes;
   std::vector<geom::Box> boxes;
+  const auto add_hole = [&](std::size_t cut, const geom::Contour& hole) {
+    const geom::Region inside{geom::reversed(hole), {}};
+    holes.push_back({cut, geom::area(inside), geom::RegionIndex({inside})});
+    boxes.push_back(holes.back().inside.bounds());
+  };
   for (std::size_t c = 0; c < cuts.size(); ++c) {
     enclosing[c] = cuts[c].outline ? c : outline_of[cuts[c].part];
-    if (cuts[c].outline) continue;
-    const geom::Region inside{geom::reversed(parts[cuts[c].part].region.holes[cuts[c].hole]), {}};
-    holes.push_back({c, geom::area(inside), geom::RegionIndex({inside})});
-    boxes.push_back(holes.back().inside.bounds());
+    if (cuts[c].is_hole()) add_hole(c, parts[cuts[c].part].region.holes[cuts[c].hole]);
+    if (cuts[c].outline && !cuts[c].members.empty())
+      for (const geom::Contour& pocket : parts[cuts[c].part].region.holes) add_hole(c, pocket);
   }
   const geom::BoxTree tree(boxes);
   for (std::size_t c = 0; c < cuts.size(); ++c) {
@@ -319,6 +325,46 @@ std::vector<std::size_t> enclosing_cuts(const std::vector<ProfilePart>& parts, c
     });
   }
   return enclosing;
+}
+
+void put_common_cuts_in_order(const CommonCuts& common, const std::vector<Cut>& cuts,
+                              const std::vector<Starts>& starts, const Resolution& resolution,
+                              std::vector<OrderedCut>& order) {
+  if (common.clusters.empty()) return;
+  std::vector<bool> is_inner(cuts.size(), false);
+  std::vector<const CommonCluster*> cluster_of(cuts.size(), nullptr);
+  for (const CommonCluster& cluster : common.clusters) {
+    cluster_of[cluster.outline] = &cluster;
+    for (const std::size_t cut : cluster.inner) is_inner[cut] = true;
+  }
+  std::vector<OrderedCut> anew;
+  for (const OrderedCut& ordered : order) {
+    if (is_inner[ordered.cut]) continue;
+    if (const CommonCluster* cluster = cluster_of[ordered.cut])
+      for (const std::size_t cut : cluster->inner) anew.push_back({cut, 0});
+    anew.push_back(ordered);
+  }
+  std::vector<bool> is_there(cuts.size(), false);
+  Point here;
+  for (OrderedCut& ordered : anew) {
+    const Cut& cut = cuts[ordered.cut];
+    const std::vector<Start>& choices = starts[ordered.cut].choices;
+    if (is_inner[ordered.cut]) {
+      std::pair least{std::numeric_limits<std::size_t>::max(), std::numeric_limits<double>::infinity()};
+      for (std::size_t k = 0; k < choices.size(); ++k) {
+        const std::pair merit{choices[k].unwelcome([&](std::size_t other) { return bool(is_there[other]); }),
+                              travel(here, resolution.mm(choices[k].pierce))};
+        if (merit < least) least = merit, ordered.start = k;
+      }
+    }
+    is_there[ordered.cut] = true;
+    const Start& start = choices[ordered.start];
+    const WrittenPoint end = !cut.is_line     ? start.on_contour
+                             : start.from_end ? cut.path.front().from
+                                              : cut.path.back().to;
+    here = resolution.mm(end);
+  }
+  order = std::move(anew);
 }
 
 std::vector<OrderedCut> ordered_cuts(const std::vector<Starts>& starts, const OrderRules& rules,

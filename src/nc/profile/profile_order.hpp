@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "common_cuts.hpp"
 #include "profile_leads.hpp"
 #include "profile_loose.hpp"
 #include "profile_path.hpp"
@@ -16,7 +17,8 @@ struct OrderedCut {
 };
 
 /// Each cut's enclosing cut, which must come after it: for a hole its part's outline, for an outline the
-/// innermost hole in which it lies. A cut that nothing encloses has its own index.
+/// innermost hole or pocket in which it lies; the outline of a cluster for the cuts within it and for what
+/// lies in its pockets. A cut that nothing encloses has its own index.
 [[nodiscard]] std::vector<std::size_t> enclosing_cuts(const std::vector<ProfilePart>& parts,
                                                       const std::vector<Cut>& cuts,
                                                       const Resolution& resolution);
@@ -41,6 +43,12 @@ struct OrderRules {
 /// \param kerfs  of the same cuts
 [[nodiscard]] std::vector<OrderedCut> ordered_cuts(const std::vector<Starts>& starts, const OrderRules& rules,
                                                    const KerfsAround& kerfs, const Resolution& resolution);
+
+/// Puts lines and pockets of clusters before the outlines of these, in the order that they have to keep, and
+/// chooses their starts anew. \pre an order without a heat spread: what a cluster waits for stands before it
+void put_common_cuts_in_order(const CommonCuts& common, const std::vector<Cut>& cuts,
+                              const std::vector<Starts>& starts, const Resolution& resolution,
+                              std::vector<OrderedCut>& order);
 
 /// Gives cuts whose lead or pierce would meet the lead of a cut before them another start, one that meets no
 /// kerf of an earlier cut, where they have one; and returns, by place in the order, the earlier cut that a

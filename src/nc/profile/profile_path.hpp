@@ -35,12 +35,18 @@ struct WrittenEdge {
 [[nodiscard]] std::vector<WrittenEdge> written_edges(const std::vector<geom::Edge>& edges,
                                                      const Resolution& resolution);
 
-/// A closed contour to cut, in the direction of the cut.
+/// A contour to cut, in the direction of the cut; or a line or rim of a cluster (common_cuts.hpp).
 struct Cut {
   std::size_t part = 0;  ///< index into the parts
-  bool outline = true;   ///< or a hole
+  bool outline = true;   ///< of a part or a cluster; or a hole, or what is cut within a cluster
   std::size_t hole = 0;
-  std::vector<WrittenEdge> path;
+  std::vector<WrittenEdge> path;  ///< closed but for lines
+  /// The parts along a cut of a cluster, ascending; empty for a contour of one part.
+  std::vector<std::size_t> members{};
+  bool is_line = false;
+  bool either_way = false;  ///< a line that may be cut from its other end, too
+
+  [[nodiscard]] bool is_hole() const noexcept { return !outline && members.empty(); }
 };
 
 /// Steps 3 and 4: the cuts of all parts in their order, holes of a part before its outline. Fails like

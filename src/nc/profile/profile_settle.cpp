@@ -26,8 +26,13 @@ class LeadsBefore {
 
   /// The earlier cut whose kerf the lead or the pierce meets.
   [[nodiscard]] std::optional<std::size_t> met_by(std::size_t cut, const Start& start) const {
-    const auto there = std::find_if(start.met.begin(), start.met.end(),
-                                    [&](std::size_t other) { return bool(is_there_[other]); });
+    const auto is_there = [&](std::size_t other) { return bool(is_there_[other]); };
+    if (!start.in_kerf_of.empty()) {
+      const bool is_cut = std::any_of(start.in_kerf_of.begin(), start.in_kerf_of.end(), is_there);
+      if (is_cut || options_.pierce_diameter_mm == 0) return std::nullopt;
+      return start.in_kerf_of.front();
+    }
+    const auto there = std::find_if(start.met.begin(), start.met.end(), is_there);
     if (there != start.met.end()) return *there;
     const geom::Point pierce = resolution_.mm(start.pierce);
     const double kerf = options_.kerf_mm;

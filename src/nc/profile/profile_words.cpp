@@ -58,6 +58,11 @@ void ProfileWriter::cut_by_router(const std::vector<WrittenEdge>& lead, const st
   const double tabs = options_.depth_mm - options_.joints.tab_height_mm;
   for (int k = 1; k <= passes; ++k) {
     const double z = k == passes ? options_.depth_mm : k * pass;
+    // A line ends elsewhere than it begins.
+    if (k > 1 && path.back().to != path.front().from) {
+      out_.line("G0 Z" + length(options_.safe_height_mm));
+      rapid_to(path.front().from);
+    }
     out_.line("G1 Z" + length(-z) + out_.feed(options_.plunge_mm_per_min, kInchFeedDecimals));
     // Later passes go down where the contour closes, in the kerf that is already there.
     if (k == 1) follow(lead, feed);
