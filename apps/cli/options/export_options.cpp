@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "layout_words.hpp"
+#include "machine_words.hpp"
 #include "option_forms.hpp"
 #include "option_words.hpp"
 
@@ -23,24 +24,9 @@ struct ExportWords {
   LayoutWords layout;
   std::string format, output, instance_name;
   std::string processes, material, thickness;
-  std::vector<io::ExportWord> machine;  ///< words that io::read_export_words understands
-  std::vector<io::ExportWord> labels;   ///< words that jobs::read_label_words understands
+  MachineWords machine;  ///< words that io::read_export_words understands
+  MachineWords labels;   ///< words that jobs::read_label_words understands
 };
-
-void add_words(Form& form, const std::string& heading, const std::vector<io::ExportWordHelp>& known,
-               std::vector<io::ExportWord>& words) {
-  for (const io::ExportWordHelp& help : known) words.emplace_back(help.name, "");
-  const OptionAdder add(form, heading);
-  for (std::size_t i = 0; i < words.size(); ++i)
-    add("--" + words[i].first, words[i].second, known[i].type, known[i].help);
-}
-
-std::vector<io::ExportWord> given_of(const std::vector<io::ExportWord>& words) {
-  std::vector<io::ExportWord> given;
-  for (const io::ExportWord& word : words)
-    if (!word.second.empty()) given.push_back(word);
-  return given;
-}
 
 /// Fails for words that are given though another form than theirs is asked for.
 Result<void> no_words(const std::vector<io::ExportWord>& given, const std::string& format) {
@@ -82,7 +68,7 @@ Result<Command> to_export(const ExportWords& w) {
   WordReader reader;
   if (!w.format.empty()) reader.choice("--format", w.format, kExportFormats, form.form);
   if (!reader.complaint().empty()) return failure(ErrorCode::usage, reader.complaint());
-  const std::vector<io::ExportWord> machine = given_of(w.machine), labels = given_of(w.labels);
+  const std::vector<io::ExportWord> machine = w.machine.given(), labels = w.labels.given();
   LEKALO_TRY(form.process, to_process(w, machine));
   if (form.form == jobs::LayoutForm::machine) {
     // The file of processes, which is not read yet, may have what is missing on the line.
@@ -113,13 +99,13 @@ Typed add_export_form(Form& form) {
   add("--instance-name", words->instance_name, "NAME",
       "What placements give as the file of their items [as the input says, or itself]");
   const std::string machines = "For machines and other programs";
-  add_words(form, machines, io::export_words(), words->machine);
+  words->machine.add_to(form, machines, io::export_words());
   const OptionAdder add_process(form, machines);
   add_process("--processes", words->processes, "FILE",
               "gcode, hpgl: take from this file what is not given here");
   add_process("--material", words->material, "NAME", "gcode, hpgl: the material of the process to take");
   add_process("--thickness", words->thickness, "MM", "gcode, hpgl: the thickness of the process to take");
-  add_words(form, "For labels", jobs::label_words(), words->labels);
+  words->labels.add_to(form, "For labels", jobs::label_words());
   form.footer =
       "Exit codes: 0 done, whatever rules are broken, 2 wrong command line, 3 a file cannot be read,\n"
       "5 disk or memory.";

@@ -3,6 +3,7 @@
 
 #include "layout_words.hpp"
 #include "lekalo/io/text/words.hpp"
+#include "machine_words.hpp"
 #include "option_forms.hpp"
 #include "option_words.hpp"
 
@@ -14,7 +15,7 @@ struct QuoteWords {
   LayoutWords reading;
   std::vector<std::string> layouts, outputs;
   std::string rates, processes, material, thickness, title, programs;
-  std::vector<io::ExportWord> machine;  ///< words that io::read_export_words understands
+  MachineWords machine;  ///< words that io::read_export_words understands
   bool json = false;
 };
 
@@ -50,8 +51,7 @@ Result<Command> to_quote(const QuoteWords& w) {
   reader.number("--thickness", w.thickness, 0.001, 1000.0, "a thickness from 0.001 to 1000 mm",
                 o.job.thickness_mm);
   if (!reader.complaint().empty()) return failure(ErrorCode::usage, reader.complaint());
-  for (const io::ExportWord& word : w.machine)
-    if (!word.second.empty()) o.job.words.push_back(word);
+  o.job.words = w.machine.given();
   // The file of processes, which is not read yet, may have what is missing on the line.
   if (!o.job.processes) LEKALO_CHECK(io::read_export_words(io::ExportForm::gcode, o.job.words, "--"));
   o.job.prefix = "--", o.job.title = w.title;
@@ -79,10 +79,7 @@ Typed add_quote_form(Form& form) {
   add_machine("--processes", words->processes, "FILE", "Take from this file what is not given here");
   add_machine("--material", words->material, "NAME", "Of stock that says none, and the process to take");
   add_machine("--thickness", words->thickness, "MM", "Likewise");
-  const std::vector<io::ExportWordHelp> known = machine_words();
-  for (const io::ExportWordHelp& help : known) words->machine.emplace_back(help.name, "");
-  for (std::size_t i = 0; i < known.size(); ++i)
-    add_machine("--" + known[i].name, words->machine[i].second, known[i].type, known[i].help);
+  words->machine.add_to(form, machines, machine_words());
   OptionAdder{form, "Reading"}("--instance", words->reading.instance, "FILE",
                                "Of placements: the file of the items, when not where they say");
   add_drawings_reading(form, words->reading);

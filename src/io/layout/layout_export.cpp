@@ -185,6 +185,23 @@ std::string pierces_and_joints(const nc::ProfileProgram& p, const nc::ProfileOpt
   return said;
 }
 
+/// Says what became of edges that two parts have in common, as the end of a sentence.
+std::string edges_in_common(const nc::ProfileProgram& p, const nc::ProfileOptions& profile) {
+  if (p.shared_mm == 0) return "";
+  if (!profile.common_line)
+    return fmt::format("; {:.0f} mm of edges that two parts have in common are cut twice (--common-line cuts "
+                       "them once)",
+                       p.shared_mm);
+  std::string said = fmt::format(
+      "; {:.0f} mm of edges that two parts have in common are cut once, in {}, and both parts come out at size "
+      "within {:.5f} mm",
+      p.shared_mm, p.common_lines == 1 ? "1 line" : fmt::format("{} lines", p.common_lines),
+      p.common_off_mm + 0.5e-5);
+  if (p.starts_in_kerfs > 0)
+    said += fmt::format("; {} of them begin in a kerf that is there, for want of room", p.starts_in_kerfs);
+  return said;
+}
+
 /// Fails for a placement that is to have joints and is not there.
 Result<void> check_joints_of(const layout::Document& document, const nc::JointOptions& joints) {
   for (const auto& [id, count] : joints.of)
@@ -213,6 +230,7 @@ Result<Exported> programmed(const std::vector<SheetShapes>& sheets, const std::s
       said += fmt::format("; {} leads are shorter for want of room", p.shortened_leads);
     if (p.bare_starts > 0)
       said += fmt::format("; {} cuts have no room for a lead and begin on the contour", p.bare_starts);
+    said += edges_in_common(p, request.profile);
     said += pierces_and_joints(p, request.profile);
     if (p.left_over_mm > request.profile.tolerance_mm)
       said += fmt::format(

@@ -38,6 +38,7 @@ Result<void> ExportWordTaker::take(const ExportWord& word) {
     return number(word, 1e-4, 10, request_.chord_tolerance_mm);
   if (is_knife_word(name)) return knife_number(word);
   if (name == "slats") return choice(word, {{"x", true}, {"y", false}}, p.joints.slats.along_x);
+  if (name == "common-line") return choice(word, {{"yes", true}, {"no", false}}, p.common_line);
   if (name == "joints") return joint_rule(word);
   if (name == "joints-of") return joints_of(word);
   return profile_number(word);
@@ -68,6 +69,10 @@ std::vector<std::string> ExportWordTaker::complete() {
   if (router && p.pierce_s > 0)
     complaints.push_back(fmt::format("{} has no meaning for routers: leave it out", shown_("pierce")));
   complain_of_joints(complaints);
+  for (const char* name : {"joints", "joints-of", "heat-spread"})
+    if (p.common_line && was_given(name))
+      complaints.push_back(fmt::format("{} and {} do not go together: leave one of them out",
+                                       shown_("common-line"), shown_(name)));
   if (!was_given("tolerance")) p.tolerance_mm = std::min(p.tolerance_mm, 0.25 * p.kerf_mm);
   if (!(p.tolerance_mm <= 0.25 * p.kerf_mm))
     complaints.push_back(fmt::format("{} {:g}: has to be at most a quarter of the kerf of {:g} mm",
@@ -205,6 +210,7 @@ const std::vector<ExportWordHelp>& export_words() {
       {"engrave-depth", "MM", "gcode, router: depth of engraving below Z 0"},
       {"pierce-diameter", "MM", "gcode: what a pierce burns; kept clear of parts and of earlier cuts"},
       {"heat-spread", "MM", "gcode: begin so far from the cut before, where there is a choice [0]"},
+      {"common-line", "", "gcode: cut edges once that two parts have in common, at one kerf"},
       {"joints", "N|tipping", "gcode: joints on each part, or as many as keep it from tipping [none]"},
       {"joints-of", "ID=N,...", "gcode: these placements have so many joints instead"},
       {"joints-up-to", "MM", "gcode: joints on parts up to this size alone, corner to corner [all]"},

@@ -37,7 +37,8 @@ struct ExportRequest {
 
 /// A word of a command line or of a request, as its name and its value: ("kerf", "0.2").
 using ExportWord = std::pair<std::string, std::string>;
-/// A word that some form takes, with what stands for its value and what it means.
+/// A word that some form takes, with what stands for its value and what it means. A word without a type is a
+/// flag on a command line, where it stands for the value "yes".
 struct ExportWordHelp {
   std::string name, type, help;
 };
