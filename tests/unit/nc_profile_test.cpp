@@ -308,5 +308,128 @@ TEST(NcProfile, RulesOfHolesOutOfRangeAreRefusedByName) {
   EXPECT_NE(made.error().message.find("feed in mm/min of holes up to 3 mm is 0.05"), std::string::npos);
 }
 
+// ---- common lines -----------------------------------------------------------------------------------------
+
+ProfileOptions sharing() {
+  ProfileOptions options = plain();
+  options.common_line = true, options.lead_in_mm = 3;
+  return options;
+}
+/// The words behind the modes, without their feed.
+std::string cuts_of(const std::vector<ProfilePart>& parts, const ProfileOptions& options) {
+  const auto made = profile_program(parts, "x", options);
+  if (!made) return made.error().message;
+  const std::size_t begin = made->text.find("(COMMON");
+  return begin == std::string::npos ? made->text : made->text.substr(begin);
+}
+
+TEST(NcCommonLine, TwoSquaresAreALineAndAnOutline) {
+  EXPECT_EQ(cuts_of({square(1, 10, 10), square(2, 21, 10)}, sharing()),
+            "(COMMON LINE OF PLACEMENTS 1 2)\n"
+            "G0 X20.5000 Y6.5000\n"
+            "M3\n"
+            "G1 X20.5000 Y9.5000 F600.0\n"
+            "G1 X20.5000 Y20.0000\n"
+            "M5\n"
+            "(COMMON OUTLINE OF PLACEMENTS 1 2)\n"
+            "G0 X15.0000 Y6.5000\n"
+            "M3\n"
+            "G1 X15.0000 Y9.5000 F600.0\n"
+            "G1 X10.0000 Y9.5000\n"
+            "G2 X9.5000 Y10.0000 I0.0000 J0.5000\n"
+            "G1 X9.5000 Y15.0000\n"
+            "G1 X9.5000 Y20.0000\n"
+            "G2 X10.0000 Y20.5000 I0.5000 J0.0000\n"
+            "G1 X20.5000 Y20.5000\n"
+            "G1 X31.0000 Y20.5000\n"
+            "G2 X31.5000 Y20.0000 I0.0000 J-0.5000\n"
+            "G1 X31.5000 Y15.0000\n"
+            "G1 X31.5000 Y10.0000\n"
+            "G2 X31.0000 Y9.5000 I-0.5000 J0.0000\n"
+            "G1 X25.5000 Y9.5000\n"
+            "G1 X20.0000 Y9.5000\n"
+            "G1 X15.0000 Y9.5000\n"
+            "M5\n"
+            "M5\n"
+            "G0 X0.0000 Y0.0000\n"
+            "M2\n");
+}
+
+TEST(NcCommonLine, AGridIsItsLinesAndOneOutline) {
+  std::vector<ProfilePart> parts;
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 4; ++j) parts.push_back(square(parts.size() + 1, 10 + 11 * i, 10 + 11 * j));
+  const auto shared = profile_program(parts, "x", sharing());
+  ASSERT_TRUE(shared) << shared.error().message;
+  EXPECT_EQ(shared->common_lines, 7U);
+  EXPECT_EQ(shared->cuts, 8U);
+  EXPECT_NEAR(shared->shared_mm, 10 * (4 * 4 + 5 * 3), 1e-9);
+  EXPECT_LE(shared->common_off_mm, 1e-9);
+  ProfileOptions options = sharing();
+  options.common_line = false;
+  const auto apart = profile_program(parts, "x", options);
+  ASSERT_TRUE(apart);
+  EXPECT_EQ(apart->cuts, 20U);
+  EXPECT_NEAR(apart->shared_mm, shared->shared_mm, 1e-9) << "it is told without being asked";
+  EXPECT_LT(shared->cut_mm, 0.7 * apart->cut_mm);
+}
+
+TEST(NcCommonLine, OnlyWhatIsOneKerfApartIsShared) {
+  const auto lines = [](double apart, double along = 0) {
+    const auto made = profile_program({square(1, 10, 10), square(2, 20 + apart, 10 + along)}, "x", sharing());
+    return made ? static_cast<int>(made->common_lines) : -1;
+  };
+  EXPECT_EQ(lines(1), 1);
+  EXPECT_EQ(lines(1.009), 1) << "within the tolerance";
+  EXPECT_EQ(lines(0.991), 1);
+  EXPECT_EQ(lines(1.012), 0);
+  EXPECT_EQ(lines(0.988), -1) << "the kerf would enter a part";
+  EXPECT_EQ(lines(3), 0);
+  EXPECT_EQ(lines(1, 8.9), 1);
+  EXPECT_EQ(lines(1, 9.1), 0) << "a stretch shorter than a kerf is cut twice";
+}
+
+TEST(NcCommonLine, WhatIsHeldByNeighboursAloneIsCutBeforeTheyAre) {
+  // A ring of bars around a place that they leave empty, in which a square lies by itself.
+  std::vector<ProfilePart> parts{square(1, 10, 10),
+                                 {2, region_of_contours(box_contour(21, 10, 21, 10))},
+                                 square(3, 43, 10),
+                                 {4, region_of_contours(box_contour(10, 21, 10, 21))},
+                                 {5, region_of_contours(box_contour(43, 21, 10, 21))},
+                                 square(6, 10, 43),
+                                 {7, region_of_contours(box_contour(21, 43, 21, 10))},
+                                 square(8, 43, 43),
+                                 square(9, 27, 27)};
+  const std::string program = cuts_of(parts, sharing());
+  const std::size_t lone = profile_program(parts, "x", sharing())->text.find("(PLACEMENT 9 OUTLINE)"),
+                    pocket = profile_program(parts, "x", sharing())->text.find("(COMMON POCKET"),
+                    outline = profile_program(parts, "x", sharing())->text.find("(COMMON OUTLINE");
+  ASSERT_NE(pocket, std::string::npos) << program;
+  EXPECT_LT(lone, pocket);
+  EXPECT_LT(pocket, outline);
+}
+
+TEST(NcCommonLine, JointsAndHeatAreRefused) {
+  ProfileOptions options = sharing();
+  options.joints.rule = JointRule::count, options.joints.count = 1, options.joints.width_mm = 0.5;
+  EXPECT_NE(cuts_of({square(1, 10, 10)}, options).find("common lines and joints do not go together"),
+            std::string::npos);
+  options = sharing();
+  options.heat_spread_mm = 10;
+  EXPECT_NE(
+      cuts_of({square(1, 10, 10)}, options).find("common lines and a spread of heat do not go together"),
+      std::string::npos);
+}
+
+TEST(NcCommonLine, ARouterLiftsBetweenThePassesOfALine) {
+  ProfileOptions options = sharing();
+  options.process = Process::router, options.depth_mm = 4, options.pass_mm = 2;
+  options.speed = 9000, options.plunge_mm_per_min = 100;
+  const std::string program = cuts_of({square(1, 10, 10), square(2, 21, 10)}, options);
+  EXPECT_NE(program.find("G1 X20.5000 Y20.0000\nG0 Z5.0000\nG0 X20.5000 Y9.5000\nG1 Z-4.0000"),
+            std::string::npos)
+      << program;
+}
+
 }  // namespace
 }  // namespace lekalo::nc::nc_profile_test

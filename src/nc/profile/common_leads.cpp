@@ -75,6 +75,7 @@ class LineStarts {
           continue;
         Start start{all, 0, pierce, at, around_.kerfs.met(own_, {lead}, pierce), length};
         start.from_end = from_end;
+        start.bends = static_cast<std::size_t>(&stub - kStubs) + static_cast<std::size_t>(&turn - kLeadTurns);
         found.push_back(std::move(start));
       }
     return found;

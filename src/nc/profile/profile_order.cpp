@@ -350,10 +350,11 @@ void put_common_cuts_in_order(const CommonCuts& common, const std::vector<Cut>& 
     const Cut& cut = cuts[ordered.cut];
     const std::vector<Start>& choices = starts[ordered.cut].choices;
     if (is_inner[ordered.cut]) {
-      std::pair least{std::numeric_limits<std::size_t>::max(), std::numeric_limits<double>::infinity()};
+      std::tuple least{std::numeric_limits<std::size_t>::max(), std::size_t{0},
+                       std::numeric_limits<double>::infinity()};
       for (std::size_t k = 0; k < choices.size(); ++k) {
-        const std::pair merit{choices[k].unwelcome([&](std::size_t other) { return bool(is_there[other]); }),
-                              travel(here, resolution.mm(choices[k].pierce))};
+        const std::tuple merit{choices[k].unwelcome([&](std::size_t other) { return bool(is_there[other]); }),
+                               choices[k].bends, travel(here, resolution.mm(choices[k].pierce))};
         if (merit < least) least = merit, ordered.start = k;
       }
     }
