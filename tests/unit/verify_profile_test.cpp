@@ -320,6 +320,104 @@ TEST(VerifyProfile, NeighboursMayShareACut) {
   EXPECT_EQ(judged_on(layout.dump(), around(50, 10, 10, 10, 0.5) + left), "");
 }
 
+// ---- common lines -----------------------------------------------------------------------------------------
+
+/// Two plates of 10, one kerf of 1 apart, at (39, 10) and (50, 10).
+std::string two_plates() {
+  cases::Json layout = cases::empty_layout();
+  cases::add_part(layout, "plate", cases::outline_json(cases::rectangle(0, 0, 10, 10)));
+  cases::place(layout, "plate", 39, 10);
+  cases::place(layout, "plate", 50, 10);
+  return layout.dump();
+}
+std::string judged_common(const std::string& cut, double pierce = 0,
+                          const std::string& layout = two_plates()) {
+  ProfileWords words;
+  words.kerf_mm = 1, words.common_line = true, words.pierce_diameter_mm = pierce;
+  const Result<ClaimReport> report =
+      verify_profile({"p.nc", kModes + cut + "M2\n"}, {"l.json", layout}, words);
+  if (!report) return report.error().message;
+  std::string text;
+  for (const std::string& finding : report->findings) text += finding + "\n";
+  return text;
+}
+/// Cuts that begin at lines 4 and 9, where the line comes first.
+const std::string kLine = "G0 X49.5 Y6\nM3\nG1 Y9.5\nY20\nM5\n",
+                  kAround = "G0 X45 Y6\nM3\nG1 Y9.5\nX38.5\nY20.5\nX60.5\nY9.5\nX45\nM5\n";
+
+TEST(VerifyCommonLine, ALineAndAnOutlineCutTwoPlates) {
+  EXPECT_EQ(judged_common(kLine + kAround), "");
+  EXPECT_EQ(judged_common(kLine + kAround, 2), "");
+  EXPECT_NE(judged_on(two_plates(), kLine + kAround), "") << "it was not said";
+  EXPECT_EQ(judged_common("G0 X10 Y10\n"), "nothing is cut\n");
+}
+
+TEST(VerifyCommonLine, EveryPlaceOfEveryContourIsAtSize) {
+  EXPECT_NE(judged_common(kAround).find("the outline of placement 1 is not cut near"), std::string::npos);
+  EXPECT_NE(judged_common(kLine).find("is not cut near"), std::string::npos);
+  const auto moved = [](double x) {
+    return judged_common(fmt::format("G0 X{0} Y6\nM3\nG1 Y9.5\nY20\nM5\n", x) + kAround);
+  };
+  EXPECT_EQ(moved(49.509), "");
+  EXPECT_EQ(moved(49.491), "");
+  EXPECT_NE(moved(49.515).find("the kerf enters a part"), std::string::npos);
+  // Nearer plates and farther ones, with a line in the middle between them.
+  const auto apart = [](double gap) {
+    cases::Json layout = cases::empty_layout();
+    cases::add_part(layout, "plate", cases::outline_json(cases::rectangle(0, 0, 10, 10)));
+    cases::place(layout, "plate", 49 - gap / 2 - 9.5, 10);
+    cases::place(layout, "plate", 49.5 + gap / 2, 10);
+    const double left = 38.5 - gap / 2 + 0.5, right = 60.5 + gap / 2 - 0.5;
+    return judged_common(
+        kLine + fmt::format("G0 X45 Y6\nM3\nG1 Y9.5\nX{0}\nY20.5\nX{1}\nY9.5\nX45\nM5\n", left, right), 0,
+        layout.dump());
+  };
+  EXPECT_EQ(apart(1), "");
+  EXPECT_EQ(apart(1.02), "");
+  EXPECT_NE(apart(1.03).find("from the middle of the nearest cut"), std::string::npos) << apart(1.03);
+  EXPECT_NE(apart(0.97).find("the kerf enters a part"), std::string::npos);
+}
+
+TEST(VerifyCommonLine, NothingIsCutTwice) {
+  EXPECT_NE(judged_common(kLine + kLine + kAround).find("is cut twice"), std::string::npos);
+  EXPECT_EQ(judged_common("G0 X49.5 Y6\nM3\nG1 Y14\nM5\nG0 X49.5 Y13.2\nM3\nG1 Y20\nM5\n" + kAround), "")
+      << "a kerf may go over the end of another";
+  EXPECT_NE(judged_common("G0 X49.5 Y6\nM3\nG1 Y14\nM5\nG0 X49.5 Y12.2\nM3\nG1 Y20\nM5\n" + kAround)
+                .find("is cut twice"),
+            std::string::npos);
+  EXPECT_NE(judged_common("G0 X49.5 Y6\nM3\nG1 Y20\nY12\nM5\n" + kAround).find("is cut twice"),
+            std::string::npos)
+      << "along itself";
+}
+
+TEST(VerifyCommonLine, NothingIsCutOfWhatIsLoose) {
+  EXPECT_EQ(judged_common(kAround + kLine),
+            "line 14: the outline of placement 1 is cut when the kerfs before it have made it loose\n");
+  // All in one cut: around both first, then between them.
+  EXPECT_NE(judged_common("G0 X49.5 Y6\nM3\nG1 Y9.5\nX38.5\nY20.5\nX60.5\nY9.5\nX49.5\nY20\nM5\n")
+                .find("have made it loose"),
+            std::string::npos);
+  EXPECT_EQ(judged_common("G0 X49.5 Y6\nM3\nG1 Y20.5\nX38.5\nY9.5\nX49.5\nX60.5\nY20.5\nX49.5\nM5\n"), "")
+      << "one cut frees one after the other";
+}
+
+TEST(VerifyCommonLine, PiercesAreClearOrInAKerfThatIsThere) {
+  const std::string inside = "G0 X49.5 Y20.5\nM3\nG1 Y9.5\nM5\n", near = "G0 X49.5 Y20.2\nM3\nG1 Y9.5\nM5\n",
+                    rest = kAround;
+  EXPECT_NE(judged_common(near + rest, 2).find("the pierce of 2 mm enters a part"), std::string::npos);
+  EXPECT_NE(judged_common(inside + rest, 2).find("the pierce of 2 mm enters a part"), std::string::npos)
+      << "the kerf is not there yet";
+  const std::string
+      half = "G0 X45 Y6\nM3\nG1 Y9.5\nX38.5\nY20.5\nX49.5\nM5\n",
+      other = "G0 X55 Y24\nM3\nG1 Y20.5\nX60.5\nY9.5\nX45.6\nM5\nG0 X49.5 Y20.5\nM3\nG1 X54.4\nM5\n";
+  EXPECT_EQ(judged_common(half + inside + other, 2), "");
+  EXPECT_NE(judged_common(half + near + other, 2).find("meets a kerf that is there before it"),
+            std::string::npos);
+  EXPECT_NE(judged_common(kLine + kAround + "G0 X80 Y80\nM3\nG1 X85\nX90\nX95\nM5\n")
+                .find("line 18: the cut leaves the parts"),
+            std::string::npos);
+}
+
 /// A plate with a notch down from its upper side.
 std::string notched(double width) {
   return alone(cases::outline_json(

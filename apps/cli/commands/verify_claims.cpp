@@ -43,6 +43,7 @@ Result<void> check_words(const VerifyOptions& o, Kind kind) {
       {"--kerf", o.kerf.has_value(), {Kind::program}},
       {"--pierce-diameter", o.pierce_diameter.has_value(), {Kind::program}},
       {"--joint-width", o.joint_width.has_value(), {Kind::program}},
+      {"--common-line", o.common_line, {Kind::program}},
       {"--tolerance", o.tolerance.has_value(), {Kind::program, Kind::hpgl}},
       {"--blade-offset", o.blade_offset.has_value(), {Kind::hpgl}},
       {"--turn-above", o.turn_above.has_value(), {Kind::hpgl}},
@@ -102,9 +103,13 @@ Result<int> verify_other(const VerifyOptions& o, const std::string& bytes, Kind 
   LEKALO_TRY(beside.after, read_earlier(o.after));
   beside.export_words = o.export_words;
   if (o.kerf)
-    beside.profile = {o.export_words.sheet,          *o.kerf,
-                      o.tolerance.value_or(0.01),    o.machining.control,
-                      o.pierce_diameter.value_or(0), o.joint_width.value_or(0)};
+    beside.profile = {o.export_words.sheet,
+                      *o.kerf,
+                      o.tolerance.value_or(0.01),
+                      o.machining.control,
+                      o.pierce_diameter.value_or(0),
+                      o.joint_width.value_or(0),
+                      o.common_line};
   beside.export_words.chord_tolerance = o.tolerance.value_or(0.02);
   if (o.blade_offset || o.turn_above)
     beside.export_words.knife = {o.blade_offset.value_or(0), kDegree * o.turn_above.value_or(0),

@@ -62,6 +62,7 @@ struct VerifyOptions {
   std::vector<EarlierFile> after;
   verify::ExportWords export_words;
   std::optional<double> kerf, tolerance, pierce_diameter, joint_width;
+  bool common_line = false;
   /// The words of a plot for a knife: mm, degrees, mm.
   std::optional<double> blade_offset, turn_above, knife_tolerance;
   bool json = false;

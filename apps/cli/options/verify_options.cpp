@@ -54,7 +54,8 @@ Result<Command> to_verify(const VerifyWords& w) {
     read.number("--joint-width", w.joint_width, 0.05, 50.0, "a width from 0.05 to 50 mm",
                 o.joint_width.emplace());
   for (const auto& [option, given] : {std::pair{"--pierce-diameter", o.pierce_diameter.has_value()},
-                                      {"--joint-width", o.joint_width.has_value()}})
+                                      {"--joint-width", o.joint_width.has_value()},
+                                      {"--common-line", o.common_line}})
     read.require(
         !given || o.kerf.has_value(),
         fmt::format("{} is rechecked with --layout FILE and --kerf MM, the width of the cut", option));
@@ -67,6 +68,8 @@ Result<Command> to_verify(const VerifyWords& w) {
   if (!w.knife_tolerance.empty())
     read.number("--knife-tolerance", w.knife_tolerance, 0.02, 10.0, "a length from 0.02 to 10 mm",
                 o.knife_tolerance.emplace());
+  read.require(!o.common_line || !o.joint_width,
+               "--common-line and --joint-width do not go together: leave one out");
   read.require(!o.blade_offset || !o.turn_above,
                "--blade-offset is for a plot of a drag knife, --turn-above for one of a tangential knife: "
                "leave one out");
@@ -109,6 +112,8 @@ Typed add_verify_form(Form& form) {
       "As for export: of chords in a plot [0.02], or how far the kerf may enter a part [0.01]");
   add("--pierce-diameter", w.pierce_diameter, "MM",
       "What a pierce of a profile program burns: rechecked to be clear of parts and of earlier cuts");
+  add("--common-line", o.common_line,
+      "Of a profile program: edges that parts have in common are cut once, which is rechecked");
   add("--joint-width", w.joint_width, "MM", "The joints of a profile program: rechecked to stay, so wide");
   add("--blade-offset", w.blade_offset, "MM",
       "Of a plot for a drag knife: its tip is followed, so far behind the axis");

@@ -177,6 +177,7 @@ struct ProfileWords {
   words::Control control = words::Control::linuxcnc;
   double pierce_diameter_mm = 0;  ///< of the disc that a pierce burns; 0: nothing is said of it
   double joint_width_mm = 0;      ///< of the joints that hold parts; 0: every contour is cut all round
+  bool common_line = false;       ///< parts may share cuts; without joints
 };
 
 /// Holds a profile program against its layout: nothing of a cut, its leads among it, comes nearer to a part
@@ -184,9 +185,12 @@ struct ProfileWords {
 /// closed cut on its waste side, and no cut follows anything else; what is enclosed is cut before what
 /// encloses it, be it a contour or kerfs of several that run into each other. Pierces of a stated diameter
 /// are clear of parts, and they and their leads of kerfs that are there before. With joints a contour may be
-/// cut in stretches, between whose ends exactly a joint stays that no other kerf or pierce enters. That a
-/// contour is followed without a break is looked at every millimetre. Depth, feeds and power are not claims.
-/// Modes that the program does not say are unchecked: the control decides them.
+/// cut in stretches, between whose ends exactly a joint stays that no other kerf or pierce enters. With
+/// common lines no cut needs to be closed: a cut runs at half the kerf, within the tolerance, beside every
+/// place of every contour that it can reach, no cut goes along another for more than a kerf, and nothing is
+/// cut of a part round which the kerfs before have closed; a cut may begin in such a kerf. That a contour is
+/// followed without a break is looked at every millimetre. Depth, feeds and power are not claims. Modes that
+/// the program does not say are unchecked: the control decides them.
 ///
 /// bad_input with the line for words that lekalo does not write into such a program; usage without --sheet
 /// where several are in use. Cost: O(length of the cuts in mm) and the square of their number.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "common_line_check.hpp"
 #include "contour_ring.hpp"
 #include "engraved_marks.hpp"
 #include "joint_check.hpp"
@@ -74,15 +75,20 @@ class ProfileCheck {
         continue;
       }
       cuts.push_back(chain);
+      is_any_cut_ = is_any_cut_ || is_through(chain);
       if (chain.rapid) report_.findings.push_back(fmt::format("line {}: a rapid motion cuts", chain.line));
       keep_out(chain);
-      followed_.push_back(follow(chain));
+      if (!words_.common_line) followed_.push_back(follow(chain));
     }
-    check_joints(cuts);
-    for (const Wanted& wanted : wanted_)
-      if (!wanted.cut) report_.findings.push_back(wanted.name() + " is not cut");
-    if (check_order()) check_loose(cuts);
-    check_pierces(cuts);
+    if (words_.common_line) {
+      check_common_lines(cuts);
+    } else {
+      check_joints(cuts);
+      for (const Wanted& wanted : wanted_)
+        if (!wanted.cut) report_.findings.push_back(wanted.name() + " is not cut");
+      if (check_order()) check_loose(cuts);
+      check_pierces(cuts);
+    }
     report_.notes.push_back(
         fmt::format("{} cuts along {} contours of {} parts were rechecked for a kerf of {} mm", cuts.size(),
                     wanted_.size(), parts_.size(), words_.kerf_mm));
@@ -125,6 +131,8 @@ class ProfileCheck {
       report_.findings.push_back(
           fmt::format("line {}: a mark is engraved as deep as parts are cut out", chain.line));
     by_power_ = chain.depth == 0;
+    if (words_.common_line && is_any_cut_)
+      report_.findings.push_back(fmt::format("line {}: a mark is engraved after parts were cut", chain.line));
     for (const Loop& loop : loops_)
       if (loop.ring.encloses(chain.edges[0].from)) {
         report_.findings.push_back(
@@ -224,6 +232,21 @@ class ProfileCheck {
                     "tip without them, "
                     "or need more, was not",
                     words_.joint_width_mm, joints.size(), held));
+  }
+
+  /// Cuts that parts share follow no contour all round.
+  void check_common_lines(const std::vector<CutChain>& chains) {
+    std::vector<const CutChain*> through;
+    for (const CutChain& chain : chains)
+      if (is_through(chain)) through.push_back(&chain);
+    if (through.empty()) {
+      report_.findings.push_back("nothing is cut");
+      return;
+    }
+    std::vector<CommonContour> contours;
+    for (const Wanted& wanted : wanted_)
+      contours.push_back({wanted.hole != 0, wanted.name(), &wanted.ring});
+    CommonLineCheck(through, contours, words_).judge(report_);
   }
 
   /// The disc of a pierce lies clear of every part, and it and the lead are clear of the kerfs before.
@@ -388,6 +411,7 @@ class ProfileCheck {
   std::optional<EngravedMarks> marks_;
   std::vector<Loop> loops_;
   double deepest_ = 0;
+  bool is_any_cut_ = false;
   bool by_power_ = false;                               ///< marks are engraved without a Z
   std::vector<Followed> followed_;                      ///< by cut
   std::vector<std::vector<ContourStretch>> stretches_;  ///< by contour
