@@ -304,6 +304,98 @@ TEST(CliExport, PiercesAndJointsAreSaidAndConfirmed) {
   EXPECT_EQ(verified.status, 0) << verified.err;
 }
 
+/// Four plates and two angles on one sheet, at gaps of exactly 0.4 mm.
+Json plates_at_one_kerf() {
+  Json layout = cases::empty_layout();
+  add_part(layout, "plate", outline_json(rectangle(0, 0, 30, 20), {rectangle(5, 5, 10, 10)}));
+  add_part(layout, "bar", outline_json(rectangle(0, 0, 60.4, 12)));
+  for (const double x : {10.0, 40.4})
+    for (const double y : {10.0, 30.4}) place(layout, "plate", x, y);
+  place(layout, "bar", 10, 50.8);
+  return layout;
+}
+
+TEST(CliExport, EdgesInCommonAreCutOnceAndVerifySaysSo) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plates.json", plates_at_one_kerf().dump());
+  const Words cut{"export", "plates.json", "--format", "gcode", "-o",        "cut.nc",
+                  "--kerf", "0.4",         "--feed",   "2000",  "--lead-in", "2"};
+  const Words verify{"verify", "cut.nc", "--layout", "plates.json", "--kerf", "0.4"};
+  const Words common{"--common-line"}, pierce{"--pierce-diameter", "1.2"};
+
+  const Ran apart = run(folder.path(), cut);
+  ASSERT_EQ(apart.status, 0) << apart.err;
+  EXPECT_NE(apart.err.find("160 mm of edges that two parts have in common are cut twice (--common-line cuts "
+                           "them once)"),
+            std::string::npos)
+      << apart.err;
+  EXPECT_EQ(run(folder.path(), verify).status, 0);
+  EXPECT_EQ(run(folder.path(), verify + common).status, 4) << "edges are cut twice";
+
+  const Ran shared = run(folder.path(), cut + common + pierce);
+  ASSERT_EQ(shared.status, 0) << shared.err;
+  EXPECT_NE(
+      shared.err.find("160 mm of edges that two parts have in common are cut once, in 3 lines, and both "
+                      "parts come out at size within 0.00001 mm"),
+      std::string::npos)
+      << shared.err;
+  const std::string program = read_bytes(folder / "cut.nc");
+  EXPECT_NE(program.find("(COMMON LINE OF PLACEMENTS 1 2 3 4)"), std::string::npos) << program;
+  EXPECT_NE(program.find("(COMMON OUTLINE OF PLACEMENTS 1 2 3 4 5)"), std::string::npos) << program;
+  const Ran verified = run(folder.path(), verify + common + pierce);
+  EXPECT_EQ(verified.status, 0) << verified.err;
+  EXPECT_NE(verified.err.find("the middle of a cut is half a kerf beside every contour"), std::string::npos);
+  EXPECT_EQ(run(folder.path(), verify + pierce).status, 4) << "without the word every contour is closed";
+  EXPECT_EQ(run(folder.path(), verify + common + Words{"--pierce-diameter", "9"}).status, 4);
+
+  // A line less, and a line twice.
+  const std::size_t begin = program.find("(COMMON LINE"), end = program.find("M5\n", begin) + 3;
+  const std::string line = program.substr(begin, end - begin);
+  std::string less = program, twice = program;
+  write_bytes(folder / "cut.nc", less.erase(begin, line.size()));
+  const Ran missing = run(folder.path(), verify + common);
+  EXPECT_EQ(missing.status, 4);
+  EXPECT_NE(missing.err.find("is not cut near"), std::string::npos) << missing.err;
+  write_bytes(folder / "cut.nc", twice.insert(begin, line));
+  const Ran again = run(folder.path(), verify + common);
+  EXPECT_EQ(again.status, 4);
+  EXPECT_NE(again.err.find("is cut twice"), std::string::npos) << again.err;
+
+  // A router goes along each line twice as deep, from its beginning.
+  ASSERT_EQ(run(folder.path(), cut + common +
+                                   Words{"--process", "router", "--depth", "6", "--pass", "3", "--plunge",
+                                         "200", "--speed", "9000"})
+                .status,
+            0);
+  const Ran routed = run(folder.path(), verify + common);
+  EXPECT_EQ(routed.status, 0) << routed.err;
+}
+
+TEST(CliExport, CommonLinesGoWithNeitherJointsNorHeat) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "plates.json", plates_at_one_kerf().dump());
+  const auto said = [&](const Words& words) {
+    const Ran ran = run(folder.path(), Words{"export", "plates.json"} + words);
+    EXPECT_EQ(ran.status, 2) << ran.err;
+    EXPECT_TRUE(ran.out.empty());
+    return ran.err;
+  };
+  const Words cut{"--format", "gcode", "--kerf", "0.4", "--feed", "2000", "--common-line"};
+  EXPECT_NE(said(cut + Words{"--joints", "2", "--joint-width", "0.5"})
+                .find("--common-line and --joints do not go together: leave one of them out"),
+            std::string::npos);
+  EXPECT_NE(said(cut + Words{"--heat-spread", "20"})
+                .find("--common-line and --heat-spread do not go together: leave one of them out"),
+            std::string::npos);
+  EXPECT_NE(said({"--format", "dxf", "--common-line"}).find("--common-line has no meaning for the form dxf"),
+            std::string::npos);
+  const Ran both = run(folder.path(), {"verify", "x.nc", "--layout", "plates.json", "--kerf", "1",
+                                       "--common-line", "--joint-width", "1"});
+  EXPECT_EQ(both.status, 2);
+  EXPECT_NE(both.err.find("--common-line and --joint-width do not go together"), std::string::npos)
+      << both.err;
+}
+
 TEST(CliExport, PiercesAndJointsThatWillNotDoAreRefusedInOneSentence) {
   const TemporaryFolder folder;
   write_bytes(folder / "plates.json", plates().dump());

@@ -189,11 +189,13 @@ std::string pierces_and_joints(const nc::ProfileProgram& p, const nc::ProfileOpt
 std::string edges_in_common(const nc::ProfileProgram& p, const nc::ProfileOptions& profile) {
   if (p.shared_mm == 0) return "";
   if (!profile.common_line)
-    return fmt::format("; {:.0f} mm of edges that two parts have in common are cut twice (--common-line cuts "
-                       "them once)",
-                       p.shared_mm);
+    return fmt::format(
+        "; {:.0f} mm of edges that two parts have in common are cut twice (--common-line cuts "
+        "them once)",
+        p.shared_mm);
   std::string said = fmt::format(
-      "; {:.0f} mm of edges that two parts have in common are cut once, in {}, and both parts come out at size "
+      "; {:.0f} mm of edges that two parts have in common are cut once, in {}, and both parts come out at "
+      "size "
       "within {:.5f} mm",
       p.shared_mm, p.common_lines == 1 ? "1 line" : fmt::format("{} lines", p.common_lines),
       p.common_off_mm + 0.5e-5);
