@@ -12,6 +12,7 @@
 #include "lekalo/base/stop.hpp"
 #include "lekalo/jobs/check.hpp"
 #include "nest_checked.hpp"
+#include "nest_rows.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -162,7 +163,15 @@ Result<Nested> nest_checked(const Nester& nester, const Document& document, cons
 }
 
 Result<Nested> nest(const Document& document, const NestOptions& options, const RunControl& control) {
-  return nest_checked(nest::nest, document, options, control);
+  if (options.common_line_gap_mm == 0) return nest_checked(nest::nest, document, options, control);
+  CommonRows rows;
+  const std::int64_t gap = geom::grid_from_mm_up(options.common_line_gap_mm);
+  Result<Nested> nested =
+      nest_checked([&](const Document& wanted, const nest::Options& search,
+                       const RunControl& until) { return nest_in_rows(wanted, gap, search, until, rows); },
+                   document, options, control);
+  if (nested) nested->rows = rows;
+  return nested;
 }
 
 void write_unplaced(io::JsonWriter& json, const Nested& nested) {

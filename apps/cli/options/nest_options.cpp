@@ -17,7 +17,7 @@ struct NestWords {
   LayoutWords layout;
   OrderWords order;
   std::string output, stream, allocate, time, work, seed, threads, angles, pairs, remnant;
-  bool from_scratch = false;
+  bool from_scratch = false, common_line = false;
 };
 
 Result<Command> to_nest(const NestWords& w) {
@@ -50,6 +50,18 @@ Result<Command> to_nest(const NestWords& w) {
   read.choice("--remnant", w.remnant, kRemnants, o.search.remnant);
   read.require(w.allocate.empty() || (o.order && !o.order->stock.empty()),
                "--allocate says for which order pieces of a stock file are taken, which --stock FILE names");
+  if (w.common_line) {
+    read.require(
+        o.order.has_value() && o.order->terms.kerf_mm > 0,
+        "--common-line belongs to an order, and --kerf MM says how far apart edges are that two parts "
+        "have in common");
+    if (o.order) {
+      // What is written asks for the kerf alone; the search keeps the gap between all other edges.
+      jobs::OrderTerms& terms = o.order->terms;
+      o.search.common_line_gap_mm = std::max(terms.gap_mm, terms.kerf_mm);
+      terms.gap_mm = terms.kerf_mm;
+    }
+  }
   if (!w.time.empty() || w.work.empty()) {
     double seconds = 60;
     read.number("--time", w.time, 0.01, 1e6, "a number of seconds from 0.01 to 1,000,000", seconds);
@@ -81,6 +93,8 @@ Typed add_nest_form(Form& form) {
   add("--remnant", w.remnant, list_of(kRemnants, "|"),
       "Of the last sheet, keep what one cut frees, what one cut along y frees, or all beyond a corner "
       "[corner]");
+  add("--common-line", w.common_line,
+      "Rectangles and right triangles in rows, the kerf apart, where that costs little material");
   add("--from-scratch", w.from_scratch, "Drop what lies there and is not locked, instead of improving it");
   form.footer =
       "Locked placements stay. Others are where the search begins, and the result is no worse; what is "

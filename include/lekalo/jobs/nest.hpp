@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,13 @@ struct NestStanding {
   std::int64_t kits_complete = 0, kits_wanted = 0;
 };
 
+/// What rows of parts with common edges are worth (docs/design/nest-rows.md).
+struct CommonRows {
+  double shared_mm = 0;         ///< edges in common in the layout that was found
+  double material_share = 1;    ///< of the trial with rows against that without: what they take of the stock
+  std::size_t most_in_row = 1;  ///< parts in the longest rows that were taken; 1: none were worth it
+};
+
 struct NestOptions {
   std::uint64_t seed = 0;
   unsigned threads = 2;  ///< 1 to 64; changes the speed and nothing else
@@ -36,6 +44,10 @@ struct NestOptions {
   double pair_distance = 0;
   /// The rest of the last sheet that is worth most.
   nest::Remnant remnant = nest::Remnant::corner;
+  /// Where positive: rectangles and right triangles stand in rows, a kerf apart, where that costs little
+  /// material, and all other gaps are this, mm. The gap of the document's rules is the kerf then. Documents
+  /// with placements, and `only`, are nested part by part.
+  double common_line_gap_mm = 0;
   /// Ids of the only placements that may move, ascending: everything else stays, and nothing is added. Empty:
   /// all that are not locked, and what is wanted and not there is added.
   std::vector<std::uint64_t> only;
@@ -60,7 +72,8 @@ struct Nested {
   /// As in nest::Nested; the work is the limit that repeats the run.
   std::uint64_t work = 0, merges = 0;
   layout::Completeness completeness;
-  bool searched = true;  ///< as in nest::Nested
+  bool searched = true;              ///< as in nest::Nested
+  std::optional<CommonRows> rows{};  ///< of NestOptions::common_line_gap_mm
 };
 
 /// Places what a layout wants on its stock (nest/nest.hpp), and hands out nothing that breaks a rule: the
