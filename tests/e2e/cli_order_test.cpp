@@ -434,5 +434,47 @@ TEST(CliOrder, WhatIsWrongWithABillIsOneSentence) {
   }
 }
 
+/// Bars and triangles; 12 bars and 4 triangles of 5 mm gap have room on the sheet.
+std::string bar_svg(int width, int height) {
+  return "<svg xmlns='http://www.w3.org/2000/svg' width='" + std::to_string(width) + "mm' height='" +
+         std::to_string(height) + "mm' viewBox='0 0 " + std::to_string(width) + " " + std::to_string(height) +
+         "'><rect width='" + std::to_string(width) + "' height='" + std::to_string(height) + "'/></svg>";
+}
+
+TEST(CliOrder, RowsWithEdgesInCommonAreNestedCutOnceAndVerified) {
+  const Shop shop;
+  write_bytes(shop / "bar.svg", bar_svg(80, 30));
+  write_bytes(shop / "gusset.svg",
+              "<svg xmlns='http://www.w3.org/2000/svg' width='60mm' height='40mm' viewBox='0 0 60 40'>"
+              "<path d='M0 0 L60 0 L0 40 Z'/></svg>");
+  const Words order{"nest",    "--part",   "bar.svg=12", "--part",      "gusset.svg=4",
+                    "--sheet", "500x400",  "--kerf",     "0.4",         "--gap",
+                    "5",       "--border", "8",          "--rotations", "0,90,180,270",
+                    "--work",  "300000",   "-o",         "layout.json"};
+  const Ran rows = shop(order + Words{"--common-line"});
+  ASSERT_EQ(rows.status, 0) << rows.err;
+  EXPECT_NE(rows.err.find("edges in common: "), std::string::npos) << rows.err;
+  EXPECT_EQ(rows.err.find("none that are worth"), std::string::npos) << rows.err;
+  EXPECT_EQ(shop({"check", "layout.json"}).status, 0);
+  EXPECT_EQ(shop({"verify", "layout.json"}).status, 0);
+  const Ran cut = shop({"export", "layout.json", "--format", "gcode", "--kerf", "0.4", "--feed", "2000",
+                        "--lead-in", "2", "--common-line", "-o", "cut.nc"});
+  ASSERT_EQ(cut.status, 0) << cut.err;
+  EXPECT_NE(cut.err.find("are cut once, in "), std::string::npos) << cut.err;
+  const Ran verified =
+      shop({"verify", "cut.nc", "--layout", "layout.json", "--kerf", "0.4", "--common-line"});
+  EXPECT_EQ(verified.status, 0) << verified.err;
+  // Without the word nothing comes nearer than the gap.
+  ASSERT_EQ(shop(order).status, 0);
+  const Ran apart = shop({"export", "layout.json", "--format", "gcode", "--kerf", "0.4", "--feed", "2000",
+                          "--common-line", "-o", "cut.nc"});
+  ASSERT_EQ(apart.status, 0) << apart.err;
+  EXPECT_EQ(apart.err.find("in common"), std::string::npos) << apart.err;
+
+  const Ran no_kerf = shop({"nest", "--part", "bar.svg=2", "--sheet", "500x400", "--common-line"});
+  EXPECT_EQ(no_kerf.status, 2);
+  EXPECT_NE(no_kerf.err.find("--common-line belongs to an order, and --kerf MM says"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace lekalo::test::cli_order_test
