@@ -306,7 +306,7 @@ nest::Nested unrolled(const RowsDocument& rows, const Document& given, nest::Nes
   return found;
 }
 
-/// What a trial found.
+/// The figures of a trial.
 struct RowTrial {
   double missing_mm2 = 0, material_mm2 = 0, shared_mm = 0;
 };

@@ -56,7 +56,7 @@ Result<Command> to_nest(const NestWords& w) {
         "--common-line belongs to an order, and --kerf MM says how far apart edges are that two parts "
         "have in common");
     if (o.order) {
-      // What is written asks for the kerf alone; the search keeps the gap between all other edges.
+      // The layout that is written asks for the kerf alone; the search keeps the gap between all other edges.
       jobs::OrderTerms& terms = o.order->terms;
       o.search.common_line_gap_mm = std::max(terms.gap_mm, terms.kerf_mm);
       terms.gap_mm = terms.kerf_mm;

@@ -26,7 +26,7 @@ struct NestStanding {
   std::int64_t kits_complete = 0, kits_wanted = 0;
 };
 
-/// What rows of parts with common edges are worth (docs/design/nest-rows.md).
+/// The worth of rows of parts with common edges (docs/design/nest-rows.md).
 struct CommonRows {
   double shared_mm = 0;         ///< edges in common in the layout that was found
   double material_share = 1;    ///< of the trial with rows against that without: what they take of the stock
@@ -44,9 +44,9 @@ struct NestOptions {
   double pair_distance = 0;
   /// The rest of the last sheet that is worth most.
   nest::Remnant remnant = nest::Remnant::corner;
-  /// Where positive: rectangles and right triangles stand in rows, a kerf apart, where that costs little
-  /// material, and all other gaps are this, mm. The gap of the document's rules is the kerf then. Documents
-  /// with placements, and `only`, are nested part by part.
+  /// A value above 0 lets rectangles and right triangles stand in rows, a kerf apart, where that costs little
+  /// material; all other gaps are this, mm. The gap of the document's rules is the kerf then. Documents with
+  /// placements, and `only`, are nested part by part.
   double common_line_gap_mm = 0;
   /// Ids of the only placements that may move, ascending: everything else stays, and nothing is added. Empty:
   /// all that are not locked, and what is wanted and not there is added.

@@ -174,7 +174,7 @@ class CommonDrawer {
     return rim;
   }
 
-  /// Where two parts end level, their rim would dip into the end of the line between them. It goes straight
+  /// The rim of two parts that end level would dip into the end of the line between them. It goes straight
   /// over it instead.
   void cut_straight_over_ends(std::vector<WrittenEdge>& path, std::vector<bool>& ends_run) const {
     const std::size_t n = path.size();

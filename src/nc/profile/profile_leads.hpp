@@ -20,10 +20,10 @@ struct Start {
   double lead_mm = 0;  ///< the length or radius of the lead
   bool behind_joint = false;
   bool from_end = false;  ///< of a line: it is cut from its end to its beginning
-  /// Of a line: how much its lead is not the straight way on beyond it; of starts as good the least is taken.
+  /// Says of a line how much its lead is not the straight way on beyond it; of starts as good the least is
+  /// taken.
   std::size_t bends = 0;
-  /// Of a line without a lead: the cuts in whose kerf it begins. Where one of them is there nothing is
-  /// pierced.
+  /// The cuts in whose kerf a line without a lead begins. Where one of them is there nothing is pierced.
   std::vector<std::size_t> in_kerf_of{};
 
   /// How unwelcome the start is when the cuts are there for which `is_there` says so.
