@@ -34,7 +34,8 @@ std::vector<CutPath> cut_paths(const std::string& program) {
   bool on = false;
   while (std::getline(lines, line)) {
     if (line.find("PLACEMENT") != std::string::npos) remark = line;
-    if (line.rfind("M3", 0) == 0) on = true, paths.push_back({remark, {}});
+    if (line == "M3" || line.rfind("M3 ", 0) == 0 || line.rfind("M4 ", 0) == 0)
+      on = true, paths.push_back({remark, {}});
     if (line == "M5") on = false;
     path_of_line.push_back(on ? paths.size() : 0);
   }

@@ -63,7 +63,7 @@ class CommonSheetMaker {
         return;
       }
       case 2: {
-        const double less_x = random_.uniform(0, width / 2), less_y = random_.uniform(0, height / 2);
+        const double less_x = random_.uniform(kerf_, width / 2), less_y = random_.uniform(kerf_, height / 2);
         const double left = random_.below(2) == 0 ? 0 : less_x, low = random_.below(2) == 0 ? 0 : less_y;
         return add(x + rounded(left), y + rounded(low), rounded(width - less_x), rounded(height - less_y));
       }

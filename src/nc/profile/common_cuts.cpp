@@ -5,11 +5,11 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "common_lines.hpp"
 #include "common_stretch.hpp"
-#include "lekalo/base/assert.hpp"
 #include "lekalo/base/disjoint_sets.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/edge_distance.hpp"
@@ -33,7 +33,7 @@ class ClusterOrder {
  public:
   ClusterOrder(ClusterDrawing& drawing, const Resolution& resolution)
       : drawing_(drawing), resolution_(resolution) {
-    for (const std::size_t part : drawing.rims.front().parts) is_held_[part] = true;
+    for (const std::size_t part : drawing.rims.front().held) is_held_[part] = true;
     split_parts_of_lines();
   }
 
@@ -51,23 +51,29 @@ class ClusterOrder {
     std::vector<Step> backwards;
     while (true) {
       ask();
-      if (const auto rim = next_rim(rim_left)) {
+      std::optional<std::size_t> rim = next_rim(rim_left);
+      std::optional<Step> line = rim ? std::nullopt : next_line();
+      if (!rim && !line) {
+        // What is left hangs on by too little to be held: any order will do.
+        const auto weak = std::find(line_left_.begin(), line_left_.end(), true);
+        const auto pocket = std::find(rim_left.begin(), rim_left.end(), true);
+        if (weak != line_left_.end())
+          line = Step{false, static_cast<std::size_t>(weak - line_left_.begin()), true};
+        else if (pocket != rim_left.end())
+          rim = static_cast<std::size_t>(pocket - rim_left.begin());
+        else
+          break;
+      }
+      if (rim) {
         rim_left[*rim] = false;
         backwards.push_back({true, *rim, false});
-        hold(drawing_.rims[*rim].parts);
         continue;
       }
-      const auto line = next_line();
-      if (!line) break;
-      const std::size_t number = line->number;
-      line_left_[number] = false;
-      for (const CommonLine::Link& link : drawing_.lines[number].links)
-        for (const std::size_t part : link.parts) is_held_[part] = true;
-      here_ = resolution_.mm(drawing_.lines[number].links.front().path.front().from);
+      line_left_[line->number] = false;
+      hold(drawing_.lines[line->number], is_held_);
+      here_ = resolution_.mm(drawing_.lines[line->number].links.front().path.front().from);
       backwards.push_back(*line);
     }
-    // Every part hangs together with the outermost by lines, each of which can be last once it is reached.
-    LEKALO_ASSERT(backwards.size() + 1 == drawing_.rims.size() + drawing_.lines.size());
     std::reverse(backwards.begin(), backwards.end());
     return backwards;
   }
@@ -86,22 +92,21 @@ class ClusterOrder {
         std::map<std::size_t, bool> then = held;
         if (can_be_last(drawing_.lines[l], then) || can_be_last(reversed_line(drawing_.lines[l]), then)) {
           left[l] = false, goes_on = true;
-          for (const CommonLine::Link& link : drawing_.lines[l].links)
-            for (const std::size_t part : link.parts) held[part] = true;
+          hold(drawing_.lines[l], held);
           continue;
         }
         const auto& links = drawing_.lines[l].links;
         if (!partly && links.size() > 1 &&
             std::any_of(links.begin(), links.end(), [&](const CommonLine::Link& link) {
-              return held[link.parts[0]] || held[link.parts[1]];
+              return link.holds && (held[link.parts[0]] || held[link.parts[1]]);
             }))
           partly = l;
       }
       if (goes_on || !partly) continue;
-      CommonLine& line = drawing_.lines[*partly];
+      const CommonLine line = drawing_.lines[*partly];
+      drawing_.lines[*partly].links.resize(1);
       for (std::size_t k = 1; k < line.links.size(); ++k)
-        drawing_.lines.push_back({{line.links[k]}, {line.runs_into[0], line.runs_into[1]}});
-      line.links.resize(1);
+        drawing_.lines.push_back({{line.links[k]}, line.runs_into});
       left.resize(drawing_.lines.size(), true);
       goes_on = true;
     }
@@ -116,21 +121,23 @@ class ClusterOrder {
   /// after it. Of the line itself, what comes later holds too.
   static bool can_be_last(const CommonLine& line, std::map<std::size_t, bool> held) {
     for (auto link = line.links.rbegin(); link != line.links.rend(); ++link) {
+      if (!link->holds) continue;
       if (!held[link->parts[0]] && !held[link->parts[1]]) return false;
       held[link->parts[0]] = held[link->parts[1]] = true;
     }
     return true;
   }
 
-  void hold(const std::vector<std::size_t>& parts) {
-    for (const std::size_t part : parts) is_held_[part] = true;
+  static void hold(const CommonLine& line, std::map<std::size_t, bool>& held) {
+    for (const CommonLine::Link& link : line.links)
+      if (link.holds) held[link.parts[0]] = held[link.parts[1]] = true;
   }
 
   /// A pocket comes as late as may be, because lines begin in it.
   [[nodiscard]] std::optional<std::size_t> next_rim(const std::vector<bool>& left) {
     std::optional<std::size_t> found;
     for (std::size_t r = 0; r < left.size() && !found; ++r) {
-      const auto& parts = drawing_.rims[r].parts;
+      const auto& parts = drawing_.rims[r].held;
       if (left[r] &&
           std::all_of(parts.begin(), parts.end(), [&](std::size_t part) { return is_held_[part]; }))
         found = r;

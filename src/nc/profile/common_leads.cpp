@@ -100,6 +100,20 @@ class LineStarts {
 
 }  // namespace
 
+Starts pocket_starts_of(std::vector<WrittenEdge>& path, std::size_t own, double lead_in_mm,
+                        const Surroundings& around, const ProfileOptions& options) {
+  Starts found = starts_of(path, own, lead_in_mm, around, options);
+  if (!found.choices.empty()) return found;
+  const double near = options.tolerance_mm + 2 * resolution_of(options).step_mm();
+  for (std::size_t edge = 0; edge < path.size(); ++edge) {
+    const WrittenPoint at = path[edge].from;
+    Start start{{}, edge, at, at, {}, 0};
+    start.in_kerf_of = around.kerfs.holding(own, at, near);
+    if (!start.in_kerf_of.empty()) found.choices.push_back(std::move(start));
+  }
+  return found;
+}
+
 Starts line_starts_of(const Cut& line, std::size_t own, const Surroundings& around,
                       const ProfileOptions& options) {
   return LineStarts(line, own, around, options).find();

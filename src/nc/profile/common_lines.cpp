@@ -145,12 +145,20 @@ class CommonDrawer {
     return edges.empty() || (edges.size() == 1 && is_corner(edges[0])) || is_bridge(run);
   }
 
+  [[nodiscard]] bool holds(const std::vector<WrittenEdge>& edges) const {
+    return std::any_of(edges.begin(), edges.end(), [&](const WrittenEdge& edge) {
+      return length_of_line({EdgeKind::line, edges.front().from, edge.to, {}}) >=
+             kHoldingKerfs * options_.kerf_mm;
+    });
+  }
+
   CommonRim rim_of(const std::vector<std::size_t>& chain) const {
     CommonRim rim;
     std::vector<bool> ends_run;
     for (std::size_t k = 0; k < chain.size(); ++k) {
       const Run& run = runs_[chain[k]];
       rim.parts.push_back(part_of(run.outline));
+      if (holds(piece(run).run)) rim.held.push_back(rim.parts.back());
       // A run begins where its own stretch ends, the run before where the other part's stretch begins; the
       // two are one place within the tolerance.
       const WrittenPoint begin = piece(run).edge.to;
@@ -245,7 +253,7 @@ class CommonDrawer {
       CommonLine line;
       for (std::size_t at = s; at != kNoRun; at = next[at]) {
         const auto& both = common_.stretches[at].cuts;
-        line.links.push_back({{edges[at]}, {cuts_[both[0]].part, cuts_[both[1]].part}});
+        line.links.push_back({{edges[at]}, {cuts_[both[0]].part, cuts_[both[1]].part}, holds({edges[at]})});
         if (next[at] != kNoRun && edges[at].to != edges[next[at]].from)
           line.links.back().path.push_back(line_of(edges[at].to, edges[next[at]].from));
       }

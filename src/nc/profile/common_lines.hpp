@@ -14,6 +14,7 @@ namespace lekalo::nc {
 struct CommonRim {
   std::vector<WrittenEdge> path;
   std::vector<std::size_t> parts;  ///< one for each run, in the order of the path
+  std::vector<std::size_t> held;   ///< those that hang on by it, until it is cut
   double area = 0;                 ///< negative for a rim that runs clockwise, around its parts
   /// The kerfs of the lines that end there have freed all of it already, and the lines go over it.
   bool is_covered = false;
@@ -25,6 +26,7 @@ struct CommonLine {
   struct Link {
     std::vector<WrittenEdge> path;
     std::array<std::size_t, 2> parts{};
+    bool holds = true;  ///< parts hang on by it, until it is cut
   };
   std::vector<Link> links;
   /// The lines, by number, into whose kerfs its beginning and its end run.
@@ -33,6 +35,9 @@ struct CommonLine {
   [[nodiscard]] std::vector<WrittenEdge> path() const;
   void reverse();
 };
+
+/// What is shorter than so many kerfs holds nothing: the kerfs at its two ends nearly meet.
+inline constexpr double kHoldingKerfs = 1.5;
 
 struct CommonDrawing {
   std::vector<CommonRim> rims;

@@ -324,6 +324,8 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& placed, c
     const Surroundings around{proof, kerfs, jointed.grounds};
     if (cuts[c].is_line)
       starts.push_back(line_starts_of(cuts[c], c, around, options));
+    else if (!cuts[c].outline && !cuts[c].is_hole())
+      starts.push_back(pocket_starts_of(cuts[c].path, c, terms[c].lead_in_mm, around, options));
     else if (jointed.starts[c].empty())
       starts.push_back(starts_of(cuts[c].path, c, terms[c].lead_in_mm, around, options));
     else

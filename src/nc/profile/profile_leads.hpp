@@ -77,6 +77,11 @@ inline constexpr std::size_t kMostStarts = 12;
 [[nodiscard]] Starts starts_of(std::vector<WrittenEdge>& path, std::size_t own, double lead_in_mm,
                                const Surroundings& around, const ProfileOptions& options);
 
+/// The starts of the rim of a pocket: as of a contour, or where it passes through the end of a line, in the
+/// kerf that is there.
+[[nodiscard]] Starts pocket_starts_of(std::vector<WrittenEdge>& path, std::size_t own, double lead_in_mm,
+                                      const Surroundings& around, const ProfileOptions& options);
+
 /// The starts of a common line: at either of its ends that may come first, with leads in the scrap beyond it,
 /// straight on or aslant, or in the kerf into which it runs.
 [[nodiscard]] Starts line_starts_of(const Cut& line, std::size_t own, const Surroundings& around,
