@@ -84,9 +84,9 @@ void CommonLineCheck::check_sizes(ClaimReport& report) {
       "the middle of a cut is half a kerf beside every contour, within {:.4f} mm", farthest + 5e-5));
 }
 
-/// No cut goes along another, or along itself, for more than a kerf.
+/// No cut goes along another, or along itself, within the tolerance for more than a kerf.
 void CommonLineCheck::check_once(ClaimReport& report) const {
-  const double step = 0.25 * words_.kerf_mm;
+  const double step = 0.25 * words_.kerf_mm, same = words_.tolerance_mm;
   std::vector<std::uint32_t> near;
   for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
     const Stroke& piece = pieces_[i];
@@ -97,11 +97,11 @@ void CommonLineCheck::check_once(ClaimReport& report) const {
       ask();
       const Place at = at_share(piece, (k + 0.5) / samples), way = heading(piece, at);
       near.clear();
-      index_.near(at, step, near);
+      index_.near(at, same, near);
       const bool is_there = std::any_of(near.begin(), near.end(), [&](std::uint32_t j) {
         if (j == i || !(length(pieces_[j]) > 0)) return false;
         const Place on = nearest_on(pieces_[j], at);
-        return length(on - at) <= step && std::abs(cross(way, heading(pieces_[j], on))) < kSameWay;
+        return length(on - at) <= same && std::abs(cross(way, heading(pieces_[j], on))) < kSameWay;
       });
       twice = is_there ? twice + each : 0;
       if (!(twice > words_.kerf_mm)) continue;
