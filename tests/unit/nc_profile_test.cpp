@@ -329,7 +329,7 @@ TEST(NcCommonLine, TwoSquaresAreALineAndAnOutline) {
             "G0 X20.5000 Y6.5000\n"
             "M3\n"
             "G1 X20.5000 Y9.5000 F600.0\n"
-            "G1 X20.5000 Y20.0000\n"
+            "G1 X20.5000 Y20.5000\n"
             "M5\n"
             "(COMMON OUTLINE OF PLACEMENTS 1 2)\n"
             "G0 X15.0000 Y6.5000\n"
@@ -426,7 +426,7 @@ TEST(NcCommonLine, ARouterLiftsBetweenThePassesOfALine) {
   options.process = Process::router, options.depth_mm = 4, options.pass_mm = 2;
   options.speed = 9000, options.plunge_mm_per_min = 100;
   const std::string program = cuts_of({square(1, 10, 10), square(2, 21, 10)}, options);
-  EXPECT_NE(program.find("G1 X20.5000 Y20.0000\nG0 Z5.0000\nG0 X20.5000 Y9.5000\nG1 Z-4.0000"),
+  EXPECT_NE(program.find("G1 X20.5000 Y20.5000\nG0 Z5.0000\nG0 X20.5000 Y9.5000\nG1 Z-4.0000"),
             std::string::npos)
       << program;
 }

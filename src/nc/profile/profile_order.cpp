@@ -349,7 +349,7 @@ void put_common_cuts_in_order(const CommonCuts& common, const std::vector<Cut>& 
   for (OrderedCut& ordered : anew) {
     const Cut& cut = cuts[ordered.cut];
     const std::vector<Start>& choices = starts[ordered.cut].choices;
-    if (is_inner[ordered.cut]) {
+    if (is_inner[ordered.cut] || cluster_of[ordered.cut] != nullptr) {
       std::tuple least{std::numeric_limits<std::size_t>::max(), std::size_t{0},
                        std::numeric_limits<double>::infinity()};
       for (std::size_t k = 0; k < choices.size(); ++k) {
