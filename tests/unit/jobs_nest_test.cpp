@@ -10,6 +10,7 @@
 #include "lekalo/jobs/check.hpp"
 #include "lekalo/jobs/nest.hpp"
 #include "lekalo/layout/check.hpp"
+#include "lekalo/phi/outline_relation.hpp"
 #include "support/layout_cases.hpp"
 
 namespace lekalo::jobs::jobs_nest_test {
@@ -188,6 +189,103 @@ TEST(JobsNest, AConfirmedLayoutPassesBothChecksAsItsBytes) {
   ASSERT_FALSE(other);
   EXPECT_NE(other.error().message.find("independent checker"), std::string::npos);
   EXPECT_FALSE(confirm_layout(good, "{}"));
+}
+
+// ---- rows with edges in common ----------------------------------------------------------------------------
+
+constexpr double kKerf = 0.5, kGap = 4;
+
+/// Six bars, two triangles and a square are wanted on a sheet of 100.
+Document wanted_bars() {
+  Document document = cases::two_squares();
+  document.placements.clear();
+  document.rules.gap = document.rules.kerf = geom::grid_from_mm_up(kKerf);
+  layout::Part bar = document.parts[0], gusset = bar;
+  document.parts[0].demand = 1;
+  bar.id = "bar", bar.demand = 6, bar.outline = cases::outline_of({cases::box_loop(0, 0, 40, 8)});
+  gusset.id = "gusset", gusset.demand = 2;
+  gusset.outline =
+      cases::outline_of({{cases::grid_point(3, 2), cases::grid_point(23, 2), cases::grid_point(3, 17)}});
+  document.parts.push_back(bar);
+  document.parts.push_back(gusset);
+  return document;
+}
+
+Nested nested_in_rows(const Document& document) {
+  NestOptions options;
+  options.common_line_gap_mm = kGap;
+  RunControl control;
+  control.work_limit = 50'000;
+  return nest(document, options, control).value();
+}
+
+/// How many pairs lie at the kerf; all others keep the gap.
+std::size_t pairs_at_the_kerf(const Document& document) {
+  std::size_t pairs = 0;
+  for (const layout::Placement& a : document.placements)
+    for (const layout::Placement& b : document.placements) {
+      if (a.id >= b.id || a.copy != b.copy) continue;
+      const double apart = phi::edge_distance(placed_outline(document.parts[a.part], a),
+                                              placed_outline(document.parts[b.part], b))
+                               .distance_mm;
+      EXPECT_GE(apart, kKerf - 1e-9);
+      if (apart < kKerf + 1e-5)
+        ++pairs;
+      else
+        EXPECT_GE(apart, kGap - 1e-9) << a.id << " and " << b.id;
+    }
+  return pairs;
+}
+
+TEST(JobsNestRows, PartsOfARowKeepTheKerfAndAllOthersTheGap) {
+  const Nested nested = nested_in_rows(wanted_bars());
+  EXPECT_TRUE(nested.unplaced.empty());
+  ASSERT_EQ(nested.document.placements.size(), 9U);
+  ASSERT_TRUE(nested.rows);
+  EXPECT_GT(nested.rows->most_in_row, 1U);
+  EXPECT_LE(nested.rows->material_share, 1.01);
+  const std::size_t pairs = pairs_at_the_kerf(nested.document);
+  EXPECT_GE(pairs, 4U);
+  // The triangles have 25 mm in common, each two bars 40 mm.
+  EXPECT_NEAR(nested.rows->shared_mm, 25 + 40 * static_cast<double>(pairs - 1), 1e-3);
+  EXPECT_EQ(nested.document.rules, wanted_bars().rules);
+  EXPECT_EQ(nested_in_rows(wanted_bars()).bytes, nested.bytes);
+}
+
+TEST(JobsNestRows, PartsOfKitsOrWithGrainStandInNoRow) {
+  Document document = wanted_bars();
+  for (layout::Part& part : document.parts) part.grain = layout::Grain{0, 5};
+  EXPECT_EQ(pairs_at_the_kerf(nested_in_rows(document).document), 0U);
+  document = wanted_bars();
+  document.kits = {{"kit", "", 1, 1, {{1, 6, {}}, {2, 2, {}}}}};
+  for (layout::Part& part : document.parts) part.demand = 0;
+  const Nested nested = nested_in_rows(document);
+  EXPECT_EQ(nested.document.placements.size(), 8U);
+  EXPECT_EQ(pairs_at_the_kerf(nested.document), 0U);
+  EXPECT_EQ(nested.rows->most_in_row, 1U);
+}
+
+TEST(JobsNestRows, ALayoutThatIsThereIsNestedPartByPart) {
+  Document document = wanted_bars();
+  document.placements = cases::two_squares().placements;
+  document.next_id = cases::two_squares().next_id;
+  document.parts[0].demand = 2;
+  const Nested nested = nested_in_rows(document);
+  EXPECT_EQ(pairs_at_the_kerf(nested.document), 0U);
+  EXPECT_EQ(nested.document.placements[0].id, document.placements[0].id);
+}
+
+TEST(JobsNestRows, PiecesOfRowsThatFindNoRoomAreCountedByPart) {
+  Document document = wanted_bars();
+  document.parts[1].demand = 60;
+  const Nested nested = nested_in_rows(document);
+  ASSERT_FALSE(nested.unplaced.empty());
+  std::int64_t missing = 0;
+  for (const nest::Unplaced& unplaced : nested.unplaced) {
+    EXPECT_LT(unplaced.part, document.parts.size());
+    missing += unplaced.count;
+  }
+  EXPECT_EQ(missing + static_cast<std::int64_t>(nested.document.placements.size()), 63);
 }
 
 }  // namespace
