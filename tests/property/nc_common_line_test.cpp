@@ -188,10 +188,10 @@ void expect_nothing_cut_loose(const std::vector<CutPath>& paths, const std::vect
         const rs274::Point at = step.at(Real(k) / pieces);
         std::set<std::size_t> now;
         // The last bit between two kerfs is burnt by both of them: what is looked at lies farther on.
-        const rs274::Point ahead = step.at(std::min<Real>(1, (k + 7.5L) / pieces));
+        const rs274::Point ahead = step.at(std::min<Real>(1, (k + 12.5L) / pieces));
         for (std::size_t i = 0; i < parts.size(); ++i)
           if (cases::distance_to_boundary(at, parts[i].region) <= reach &&
-              cases::distance_to_boundary(ahead, parts[i].region) <= reach && k + 7.5L <= pieces)
+              cases::distance_to_boundary(ahead, parts[i].region) <= reach && k + 12.5L <= pieces)
             now.insert(i);
         for (const std::size_t i : now) {
           if (beside.contains(i)) continue;

@@ -54,7 +54,7 @@ class ClusterOrder {
       std::optional<std::size_t> rim = next_rim(rim_left);
       std::optional<Step> line = rim ? std::nullopt : next_line();
       if (!rim && !line) {
-        // What is left hangs on by too little to be held: any order will do.
+        // All cuts that are left hang on by too little to be held: any order will do.
         const auto weak = std::find(line_left_.begin(), line_left_.end(), true);
         const auto pocket = std::find(rim_left.begin(), rim_left.end(), true);
         if (weak != line_left_.end())

@@ -61,7 +61,7 @@ class LineStarts {
     std::vector<Start> found;
     const WrittenPoint at = end(from_end);
     const Point ahead = outwards(from_end), aside = geom::perpendicular(ahead);
-    for (const double stub : kStubs)
+    for (const double& stub : kStubs)
       for (const LeadTurn& turn : kLeadTurns) {
         const WrittenPoint before = resolution_.rounded(resolution_.mm(at) + stub * options_.kerf_mm * ahead);
         const WrittenPoint pierce =

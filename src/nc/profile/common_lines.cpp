@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "lekalo/base/stop.hpp"
@@ -222,13 +221,30 @@ class CommonDrawer {
       const Point from = resolution_.mm(edges.back().from);
       boxes.push_back({from, from});
     }
+    std::vector<WrittenEdge> rim_lines;
+    std::vector<geom::Box> rim_boxes;
+    for (const CommonRim& rim : drawing_.rims)
+      for (const WrittenEdge& edge : rim.path) {
+        if (rim.is_covered || edge.kind != EdgeKind::line) continue;
+        rim_lines.push_back(edge);
+        rim_boxes.push_back(geom::grown(geom::box_of(resolution_.mm(edge.from), resolution_.mm(edge.to)),
+                                        options_.tolerance_mm));
+      }
+    const geom::BoxTree rim_tree(rim_boxes);
     // A rim that is cut anyway has the way between two stretches, so that no line goes over it.
-    std::set<std::pair<std::size_t, std::size_t>> apart;
-    for (const Run& run : runs_) {
-      if (!is_bridge(run) || drawing_.rims[run.rim].is_covered) continue;
-      apart.insert({piece(run).stretch, piece_after(run).stretch});
-      apart.insert({piece_after(run).stretch, piece(run).stretch});
-    }
+    const auto goes_along_rim = [&](const WrittenEdge& bridge) {
+      const Point from = resolution_.mm(bridge.from), to = resolution_.mm(bridge.to), way = way_of(bridge);
+      return !rim_tree.visit_meeting_while(geom::box_of(from, to), [&](std::uint32_t i) {
+        const Point a = resolution_.mm(rim_lines[i].from), b = resolution_.mm(rim_lines[i].to);
+        if (!(std::abs(geom::cross(way, a - from)) <= 2 * options_.tolerance_mm) ||
+            !(std::abs(geom::cross(way, b - from)) <= 2 * options_.tolerance_mm))
+          return true;
+        const double first = geom::dot(a - from, way), last = geom::dot(b - from, way);
+        return !(std::min(std::max(first, last), geom::norm(to - from)) -
+                     std::max(std::min(first, last), 0.0) >
+                 0.25 * options_.kerf_mm);
+      });
+    };
     const geom::BoxTree tree(boxes);
     std::vector<std::size_t> next(edges.size(), kNoRun);
     std::vector<bool> follows(edges.size(), false);
@@ -236,14 +252,15 @@ class CommonDrawer {
       const Point end = resolution_.mm(edges[s].to), way = way_of(edges[s]);
       double least = longest_bridge();
       tree.visit_meeting(geom::grown({end, end}, longest_bridge()), [&](std::uint32_t t) {
-        if (t == s || follows[t] || apart.contains({s, t})) return;
+        if (t == s || follows[t]) return;
         const Point gap = resolution_.mm(edges[t].from) - end;
         const double ahead = geom::dot(gap, way);
         if (!(std::abs(geom::cross(way, gap)) <= options_.tolerance_mm) ||
             !(geom::dot(way, way_of(edges[t])) > kAlongCosine) || !(ahead >= -options_.tolerance_mm) ||
             !(ahead <= least))
           return;
-        if (edges[s].to != edges[t].from && !proof_.stays_out({line_of(edges[s].to, edges[t].from)})) return;
+        const WrittenEdge bridge = line_of(edges[s].to, edges[t].from);
+        if (bridge.from != bridge.to && (!proof_.stays_out({bridge}) || goes_along_rim(bridge))) return;
         least = ahead, next[s] = t;
       });
       if (next[s] != kNoRun) follows[next[s]] = true;

@@ -36,8 +36,9 @@ struct CommonLine {
   void reverse();
 };
 
-/// What is shorter than so many kerfs holds nothing: the kerfs at its two ends nearly meet.
-inline constexpr double kHoldingKerfs = 1.5;
+/// A stretch shorter than so many kerfs holds nothing: the kerfs at its two ends nearly meet, or the lead of a
+/// line takes what is between them.
+inline constexpr double kHoldingKerfs = 2.5;
 
 struct CommonDrawing {
   std::vector<CommonRim> rims;

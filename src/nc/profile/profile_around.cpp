@@ -60,15 +60,14 @@ bool KerfsAround::keeps_apart(std::size_t own, const geom::Edge& line, double by
 
 bool KerfsAround::goes_along(std::size_t own, const WrittenEdge& line) const {
   const geom::Curve curve = geom::make_curve(edge_mm(line, resolution_));
-  const double half = 0.5 * kerf_;
-  return !tree_->visit_meeting_while(geom::grown(geom::curve_box(curve), half), [&](std::uint32_t i) {
+  return !tree_->visit_meeting_while(geom::grown(geom::curve_box(curve), kerf_), [&](std::uint32_t i) {
     const geom::Edge& edge = edges_[i].edge;
     if (cut_of_[i] == own || edge.kind != geom::EdgeKind::line) return true;
     if (!(std::abs(geom::cross(curve.unit, edges_[i].unit)) < 0.2)) return true;
     const double first = geom::dot(edge.from - curve.edge.from, curve.unit),
                  last = geom::dot(edge.to - curve.edge.from, curve.unit);
     const double both = std::min(std::max(first, last), curve.length) - std::max(std::min(first, last), 0.0);
-    return !(both > half && geom::closest_points(curve, edges_[i]).distance < half);
+    return !(both > 0.5 * kerf_ && geom::closest_points(curve, edges_[i]).distance < kerf_);
   });
 }
 

@@ -25,7 +25,7 @@ class KerfsAround {
   /// True when this line keeps so far from all other cuts.
   [[nodiscard]] bool keeps_apart(std::size_t own, const geom::Edge& line, double by) const;
 
-  /// True where this line goes along a straight edge of another cut, within half a kerf of it.
+  /// True where this line goes along a straight edge of another cut, so near that their kerfs meet.
   [[nodiscard]] bool goes_along(std::size_t own, const WrittenEdge& line) const;
   /// The other cuts on which a place lies, within this, ascending.
   [[nodiscard]] std::vector<std::size_t> holding(std::size_t own, WrittenPoint p, double within) const;
