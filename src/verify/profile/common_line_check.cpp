@@ -15,6 +15,7 @@ namespace {
 constexpr double kWordRounding = 2e-3;  // mm
 constexpr double kLongestSample = 1;    // mm
 constexpr double kSameWay = 0.2;        ///< the sine of the angle below which two cuts run one way
+constexpr double kAskedKerfs = 2.5;  ///< a stretch of a cut that is longer has to belong to a part that holds
 constexpr std::size_t kMostCommonSteps = 2'000'000'000;
 
 StrokeIndex index_of(const Strokes& strokes) {
@@ -195,13 +196,13 @@ std::vector<CommonLineCheck::Along> CommonLineCheck::stretches() const {
 
 /// Nothing is cut of a part round which the kerfs before have closed. Each cut is looked at in stretches that
 /// run beside the same parts, because one cut frees several of them. The last of a part may be so short that
-/// the kerfs at its two ends meet already: it is not asked.
+/// the kerfs at its two ends, or with that of a lead, meet already: it is not asked.
 void CommonLineCheck::check_loose(ClaimReport& report) const {
   const std::vector<Along> all = stretches();
   LooseCheck loose(words_.kerf_mm);
   for (std::size_t k = 0; k < all.size(); ++k) loose.add(all[k].strokes, k);
   for (std::size_t k = 0; k < all.size(); ++k) {
-    if (!(all[k].length_mm() > 1.5 * words_.kerf_mm)) continue;
+    if (!(all[k].length_mm() > kAskedKerfs * words_.kerf_mm)) continue;
     for (const std::size_t contour : all[k].contours) {
       if (loose.steps() > kMostCommonSteps) {
         report.unchecked.push_back(
