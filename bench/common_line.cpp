@@ -125,8 +125,8 @@ Made made(layout::Document document, bool common, double kerf, double gap, std::
   }
   for (const std::string& note : exported->notes) {
     double off = 0;
-    const std::size_t at = note.find("at size within ");
-    if (at != std::string::npos && std::sscanf(note.c_str() + at, "at size within %lf", &off) == 1)
+    const std::size_t at = note.find("at half a kerf, within ");
+    if (at != std::string::npos && std::sscanf(note.c_str() + at, "at half a kerf, within %lf", &off) == 1)
       figures.off_mm = std::max(figures.off_mm, off);
   }
   nc::MachineModel machine;

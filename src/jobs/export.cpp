@@ -14,6 +14,7 @@
 #include "lekalo/jobs/show.hpp"
 #include "lekalo/layout/completeness.hpp"
 #include "lekalo/layout/material_words.hpp"
+#include "lekalo/verify/claims.hpp"
 
 namespace lekalo::jobs {
 namespace {
@@ -77,6 +78,32 @@ void tell_other_materials(const layout::Document& document, const io::CutProcess
   }
 }
 
+/// Cuts that parts share have no contour of their own, and what their order holds and frees is easily got
+/// wrong: the independent checker looks at every program before anyone has it.
+Result<void> check_common_lines(const Layout& layout, const io::ExportRequest& request,
+                                const std::vector<io::ExportedFile>& programs) {
+  const std::string bytes = layout_bytes(layout);
+  const verify::Document document{layout.name, bytes};
+  for (const io::ExportedFile& program : programs) {
+    const std::string name = "the program of sheet " + program.sheet;
+    verify::ProfileWords words;
+    words.sheet = program.sheet;
+    words.kerf_mm = request.profile.kerf_mm, words.tolerance_mm = request.profile.tolerance_mm;
+    words.control = request.profile.post.language;
+    words.pierce_diameter_mm = request.profile.pierce_diameter_mm;
+    words.common_line = true;
+    LEKALO_TRY(const verify::ClaimReport report,
+               verify::verify_profile({name, program.bytes}, document, words));
+    if (!report.findings.empty())
+      return failure(
+          ErrorCode::refuted,
+          fmt::format("sheet {}: with common lines the independent checker does not confirm the program, so "
+                      "it is not written ({}); leave out the common lines",
+                      program.sheet, report.findings.front()));
+  }
+  return {};
+}
+
 Result<io::Exported> machine_files(const Layout& layout, const ExportOptions& options) {
   LEKALO_TRY(const MachineRequest machine, machine_request(layout, options));
   LEKALO_TRY(io::Exported made, export_machine(layout, options, machine.request));
@@ -127,6 +154,10 @@ Result<io::Exported> export_machine(const Layout& layout, const ExportOptions& o
                                     const io::ExportRequest& request) {
   Result<io::Exported> made = io::export_layout(layout.document, title_of(layout, options), request);
   if (!made) return fault_of(layout, made.error());
+  if (request.form == io::ExportForm::gcode && request.profile.common_line) {
+    if (const Result<void> confirmed = check_common_lines(layout, request, made->files); !confirmed)
+      return fault_of(layout, confirmed.error());
+  }
   return made;
 }
 

@@ -355,7 +355,7 @@ TEST(CliExport, EdgesInCommonAreCutOnceAndVerifySaysSo) {
   write_bytes(folder / "cut.nc", less.erase(begin, line.size()));
   const Ran missing = run(folder.path(), verify + common);
   EXPECT_EQ(missing.status, 4);
-  EXPECT_NE(missing.err.find("is not cut near"), std::string::npos) << missing.err;
+  EXPECT_NE(missing.err.find("from the middle of the nearest cut near"), std::string::npos) << missing.err;
   write_bytes(folder / "cut.nc", twice.insert(begin, line));
   const Ran again = run(folder.path(), verify + common);
   EXPECT_EQ(again.status, 4);

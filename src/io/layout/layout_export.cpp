@@ -194,8 +194,7 @@ std::string edges_in_common(const nc::ProfileProgram& p, const nc::ProfileOption
         "them once)",
         p.shared_mm);
   std::string said = fmt::format(
-      "; {:.0f} mm of edges that two parts have in common are cut once, in {}, and both parts come out at "
-      "size "
+      "; {:.0f} mm of edges that two parts have in common are cut once, in {} beside both at half a kerf, "
       "within {:.5f} mm",
       p.shared_mm, p.common_lines == 1 ? "1 line" : fmt::format("{} lines", p.common_lines),
       p.common_off_mm + 0.5e-5);

@@ -16,6 +16,8 @@ constexpr double kWordRounding = 2e-3;  // mm
 constexpr double kLongestSample = 1;    // mm
 constexpr double kSameWay = 0.2;        ///< the sine of the angle below which two cuts run one way
 constexpr double kAskedKerfs = 2.5;  ///< a stretch of a cut that is longer has to belong to a part that holds
+/// A cut may go over the end of another, and some way beyond it.
+constexpr double kMostTwice = 2;
 constexpr std::size_t kMostCommonSteps = 2'000'000'000;
 
 StrokeIndex index_of(const Strokes& strokes) {
@@ -85,7 +87,7 @@ void CommonLineCheck::check_sizes(ClaimReport& report) {
       "the middle of a cut is half a kerf beside every contour, within {:.4f} mm", farthest + 5e-5));
 }
 
-/// No cut goes along another, or along itself, within the tolerance for more than a kerf.
+/// No cut goes along another, or along itself, within the tolerance for more than kMostTwice kerfs.
 void CommonLineCheck::check_once(ClaimReport& report) const {
   const double step = 0.25 * words_.kerf_mm, same = words_.tolerance_mm;
   std::vector<std::uint32_t> near;
@@ -105,7 +107,7 @@ void CommonLineCheck::check_once(ClaimReport& report) const {
         return length(on - at) <= same && std::abs(cross(way, heading(pieces_[j], on))) < kSameWay;
       });
       twice = is_there ? twice + each : 0;
-      if (!(twice > words_.kerf_mm)) continue;
+      if (!(twice > kMostTwice * words_.kerf_mm)) continue;
       report.findings.push_back(fmt::format("line {}: what it cuts near ({:.4f}, {:.4f}) is cut twice",
                                             cuts_[cut_of_piece_[i]]->line, at.x, at.y));
       return;
