@@ -6,18 +6,23 @@
 #include <cmath>
 
 #include "lekalo/base/stop.hpp"
-#include "loose_check.hpp"
 
 namespace lekalo::verify {
 namespace {
 
 /// Words have three decimals of a millimetre or more.
 constexpr double kWordRounding = 2e-3;  // mm
-constexpr double kLongestSample = 1;    // mm
-constexpr double kSameWay = 0.2;        ///< the sine of the angle below which two cuts run one way
-constexpr double kAskedKerfs = 2.5;  ///< a stretch of a cut that is longer has to belong to a part that holds
+/// Of a contour no more than this may be without a cut beside it: a share of the kerf.
+constexpr double kMostOpenKerfs = 1.0 / 16;
+constexpr double kSameWay = 0.2;  ///< the sine of the angle below which two cuts run one way
 /// A cut may go over the end of another, and some way beyond it.
 constexpr double kMostTwice = 2;
+/// A part that hangs on by less than a quarter of a kerf is taken for loose: kerfs so near to each other
+/// meet.
+constexpr double kLooseKerfs = 1.25;
+/// What is left to cut of a part when its last kerfs meet: where they meet aslant, it is longer than a kerf.
+constexpr double kMostAfterLoose = 2.5;
+constexpr double kLoosePiece = 20;  // mm
 constexpr std::size_t kMostCommonSteps = 2'000'000'000;
 
 StrokeIndex index_of(const Strokes& strokes) {
@@ -37,41 +42,95 @@ CommonLineCheck::CommonLineCheck(const std::vector<const CutChain*>& cuts,
     for (const Stroke& edge : cuts[c]->edges) add_pieces(edge, kInfinity, pieces_);
     cut_of_piece_.resize(pieces_.size(), c);
   }
-  for (std::size_t i = 0; i < contours.size(); ++i) {
-    edges_.insert(edges_.end(), contours[i].ring->pieces.begin(), contours[i].ring->pieces.end());
-    contour_of_edge_.resize(edges_.size(), i);
-  }
+  for (const CommonContour& contour : contours)
+    edges_.insert(edges_.end(), contour.ring->pieces.begin(), contour.ring->pieces.end());
   index_ = index_of(pieces_);
   edge_index_ = index_of(edges_);
+  add_parts();
+}
+
+/// A place well inside of each part: from the middles of its edges inwards, by halves of its size.
+void CommonLineCheck::add_parts() {
+  for (std::size_t i = 0; i < contours_.size(); ++i) {
+    if (!contours_[i].is_hole) parts_.push_back({fmt::format("placement {}", contours_[i].part), {}, {}, {}});
+    parts_.back().contours.push_back(i);
+  }
+  for (Part& part : parts_) {
+    const ContourRing& outline = *contours_[part.contours[0]].ring;
+    part.extent.add(outline.pieces);
+    const double size = length(part.extent.high - part.extent.low);
+    double most = 0;
+    for (const Stroke& edge : outline.pieces) {
+      ask();
+      const Place middle = at_share(edge, 0.5);
+      const Place inwards = (outline.area() < 0 ? -1.0 : 1.0) * left_of(heading(edge, middle));
+      for (double far = 0.5 * size; far > 1e-3 * half_; far *= 0.5) {
+        const Place p = middle + far * inwards;
+        if (!outline.encloses(p) ||
+            std::any_of(part.contours.begin() + 1, part.contours.end(),
+                        [&](std::size_t hole) { return contours_[hole].ring->encloses(p); }))
+          continue;
+        if (const double deep = distance_of(part, p); deep > most) most = deep, part.inside = p;
+      }
+    }
+  }
+}
+
+double CommonLineCheck::distance_of(const Part& part, Place p) const {
+  double least = kInfinity;
+  for (const std::size_t contour : part.contours)
+    least = std::min(least, contours_[contour].ring->distance_of(p));
+  return least;
 }
 
 void CommonLineCheck::judge(ClaimReport& report) {
   check_sizes(report);
   check_once(report);
   check_leads(report);
+  check_free(report);
   check_loose(report);
 }
 
 /// A cut so near to a contour runs beside it.
 double CommonLineCheck::reach() const { return half_ + words_.tolerance_mm + kWordRounding; }
 
+double CommonLineCheck::beside_up_to(const Stroke& edge, double from) const {
+  const double whole = length(edge);
+  const Place way = heading(edge, edge.from), at = edge.from + from * way;
+  std::vector<std::uint32_t> near;
+  index_.near(at, reach(), near);
+  double most = from;
+  for (const std::uint32_t i : near) {
+    const auto is_beside = [&](double s) { return distance(edge.from + s * way, pieces_[i]) <= reach(); };
+    // Places near to a straight cut are a convex set.
+    if (pieces_[i].arc || !is_beside(from)) continue;
+    if (is_beside(whole)) return whole;
+    double beside = from, open = whole;
+    while (open - beside > 1e-3 * half_) {
+      const double middle = 0.5 * (beside + open);
+      (is_beside(middle) ? beside : open) = middle;
+    }
+    most = std::max(most, beside);
+  }
+  return most;
+}
+
 /// The middle of the nearest cut is half a kerf from each place of each contour, where half a kerf has room
 /// beside it. That no cut comes nearer is asked of every cut anyway.
 void CommonLineCheck::check_sizes(ClaimReport& report) {
-  const double step = std::min(kLongestSample, words_.kerf_mm);
-  double farthest = 0;
+  const double step = kMostOpenKerfs * words_.kerf_mm;
   for (const CommonContour& contour : contours_) {
     const bool right = std::signbit(contour.ring->area()) == contour.is_hole;
     bool is_told = false;
     for (const Stroke& piece : contour.ring->pieces) {
-      const int samples = static_cast<int>(std::ceil(length(piece) / step));
-      for (int k = 0; k < samples && !is_told; ++k) {
+      const double whole = length(piece);
+      for (double s = 0.5 * std::min(step, whole); s < whole && !is_told; s += step) {
         ask();
-        const Place at = at_share(piece, (k + 0.5) / samples);
+        if (!piece.arc) s = beside_up_to(piece, s);
+        const Place at = piece.arc ? at_share(piece, s / whole) : piece.from + s * heading(piece, piece.from);
         const Place middle = at + (right ? -half_ : half_) * left_of(heading(piece, at));
         if (!(contour.ring->distance_of(middle) >= half_ - 1e-7)) continue;
         const double apart = index_.nearest(at, pieces_);
-        farthest = std::max(farthest, std::abs(apart - half_));
         if (apart <= reach()) continue;
         is_told = true;
         report.findings.push_back(
@@ -83,19 +142,21 @@ void CommonLineCheck::check_sizes(ClaimReport& report) {
       }
     }
   }
-  report.notes.push_back(fmt::format(
-      "the middle of a cut is half a kerf beside every contour, within {:.4f} mm", farthest + 5e-5));
+  report.notes.push_back(
+      fmt::format("the middle of a cut is half a kerf beside every contour, within {:.4f} mm",
+                  words_.tolerance_mm + kWordRounding));
 }
 
 /// No cut goes along another, or along itself, within the tolerance for more than kMostTwice kerfs.
 void CommonLineCheck::check_once(ClaimReport& report) const {
   const double step = 0.25 * words_.kerf_mm, same = words_.tolerance_mm;
   std::vector<std::uint32_t> near;
+  double twice = 0;
   for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
     const Stroke& piece = pieces_[i];
     const int samples = std::max(1, static_cast<int>(std::ceil(length(piece) / step)));
     const double each = length(piece) / samples;
-    double twice = 0;
+    if (i > 0 && cut_of_piece_[i] != cut_of_piece_[i - 1]) twice = 0;
     for (int k = 0; k < samples; ++k) {
       ask();
       const Place at = at_share(piece, (k + 0.5) / samples), way = heading(piece, at);
@@ -153,70 +214,93 @@ void CommonLineCheck::check_leads(ClaimReport& report) const {
   }
 }
 
-std::vector<std::size_t> CommonLineCheck::contours_beside(Place p) const {
-  std::vector<std::uint32_t> near;
-  edge_index_.near(p, reach(), near);
-  std::vector<std::size_t> beside;
-  for (const std::uint32_t i : near)
-    if (distance(p, edges_[i]) <= reach()) beside.push_back(contour_of_edge_[i]);
-  std::sort(beside.begin(), beside.end());
-  beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
-  return beside;
-}
-
-double CommonLineCheck::Along::length_mm() const {
-  double sum = 0;
-  for (const Stroke& stroke : strokes) sum += length(stroke);
-  return sum;
-}
-
-std::vector<CommonLineCheck::Along> CommonLineCheck::stretches() const {
-  std::vector<Along> all;
-  std::size_t last_cut = cuts_.size();
-  for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
-    const Stroke& piece = pieces_[i];
-    const int samples = std::max(1, static_cast<int>(std::ceil(length(piece) / half_)));
-    Place from = piece.from;
-    for (int k = 0; k < samples; ++k) {
-      ask();
-      std::vector<std::size_t> beside = contours_beside(at_share(piece, (k + 0.5) / samples));
-      const Place to = k + 1 == samples ? piece.to : at_share(piece, (k + 1.0) / samples);
-      if (last_cut != cut_of_piece_[i] || all.back().contours != beside)
-        all.push_back({cuts_[cut_of_piece_[i]]->line, {}, std::move(beside)});
-      last_cut = cut_of_piece_[i];
-      Strokes& strokes = all.back().strokes;
-      // Straight pieces become one again, which keeps the question of what is loose short.
-      if (!piece.arc && k > 0 && !strokes.empty() && !strokes.back().arc)
-        strokes.back().to = to;
-      else
-        strokes.push_back({piece.arc, piece.ccw, from, to, piece.centre, piece.radius});
-      from = to;
+/// In the end the kerfs close round every part, and between any two that are near each other.
+void CommonLineCheck::check_free(ClaimReport& report) const {
+  LooseCheck kerfs(words_.kerf_mm);
+  for (std::size_t c = 0; c < cuts_.size(); ++c) kerfs.add(cuts_[c]->edges, c);
+  for (std::size_t a = 0; a < parts_.size(); ++a) {
+    if (!kerfs.parted_at(parts_[a].inside)) {
+      report.findings.push_back(parts_[a].name + " still hangs on after the last cut");
+      return;
     }
-  }
-  return all;
-}
-
-/// Nothing is cut of a part round which the kerfs before have closed. Each cut is looked at in stretches that
-/// run beside the same parts, because one cut frees several of them. The last of a part may be so short that
-/// the kerfs at its two ends, or with that of a lead, meet already: it is not asked.
-void CommonLineCheck::check_loose(ClaimReport& report) const {
-  const std::vector<Along> all = stretches();
-  LooseCheck loose(words_.kerf_mm);
-  for (std::size_t k = 0; k < all.size(); ++k) loose.add(all[k].strokes, k);
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    if (!(all[k].length_mm() > kAskedKerfs * words_.kerf_mm)) continue;
-    for (const std::size_t contour : all[k].contours) {
-      if (loose.steps() > kMostCommonSteps) {
-        report.unchecked.push_back(
-            "order: the cuts are too many to look for parts that several kerfs free together");
+    for (std::size_t b = 0; b < a; ++b) {
+      const Place gap{std::max(parts_[a].extent.low.x - parts_[b].extent.high.x,
+                               parts_[b].extent.low.x - parts_[a].extent.high.x),
+                      std::max(parts_[a].extent.low.y - parts_[b].extent.high.y,
+                               parts_[b].extent.low.y - parts_[a].extent.high.y)};
+      if (std::max(gap.x, gap.y) > 2 * words_.kerf_mm) continue;
+      if (kerfs.steps() > kMostCommonSteps) {
+        report.unchecked.push_back("cuts: they are too many to look whether all parts are free in the end");
         return;
       }
-      if (!loose.is_loose(contours_[contour].ring->pieces[0].from, k, all.size())) continue;
-      report.findings.push_back(fmt::format("line {}: {} is cut when the kerfs before it have made it loose",
-                                            all[k].line, contours_[contour].name));
+      if (kerfs.parted_at(parts_[a].inside, parts_[b].inside)) continue;
+      report.findings.push_back(
+          fmt::format("{} and {} still hang together after the last cut", parts_[b].name, parts_[a].name));
       return;
     }
   }
+}
+
+/// Nothing is cut of a part that is loose, but for what the kerfs that freed it have all but cut.
+void CommonLineCheck::check_loose(ClaimReport& report) const {
+  LooseCheck held(kLooseKerfs * words_.kerf_mm);
+  for (std::size_t c = 0; c < cuts_.size(); ++c) held.add(cuts_[c]->edges, c);
+  const StrokeIndex index = index_of(held.pieces());
+  for (const Part& part : parts_) {
+    if (held.steps() > kMostCommonSteps) {
+      report.unchecked.push_back(
+          "order: the cuts are too many to look for parts that several kerfs free together");
+      return;
+    }
+    const std::optional<LooseCheck::Moment> loose = held.parted_at(part.inside);
+    if (!loose) continue;
+    if (std::string finding = cut_when_loose(part, held, index, *loose); !finding.empty()) {
+      report.findings.push_back(std::move(finding));
+      return;
+    }
+  }
+}
+
+std::string CommonLineCheck::cut_when_loose(const Part& part, const LooseCheck& held,
+                                            const StrokeIndex& index, LooseCheck::Moment loose) const {
+  const double meeting = kLooseKerfs * words_.kerf_mm, step = words_.kerf_mm / 8;
+  Strokes around;
+  for (const std::size_t contour : part.contours)
+    for (const Stroke& edge : contours_[contour].ring->pieces) add_pieces(edge, kLoosePiece, around);
+  std::vector<std::uint32_t> beside, near;
+  for (const Stroke& edge : around) {
+    near.clear();
+    index.near(at_share(edge, 0.5), 0.5 * length(edge) + reach(), near);
+    beside.insert(beside.end(), near.begin(), near.end());
+  }
+  std::sort(beside.begin(), beside.end());
+  beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+  const auto was_cut = [&](Place p) {
+    near.clear();
+    index.near(p, meeting, near);
+    return std::any_of(near.begin(), near.end(), [&](std::uint32_t i) {
+      if (i > loose.piece) return false;
+      const Stroke& before = held.pieces()[i];
+      return distance(p, i < loose.piece ? before : until(before, at_share(before, loose.share))) <= meeting;
+    });
+  };
+  double after = 0;
+  for (const std::uint32_t i : beside) {
+    if (i < loose.piece) continue;
+    const Stroke& piece = held.pieces()[i];
+    const double begin = i == loose.piece ? loose.share : 0, whole = (1 - begin) * length(piece);
+    const int samples = std::max(1, static_cast<int>(std::ceil(whole / step)));
+    for (int k = 0; k < samples; ++k) {
+      ask();
+      const Place at = at_share(piece, begin + (1 - begin) * (k + 0.5) / samples);
+      if (!(distance_of(part, at) <= reach())) continue;
+      after += whole / samples;
+      if (was_cut(at) && after <= kMostAfterLoose * words_.kerf_mm) continue;
+      return fmt::format("line {}: {} is cut near ({:.4f}, {:.4f}) when the kerfs before have made it loose",
+                         cuts_[held.cut_of(i)]->line, part.name, at.x, at.y);
+    }
+  }
+  return "";
 }
 
 }  // namespace lekalo::verify

@@ -1,26 +1,29 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "contour_ring.hpp"
 #include "lekalo/verify/claims.hpp"
+#include "loose_check.hpp"
 #include "profile_moves.hpp"
 
 namespace lekalo::verify {
 
 /// A contour of a part that cuts have to run beside.
 struct CommonContour {
+  std::uint64_t part = 0;  ///< contours of one part stand one after the other, the outline first
   bool is_hole = false;
   std::string name;
   const ContourRing* ring = nullptr;
 };
 
 /// Judges the cuts of a sheet on which parts may share them. No cut has a contour of its own; asked is of the
-/// contours, all of them whether a cut runs beside each place at half a kerf, and of the cuts whether they go
-/// along each other, and whether they cut anything of a part that the cuts before have made loose.
-/// docs/design/common-line.md says why that is enough.
+/// contours whether a cut runs beside each place at half a kerf, of the parts whether all of them are free in
+/// the end, and of the cuts whether they go along each other, and whether they cut anything of a part that
+/// the cuts before have made loose. docs/design/common-line.md says why that is enough.
 class CommonLineCheck {
  public:
   /// \param cuts  those that go through, in the order of the program
@@ -31,22 +34,27 @@ class CommonLineCheck {
   void judge(ClaimReport& report);
 
  private:
-  /// A stretch of a cut along which the same parts lie.
-  struct Along {
-    std::size_t line = 0;
-    Strokes strokes;
-    std::vector<std::size_t> contours;  ///< ascending
-    [[nodiscard]] double length_mm() const;
+  struct Part {
+    std::string name;
+    std::vector<std::size_t> contours;
+    Place inside;  ///< a place of its material
+    StrokeExtent extent;
   };
+  void add_parts();
 
   void check_sizes(ClaimReport& report);
   void check_once(ClaimReport& report) const;
   void check_leads(ClaimReport& report) const;
+  void check_free(ClaimReport& report) const;
   void check_loose(ClaimReport& report) const;
 
+  /// The distance from `from` along a straight edge up to which a cut is near enough.
+  [[nodiscard]] double beside_up_to(const Stroke& edge, double from) const;
+  /// What is cut of a part after it is loose, for the reason that makes it wrong; empty where there is none.
+  [[nodiscard]] std::string cut_when_loose(const Part& part, const LooseCheck& held, const StrokeIndex& index,
+                                           LooseCheck::Moment loose) const;
   [[nodiscard]] double reach() const;
-  [[nodiscard]] std::vector<std::size_t> contours_beside(Place p) const;
-  [[nodiscard]] std::vector<Along> stretches() const;
+  [[nodiscard]] double distance_of(const Part& part, Place p) const;
 
   const std::vector<const CutChain*>& cuts_;
   const std::vector<CommonContour>& contours_;
@@ -56,8 +64,8 @@ class CommonLineCheck {
   std::vector<std::size_t> cut_of_piece_;
   StrokeIndex index_;
   Strokes edges_;  ///< of all contours
-  std::vector<std::size_t> contour_of_edge_;
   StrokeIndex edge_index_;
+  std::vector<Part> parts_;
 };
 
 }  // namespace lekalo::verify

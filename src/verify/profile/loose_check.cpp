@@ -1,5 +1,6 @@
 #include "loose_check.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -135,6 +136,53 @@ bool LooseCheck::is_loose(Place p, std::size_t before, std::size_t of) {
     if (tree.join(cut_of_piece_[meeting.a], cut_of_piece_[meeting.b], way)) return true;
   }
   return false;
+}
+
+double LooseCheck::begins_at(const Meeting& meeting) const {
+  const Stroke &later = pieces_[meeting.b], &earlier = pieces_[meeting.a];
+  const auto meets = [&](Place p) { return distance(p, earlier) < kerf_ - kMeetingReserve; };
+  if (meets(later.from)) return 0;
+  // The distance of a straight piece from another falls up to the nearest place.
+  const double whole = length(later);
+  double apart = 0, together = std::min(1.0, length(until(later, meeting.on_b)) / whole);
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle = 0.5 * (apart + together);
+    (meets(at_share(later, middle)) ? together : apart) = middle;
+  }
+  return apart;
+}
+
+std::optional<LooseCheck::Moment> LooseCheck::parted_at(Place p, std::optional<Place> q) {
+  if (!is_ready_) find_meetings();
+  steps_ += pieces_.size() + meetings_.size();
+  ask();
+  const auto turns = [&](Place from, Place to) {
+    return windings(from, to, p) - (q ? windings(from, to, *q) : 0);
+  };
+  std::vector<int> along(pieces_.size(), 0);
+  for (const Cut& cut : cuts_)
+    for (std::size_t i = cut.first + 1; i < cut.last; ++i)
+      along[i] = along[i - 1] + turns(pieces_[i - 1].from, pieces_[i - 1].to);
+  const auto join = [&](WindingTree& tree, const Meeting& meeting) {
+    const Place from = pieces_[meeting.a].from, to = pieces_[meeting.b].from;
+    const int way = along[meeting.a] + turns(from, meeting.on_a) + turns(meeting.on_a, meeting.on_b) +
+                    turns(meeting.on_b, to) - along[meeting.b];
+    return tree.join(cut_of_piece_[meeting.a], cut_of_piece_[meeting.b], way);
+  };
+  WindingTree tree(cuts_.size());
+  const auto closing =
+      std::find_if(meetings_.begin(), meetings_.end(), [&](const Meeting& m) { return join(tree, m); });
+  if (closing == meetings_.end()) return std::nullopt;
+  // Of all that the last piece meets, it is asked in the order of the cut which meeting closes the ring.
+  WindingTree before(cuts_.size());
+  auto own = meetings_.begin();
+  for (; own->b < closing->b; ++own) join(before, *own);
+  std::vector<std::pair<double, const Meeting*>> by_share;
+  for (; own != meetings_.end() && own->b == closing->b; ++own) by_share.emplace_back(begins_at(*own), &*own);
+  std::sort(by_share.begin(), by_share.end());
+  const auto first = std::find_if(by_share.begin(), by_share.end(),
+                                  [&](const auto& one) { return join(before, *one.second); });
+  return Moment{closing->b, first->first};
 }
 
 }  // namespace lekalo::verify

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,20 @@ class LooseCheck {
   /// nearer than a kerf. Cost: O(pieces before + meetings). \pre p does not lie in a kerf
   [[nodiscard]] bool is_loose(Place p, std::size_t before, std::size_t of);
 
-  /// How many steps is_loose() has taken, so that a check of many cuts can end.
+  /// A moment of the program: a piece of a cut, in the order of the cuts, is there up to this share of it.
+  struct Moment {
+    std::size_t piece = 0;
+    double share = 0;
+  };
+  /// Returns the moment from which on the kerfs close round p, or between p and q where there is a q; none
+  /// where all cuts together do not. Cost: as is_loose. \pre neither place lies in a kerf
+  [[nodiscard]] std::optional<Moment> parted_at(Place p, std::optional<Place> q = std::nullopt);
+
+  [[nodiscard]] const Strokes& pieces() const { return pieces_; }
+  /// The number of the add() that brought a piece, from 0.
+  [[nodiscard]] std::size_t cut_of(std::size_t piece) const { return cut_of_piece_[piece]; }
+
+  /// How many steps is_loose() and parted_at() have taken, so that a check of many cuts can end.
   [[nodiscard]] std::size_t steps() const { return steps_; }
 
  private:
@@ -38,12 +52,14 @@ class LooseCheck {
     Place on_a, on_b;
   };
   void find_meetings();
+  /// The share of the later piece of a meeting from which on the two meet.
+  [[nodiscard]] double begins_at(const Meeting& meeting) const;
 
   double kerf_;
   Strokes pieces_;
   std::vector<std::size_t> cut_of_piece_;
   std::vector<Cut> cuts_;
-  std::vector<Meeting> meetings_;
+  std::vector<Meeting> meetings_;  ///< ascending by b, the later piece
   bool is_ready_ = false;
   std::size_t steps_ = 0;
 };

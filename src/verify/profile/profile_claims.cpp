@@ -244,7 +244,8 @@ class ProfileCheck {
       return;
     }
     std::vector<CommonContour> contours;
-    for (const Wanted& wanted : wanted_) contours.push_back({wanted.hole != 0, wanted.name(), &wanted.ring});
+    for (const Wanted& wanted : wanted_)
+      contours.push_back({wanted.part, wanted.hole != 0, wanted.name(), &wanted.ring});
     CommonLineCheck(through, contours, words_).judge(report_);
   }
 
