@@ -38,6 +38,15 @@ void split_lines(std::vector<WrittenEdge>& path, const Resolution& resolution, d
   path = std::move(split);
 }
 
+/// Says whether two lines that end at one place come to it the same way, as a lead to a corner that points
+/// inwards comes along the edge before it.
+bool come_one_way(const WrittenEdge& a, const WrittenEdge& b, const Resolution& resolution) {
+  if (a.kind != EdgeKind::line || b.kind != EdgeKind::line) return false;
+  const Point way_a = resolution.mm(a.to) - resolution.mm(a.from),
+              way_b = resolution.mm(b.to) - resolution.mm(b.from);
+  return geom::dot(way_a, way_b) > 0.99 * geom::norm(way_a) * geom::norm(way_b);
+}
+
 /// A pierce that is nearer to its own contour than this would burn into the part.
 bool needs_room(const ProfileOptions& options) {
   return 0.5 * options.pierce_diameter_mm > 0.5 * options.kerf_mm + options.tolerance_mm;
@@ -89,11 +98,13 @@ class StartFinder {
       const std::size_t edge = edge_at(k, most);
       const WrittenPoint at = path_[edge].from;
       // Both edges at a start go one way, because the path is smooth, in the middle of a stretch and at the
-      // end of a corner's arc alike. Corners that point inwards are no exception that matters: the proof
-      // decides.
+      // end of a corner's arc alike. At corners that point inwards the proof decides, and a lead along the
+      // edge before would cut it twice.
       auto lead = lead_to(at, direction_at_start(edge_mm(path_[edge], resolution_)), length, options_.lead,
                           resolution_);
       if (lead.size() != 1 || lead.back().to != at || !around_.proof.stays_out(lead)) continue;
+      const WrittenEdge& before = path_[(edge + path_.size() - 1) % path_.size()];
+      if (come_one_way(lead.back(), before, resolution_)) continue;
       const WrittenPoint pierce = lead.front().from;
       if (options_.pierce_diameter_mm > 0 &&
           !around_.proof.disc_stays_out(pierce, 0.5 * options_.pierce_diameter_mm))
