@@ -334,7 +334,7 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& placed, c
   LEKALO_CHECK(check_pierces(parts, cuts, starts, options));
   LEKALO_TRY(rules.rings, loose_rings(parts, cuts, rules.enclosing, options));
   std::vector<OrderedCut> order = ordered_cuts(starts, rules, kerfs, resolution);  // step 6
-  put_common_cuts_in_order(common, cuts, starts, resolution, order);
+  put_common_cuts_in_order(common, cuts, starts, options, order);
   LEKALO_CHECK(check_crossings(parts, cuts, order, settle_starts(starts, options, order), options, program));
   tell_heat(starts, order, kerfs, options, program);
 

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "common_lines.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/region_index.hpp"
@@ -328,9 +329,20 @@ std::vector<std::size_t> enclosing_cuts(const std::vector<ProfilePart>& parts, c
 }
 
 void put_common_cuts_in_order(const CommonCuts& common, const std::vector<Cut>& cuts,
-                              const std::vector<Starts>& starts, const Resolution& resolution,
+                              const std::vector<Starts>& starts, const ProfileOptions& options,
                               std::vector<OrderedCut>& order) {
   if (common.clusters.empty()) return;
+  const Resolution resolution = resolution_of(options);
+  // An outline that began beside the end of a line would leave a part there by a hair until it comes back.
+  const auto is_at_line = [&](const CommonCluster* cluster, WrittenPoint p) {
+    return cluster != nullptr &&
+           std::any_of(cluster->inner.begin(), cluster->inner.end(), [&](std::size_t cut) {
+             if (!cuts[cut].is_line) return false;
+             const Point at = resolution.mm(p), from = resolution.mm(cuts[cut].path.front().from),
+                         to = resolution.mm(cuts[cut].path.back().to);
+             return !(std::min(geom::norm(from - at), geom::norm(to - at)) > kHoldingKerfs * options.kerf_mm);
+           });
+  };
   std::vector<bool> is_inner(cuts.size(), false);
   std::vector<const CommonCluster*> cluster_of(cuts.size(), nullptr);
   for (const CommonCluster& cluster : common.clusters) {
@@ -350,11 +362,12 @@ void put_common_cuts_in_order(const CommonCuts& common, const std::vector<Cut>& 
     const Cut& cut = cuts[ordered.cut];
     const std::vector<Start>& choices = starts[ordered.cut].choices;
     if (is_inner[ordered.cut] || cluster_of[ordered.cut] != nullptr) {
-      std::tuple least{std::numeric_limits<std::size_t>::max(), std::size_t{0},
+      std::tuple least{std::numeric_limits<std::size_t>::max(), false, std::size_t{0},
                        std::numeric_limits<double>::infinity()};
       for (std::size_t k = 0; k < choices.size(); ++k) {
         const std::tuple merit{choices[k].unwelcome([&](std::size_t other) { return bool(is_there[other]); }),
-                               choices[k].bends, travel(here, resolution.mm(choices[k].pierce))};
+                               is_at_line(cluster_of[ordered.cut], choices[k].on_contour), choices[k].bends,
+                               travel(here, resolution.mm(choices[k].pierce))};
         if (merit < least) least = merit, ordered.start = k;
       }
     }

@@ -45,9 +45,10 @@ struct OrderRules {
                                                    const KerfsAround& kerfs, const Resolution& resolution);
 
 /// Puts lines and pockets of clusters before the outlines of these, in the order that they have to keep, and
-/// chooses their starts anew. \pre an order without a heat spread: what a cluster waits for stands before it
+/// chooses their starts anew, of outlines away from the ends of lines where there are such. \pre an order
+/// without a heat spread: what a cluster waits for stands before it
 void put_common_cuts_in_order(const CommonCuts& common, const std::vector<Cut>& cuts,
-                              const std::vector<Starts>& starts, const Resolution& resolution,
+                              const std::vector<Starts>& starts, const ProfileOptions& options,
                               std::vector<OrderedCut>& order);
 
 /// Gives cuts whose lead or pierce would meet the lead of a cut before them another start, one that meets no

@@ -83,6 +83,20 @@ double CommonLineCheck::distance_of(const Part& part, Place p) const {
   return least;
 }
 
+/// The place of the part's edges that is nearest to a place within reach; one that is far off for others.
+Place CommonLineCheck::nearest_of(const Part& part, Place p) const {
+  Place nearest{kInfinity, kInfinity};
+  double least = kInfinity;
+  for (const std::size_t contour : part.contours) {
+    const ContourRing& ring = *contours_[contour].ring;
+    for (const std::uint32_t i : ring.near(p, reach())) {
+      const Place on = nearest_on(ring.pieces[i], p);
+      if (const double apart = length(on - p); apart < least) least = apart, nearest = on;
+    }
+  }
+  return nearest;
+}
+
 void CommonLineCheck::judge(ClaimReport& report) {
   check_sizes(report);
   check_once(report);
@@ -275,13 +289,13 @@ std::string CommonLineCheck::cut_when_loose(const Part& part, const LooseCheck& 
   }
   std::sort(beside.begin(), beside.end());
   beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
-  const auto was_cut = [&](Place p) {
+  const auto was_cut = [&](Place p, double within) {
     near.clear();
-    index.near(p, meeting, near);
+    index.near(p, within, near);
     return std::any_of(near.begin(), near.end(), [&](std::uint32_t i) {
       if (i > loose.piece) return false;
       const Stroke& before = held.pieces()[i];
-      return distance(p, i < loose.piece ? before : until(before, at_share(before, loose.share))) <= meeting;
+      return distance(p, i < loose.piece ? before : until(before, at_share(before, loose.share))) <= within;
     });
   };
   double after = 0;
@@ -292,10 +306,12 @@ std::string CommonLineCheck::cut_when_loose(const Part& part, const LooseCheck& 
     const int samples = std::max(1, static_cast<int>(std::ceil(whole / step)));
     for (int k = 0; k < samples; ++k) {
       ask();
-      const Place at = at_share(piece, begin + (1 - begin) * (k + 0.5) / samples);
-      if (!(distance_of(part, at) <= reach())) continue;
+      const Place at = at_share(piece, begin + (1 - begin) * (k + 0.5) / samples),
+                  edge = nearest_of(part, at);
+      // What lies in a kerf that is there already is not cut again.
+      if (!(length(edge - at) <= reach()) || was_cut(edge, reach())) continue;
       after += whole / samples;
-      if (was_cut(at) && after <= kMostAfterLoose * words_.kerf_mm) continue;
+      if (was_cut(at, meeting) && after <= kMostAfterLoose * words_.kerf_mm) continue;
       return fmt::format("line {}: {} is cut near ({:.4f}, {:.4f}) when the kerfs before have made it loose",
                          cuts_[held.cut_of(i)]->line, part.name, at.x, at.y);
     }

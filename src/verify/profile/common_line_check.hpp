@@ -55,6 +55,7 @@ class CommonLineCheck {
                                            LooseCheck::Moment loose) const;
   [[nodiscard]] double reach() const;
   [[nodiscard]] double distance_of(const Part& part, Place p) const;
+  [[nodiscard]] Place nearest_of(const Part& part, Place p) const;
 
   const std::vector<const CutChain*>& cuts_;
   const std::vector<CommonContour>& contours_;
