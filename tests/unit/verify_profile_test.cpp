@@ -390,17 +390,65 @@ TEST(VerifyCommonLine, NothingIsCutTwice) {
   EXPECT_NE(judged_common("G0 X49.5 Y6\nM3\nG1 Y20\nY12\nM5\n" + kAround).find("is cut twice"),
             std::string::npos)
       << "along itself";
+  std::string in_blocks = "G0 X49.5 Y6\nM3\n";
+  for (int mm = 10; mm <= 20; ++mm) in_blocks += fmt::format("G1 Y{}\n", mm);
+  EXPECT_NE(judged_common(kLine + in_blocks + "M5\n" + kAround).find("is cut twice"), std::string::npos)
+      << "in blocks shorter than two kerfs";
 }
 
 TEST(VerifyCommonLine, NothingIsCutOfWhatIsLoose) {
-  EXPECT_EQ(judged_common(kAround + kLine),
-            "line 13: the outline of placement 1 is cut when the kerfs before it have made it loose\n");
+  EXPECT_EQ(judged_common(kAround + kLine).rfind("line 13: placement 1 is cut near (49.5", 0), 0U)
+      << judged_common(kAround + kLine);
   // All in one cut: around both first, then between them.
   EXPECT_NE(judged_common("G0 X49.5 Y6\nM3\nG1 Y9.5\nX38.5\nY20.5\nX60.5\nY9.5\nX49.5\nY20\nM5\n")
                 .find("have made it loose"),
             std::string::npos);
   EXPECT_EQ(judged_common("G0 X49.5 Y6\nM3\nG1 Y20.5\nX38.5\nY9.5\nX49.5\nX60.5\nY20.5\nX49.5\nM5\n"), "")
       << "one cut frees one after the other";
+}
+
+TEST(VerifyCommonLine, ShortStretchesOfWhatIsLooseAreNoExcuse) {
+  // Bars of 10 by 1.2: the line between them is shorter than 2.5 kerfs.
+  cases::Json layout = cases::empty_layout();
+  cases::add_part(layout, "bar", cases::outline_json(cases::rectangle(0, 0, 10, 1.2)));
+  cases::place(layout, "bar", 39, 10);
+  cases::place(layout, "bar", 50, 10);
+  const std::string line = "G0 X49.5 Y6\nM3\nG1 Y9.5\nY11.2\nM5\n",
+                    around = "G0 X45 Y6\nM3\nG1 Y9.5\nX38.5\nY11.7\nX60.5\nY9.5\nX45\nM5\n";
+  EXPECT_EQ(judged_common(line + around, 0, layout.dump()), "");
+  EXPECT_NE(judged_common(around + line, 0, layout.dump()).find("have made it loose"), std::string::npos);
+}
+
+TEST(VerifyCommonLine, APartThatHangsOnByAHairIsLoose) {
+  cases::Json layout = cases::empty_layout();
+  cases::add_part(layout, "plate", cases::outline_json(cases::rectangle(0, 0, 10, 10)));
+  cases::place(layout, "plate", 39, 10);
+  // The plate and a strip above it hang on by `hold`, and then what is between the two is cut.
+  const auto held_by = [&](double hold) {
+    return judged_common(
+        fmt::format("G0 X38.5 Y20.5\nM3\nG1 Y9.5\nX49.5\nY26\nX38.5\nY{}\nM5\n", 21.5 + hold) +
+            "G0 X49.5 Y20.5\nM3\nG1 X38.5\nM5\n",
+        0, layout.dump());
+  };
+  EXPECT_EQ(held_by(0.3).find("loose"), std::string::npos) << held_by(0.3);
+  EXPECT_NE(held_by(0.2).find("line 12: placement 1 is cut near"), std::string::npos) << held_by(0.2);
+}
+
+TEST(VerifyCommonLine, AllAreFreeInTheEnd) {
+  // A line in two pieces: what is left between them is found when it is more than the kerfs' round ends.
+  const auto open = [](double gap) {
+    return judged_common(
+        fmt::format("G0 X49.5 Y6\nM3\nG1 Y14\nM5\nG0 X49.5 Y{}\nM3\nG1 Y20\nM5\n", 14 + gap) + kAround);
+  };
+  EXPECT_EQ(open(0.2), "");
+  EXPECT_NE(open(0.4).find("from the middle of the nearest cut near"), std::string::npos);
+  EXPECT_EQ(open(0.9).find("still hang together"), std::string::npos);
+  EXPECT_NE(open(1.1).find("placement 1 and placement 2 still hang together after the last cut"),
+            std::string::npos)
+      << open(1.1);
+  const std::string less = "G0 X45 Y6\nM3\nG1 Y9.5\nX38.5\nY20.5\nX60.5\nY9.5\nX47\nM5\n";
+  EXPECT_NE(judged_common(kLine + less).find("placement 1 still hangs on after the last cut"),
+            std::string::npos);
 }
 
 TEST(VerifyCommonLine, PiercesAreClearOrInAKerfThatIsThere) {
