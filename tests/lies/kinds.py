@@ -8,6 +8,7 @@ import re
 from dataclasses import dataclass, field
 
 import changes
+import common
 import cuts
 import demands
 import drawn
@@ -411,6 +412,9 @@ NINE = {"s.svg": SMALL.replace("14", "10")}
 NINE_NEST = [["new", "--part", "s.svg=9", "--sheet", "36x36=1", "--gap", "1", "-o", "job.json"],
              ["nest", "job.json", "--work", "1000", "-o", "nested.json"]]
 
+ROWS_NEST = [["nest", "--part", "s.svg=4", "--sheet", "50x40", "--kerf", "0.8", "--gap", "3", "--border", "4", "--rotations",
+              "0,90", "--common-line", "--work", "20000", "-o", "nested.json"]]
+
 
 def of_cuts():
     """Programs with pierces, joints, tabs and marks."""
@@ -439,6 +443,10 @@ def of_cuts():
     yield Kind("program, profile, kerfs that meet", [], NINE_NEST + [nine + ["--process", "laser"]], "cut.nc",
                ["verify", "cut.nc", "--kerf", "0.8", "--layout", "nested.json"],
                cuts.program("36x36", 0.8, heaps=True), form="program", decimals=1, written=NINE)
+    shared = ["export", "nested.json", "--format", "gcode", "--kerf", "0.8", "--feed", "2000", "--common-line", "-o", "cut.nc"]
+    yield Kind("program, profile with common lines", [], ROWS_NEST + [shared + ["--process", "laser", "--lead-in", "2"]],
+               "cut.nc", ["verify", "cut.nc", "--kerf", "0.8", "--layout", "nested.json", "--common-line"],
+               common.program("50x40", 0.8), form="program", decimals=1, written={"s.svg": SMALL})
 
 
 def of_drawn():
