@@ -224,7 +224,7 @@ class Picture {
 /// When a part comes loose, no more of its edges is left to cut than lies between kerfs that meet.
 std::string wrong_in_picture(const std::vector<CutPath>& paths, const std::vector<ProfilePart>& parts,
                              const ProfileOptions& options) {
-  constexpr Real kLeftKerfs = 1.25L, kCells = 8;
+  constexpr Real kLeftKerfs = 1.5L, kCells = 8;
   const Real kerf = options.kerf_mm, cell = kerf / kCells;
   rs274::Point low{1e9L, 1e9L}, high{-1e9L, -1e9L};
   for (const CutPath& path : paths)

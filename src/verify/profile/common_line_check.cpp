@@ -20,8 +20,9 @@ constexpr double kMostTwice = 2;
 /// A part that hangs on by less than a quarter of a kerf is taken for loose: kerfs so near to each other
 /// meet.
 constexpr double kLooseKerfs = 1.25;
-/// What is left to cut of a part when its last kerfs meet: where they meet aslant, it is longer than a kerf.
-constexpr double kMostAfterLoose = 2.5;
+/// So much of its edges may be left to cut of a part when its last kerfs meet: half a kerf where they meet at
+/// a right angle, more in blunt corners.
+constexpr double kMostAfterLoose = 1.5;
 constexpr double kLoosePiece = 20;  // mm
 constexpr std::size_t kMostCommonSteps = 2'000'000'000;
 
@@ -306,14 +307,18 @@ std::string CommonLineCheck::cut_when_loose(const Part& part, const LooseCheck& 
     const int samples = std::max(1, static_cast<int>(std::ceil(whole / step)));
     for (int k = 0; k < samples; ++k) {
       ask();
-      const Place at = at_share(piece, begin + (1 - begin) * (k + 0.5) / samples),
-                  edge = nearest_of(part, at);
+      const auto at = [&](double part_of) {
+        return at_share(piece, begin + (1 - begin) * part_of / samples);
+      };
+      const Place middle = at(k + 0.5), edge = nearest_of(part, middle);
       // What lies in a kerf that is there already is not cut again.
-      if (!(length(edge - at) <= reach()) || was_cut(edge, reach())) continue;
-      after += whole / samples;
-      if (was_cut(at, meeting) && after <= kMostAfterLoose * words_.kerf_mm) continue;
+      if (!(length(edge - middle) <= reach()) || was_cut(edge, reach())) continue;
+      // Round a corner a cut goes on, and the edge does not.
+      const double passed = length(nearest_of(part, at(k + 1.0)) - nearest_of(part, at(k)));
+      after += std::min(passed, whole / samples);
+      if (was_cut(middle, meeting) && after <= kMostAfterLoose * words_.kerf_mm) continue;
       return fmt::format("line {}: {} is cut near ({:.4f}, {:.4f}) when the kerfs before have made it loose",
-                         cuts_[held.cut_of(i)]->line, part.name, at.x, at.y);
+                         cuts_[held.cut_of(i)]->line, part.name, middle.x, middle.y);
     }
   }
   return "";
