@@ -94,12 +94,14 @@ Result<void> check_common_lines(const Layout& layout, const io::ExportRequest& r
     words.common_line = true;
     LEKALO_TRY(const verify::ClaimReport report,
                verify::verify_profile({name, program.bytes}, document, words));
-    if (!report.findings.empty())
+    std::vector<std::string> reasons = report.findings;
+    reasons.insert(reasons.end(), report.unchecked.begin(), report.unchecked.end());
+    if (!reasons.empty())
       return failure(
           ErrorCode::refuted,
           fmt::format("sheet {}: with common lines the independent checker does not confirm the program, so "
-                      "it is not written ({}); leave out the common lines",
-                      program.sheet, report.findings.front()));
+                      "it is not written ({}); leave out common-line, or lay parts in rows, grids and pairs",
+                      program.sheet, reasons.front()));
   }
   return {};
 }

@@ -224,7 +224,8 @@ class Picture {
 /// When a part comes loose, no more of its edges is left to cut than lies between kerfs that meet.
 std::string wrong_in_picture(const std::vector<CutPath>& paths, const std::vector<ProfilePart>& parts,
                              const ProfileOptions& options) {
-  constexpr Real kLeftKerfs = 1.5L, kCells = 8;
+  // A picture is off by a cell or two.
+  constexpr Real kCells = 8, kLeftKerfs = 1.5L + 2 / kCells;
   const Real kerf = options.kerf_mm, cell = kerf / kCells;
   rs274::Point low{1e9L, 1e9L}, high{-1e9L, -1e9L};
   for (const CutPath& path : paths)
