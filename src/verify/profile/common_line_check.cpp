@@ -12,7 +12,7 @@ namespace {
 
 /// Words have three decimals of a millimetre or more.
 constexpr double kWordRounding = 2e-3;  // mm
-/// Of a contour no more than this may be without a cut beside it: a share of the kerf.
+/// No more of a contour may be without a cut beside it, as a share of the kerf.
 constexpr double kMostOpenKerfs = 1.0 / 16;
 constexpr double kSameWay = 0.2;  ///< the sine of the angle below which two cuts run one way
 /// A cut may go over the end of another, and some way beyond it.
@@ -311,7 +311,7 @@ std::string CommonLineCheck::cut_when_loose(const Part& part, const LooseCheck& 
         return at_share(piece, begin + (1 - begin) * part_of / samples);
       };
       const Place middle = at(k + 0.5), edge = nearest_of(part, middle);
-      // What lies in a kerf that is there already is not cut again.
+      // An edge in a kerf that is there already is not cut again.
       if (!(length(edge - middle) <= reach()) || was_cut(edge, reach())) continue;
       // Round a corner a cut goes on, and the edge does not.
       const double passed = length(nearest_of(part, at(k + 1.0)) - nearest_of(part, at(k)));

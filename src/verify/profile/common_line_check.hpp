@@ -50,7 +50,7 @@ class CommonLineCheck {
 
   /// The distance from `from` along a straight edge up to which a cut is near enough.
   [[nodiscard]] double beside_up_to(const Stroke& edge, double from) const;
-  /// What is cut of a part after it is loose, for the reason that makes it wrong; empty where there is none.
+  /// Says what is cut of a part after it is loose and has to be cut before; empty where nothing is.
   [[nodiscard]] std::string cut_when_loose(const Part& part, const LooseCheck& held, const StrokeIndex& index,
                                            LooseCheck::Moment loose) const;
   [[nodiscard]] double reach() const;

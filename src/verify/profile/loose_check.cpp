@@ -173,7 +173,7 @@ std::optional<LooseCheck::Moment> LooseCheck::parted_at(Place p, std::optional<P
   const auto closing =
       std::find_if(meetings_.begin(), meetings_.end(), [&](const Meeting& m) { return join(tree, m); });
   if (closing == meetings_.end()) return std::nullopt;
-  // Of all that the last piece meets, it is asked in the order of the cut which meeting closes the ring.
+  // The last piece may meet several: the meeting that closes the ring is looked for in the order of the cut.
   WindingTree before(cuts_.size());
   auto own = meetings_.begin();
   for (; own->b < closing->b; ++own) join(before, *own);
