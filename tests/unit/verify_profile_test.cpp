@@ -466,6 +466,26 @@ TEST(VerifyCommonLine, PiercesAreClearOrInAKerfThatIsThere) {
   EXPECT_NE(judged_common(kLine + kAround + "G0 X80 Y80\nM3\nG1 X85\nX90\nX95\nM5\n")
                 .find("line 18: the cut leaves the parts"),
             std::string::npos);
+  EXPECT_NE(judged_common(kLine + kAround + "G0 X80 Y80\nM3\nG1 X85\nM5\n")
+                .find("line 18: the cut leaves the parts"),
+            std::string::npos)
+      << "a lead to nothing";
+  EXPECT_NE(judged_common("G0 X45 Y6\nM3\nG1 Y9.5\nX38.5\nY20.5\nX30\nX38.5\nM5\n").find("leaves the parts"),
+            std::string::npos);
+}
+
+TEST(VerifyCommonLine, APassThatIsNotDeepComesBeforeItsPartIsLoose) {
+  const auto at_depth = [](double z, const std::string& way) {
+    return fmt::format("G0 Z5\nG0 {}\nG1 Z{}\n{}G0 Z5\n", way.substr(0, way.find('\n')), -z,
+                       way.substr(way.find('\n') + 1));
+  };
+  const std::string line = "X49.5 Y6\nG1 Y9.5\nY20\n",
+                    around = "X45 Y6\nG1 Y9.5\nX38.5\nY20.5\nX60.5\nY9.5\nX45\n";
+  const auto judged = [&](const std::string& cuts) { return judged_common("M3 S9000\n" + cuts + "M5\n"); };
+  const std::string good = at_depth(1, line) + at_depth(2, line) + at_depth(1, around) + at_depth(2, around);
+  EXPECT_EQ(judged(good), "");
+  EXPECT_NE(judged(at_depth(2, line) + at_depth(2, around) + at_depth(1, around)).find("have made it loose"),
+            std::string::npos);
 }
 
 /// A plate with a notch down from its upper side.

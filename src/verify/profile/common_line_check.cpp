@@ -37,8 +37,9 @@ StrokeIndex index_of(const Strokes& strokes) {
 }  // namespace
 
 CommonLineCheck::CommonLineCheck(const std::vector<const CutChain*>& cuts,
+                                 const std::vector<ShallowCut>& shallow,
                                  const std::vector<CommonContour>& contours, const ProfileWords& words)
-    : cuts_(cuts), contours_(contours), words_(words), half_(0.5 * words.kerf_mm) {
+    : cuts_(cuts), shallow_(shallow), contours_(contours), words_(words), half_(0.5 * words.kerf_mm) {
   for (std::size_t c = 0; c < cuts.size(); ++c) {
     for (const Stroke& edge : cuts[c]->edges) add_pieces(edge, kInfinity, pieces_);
     cut_of_piece_.resize(pieces_.size(), c);
@@ -191,6 +192,16 @@ void CommonLineCheck::check_once(ClaimReport& report) const {
   }
 }
 
+/// Says whether an edge but for its beginning, looked at every kerf, is so near to contours.
+bool CommonLineCheck::all_within(const Stroke& edge, double near) const {
+  Strokes pieces;
+  add_pieces(edge, words_.kerf_mm, pieces);
+  return std::all_of(pieces.begin(), pieces.end(), [&](const Stroke& piece) {
+    ask();
+    return edge_index_.nearest(piece.to, edges_) <= near;
+  });
+}
+
 /// Cuts run beside parts, but for a lead of one or two lines. The disc of a pierce is clear of parts, and it
 /// and the lead are clear of the kerfs before; a cut that begins in one of these pierces nothing.
 void CommonLineCheck::check_leads(ClaimReport& report) const {
@@ -209,9 +220,13 @@ void CommonLineCheck::check_leads(ClaimReport& report) const {
   for (std::size_t c = 0; c < cuts_.size(); ++c) {
     const CutChain& cut = *cuts_[c];
     // A line goes over the middle of a crossing, which is farther from the parts around it than half a kerf.
-    for (std::size_t e = 2; e < cut.edges.size(); ++e) {
-      ask();
-      if (edge_index_.nearest(cut.edges[e].to, edges_) <= 3 * half_ + words_.tolerance_mm) continue;
+    const double beside = 3 * half_ + words_.tolerance_mm;
+    bool is_beside = false, leaves = false;
+    for (std::size_t e = 0; e < cut.edges.size(); ++e) {
+      is_beside = is_beside || edge_index_.nearest(cut.edges[e].to, edges_) <= beside;
+      leaves = leaves || (e >= 2 && !all_within(cut.edges[e], beside));
+    }
+    if (leaves || !is_beside) {
       report.findings.push_back(fmt::format("line {}: the cut leaves the parts", cut.line));
       return;
     }
@@ -269,7 +284,9 @@ void CommonLineCheck::check_loose(ClaimReport& report) const {
     }
     const std::optional<LooseCheck::Moment> loose = held.parted_at(part.inside);
     if (!loose) continue;
-    if (std::string finding = cut_when_loose(part, held, index, *loose); !finding.empty()) {
+    std::string finding = cut_when_loose(part, held, index, *loose);
+    if (finding.empty()) finding = passed_when_loose(part, held.cut_of(loose->piece));
+    if (!finding.empty()) {
       report.findings.push_back(std::move(finding));
       return;
     }
@@ -319,6 +336,22 @@ std::string CommonLineCheck::cut_when_loose(const Part& part, const LooseCheck& 
       if (was_cut(middle, meeting) && after <= kMostAfterLoose * words_.kerf_mm) continue;
       return fmt::format("line {}: {} is cut near ({:.4f}, {:.4f}) when the kerfs before have made it loose",
                          cuts_[held.cut_of(i)]->line, part.name, middle.x, middle.y);
+    }
+  }
+  return "";
+}
+
+/// Passes that do not reach the bottom come before the cut that makes their part loose.
+std::string CommonLineCheck::passed_when_loose(const Part& part, std::size_t cut) const {
+  for (const ShallowCut& pass : shallow_) {
+    if (pass.through_before <= cut) continue;
+    Strokes pieces;
+    for (const Stroke& edge : pass.chain->edges) add_pieces(edge, words_.kerf_mm, pieces);
+    for (const Stroke& piece : pieces) {
+      ask();
+      if (!(distance_of(part, piece.to) <= reach())) continue;
+      return fmt::format("line {}: {} is cut near ({:.4f}, {:.4f}) when the kerfs before have made it loose",
+                         pass.chain->line, part.name, piece.to.x, piece.to.y);
     }
   }
   return "";

@@ -20,6 +20,12 @@ struct CommonContour {
   const ContourRing* ring = nullptr;
 };
 
+/// A pass that does not reach the bottom, which frees nothing.
+struct ShallowCut {
+  const CutChain* chain = nullptr;
+  std::size_t through_before = 0;  ///< cuts that go through and come before it
+};
+
 /// Judges the cuts of a sheet on which parts may share them. No cut has a contour of its own; asked is of the
 /// contours whether a cut runs beside each place at half a kerf, of the parts whether all of them are free in
 /// the end, and of the cuts whether they go along each other, and whether they cut anything of a part that
@@ -27,8 +33,8 @@ struct CommonContour {
 class CommonLineCheck {
  public:
   /// \param cuts  those that go through, in the order of the program
-  CommonLineCheck(const std::vector<const CutChain*>& cuts, const std::vector<CommonContour>& contours,
-                  const ProfileWords& words);
+  CommonLineCheck(const std::vector<const CutChain*>& cuts, const std::vector<ShallowCut>& shallow,
+                  const std::vector<CommonContour>& contours, const ProfileWords& words);
 
   /// Adds what is not true, what is left open, and what was found, to a report.
   void judge(ClaimReport& report);
@@ -53,11 +59,14 @@ class CommonLineCheck {
   /// Says what is cut of a part after it is loose and has to be cut before; empty where nothing is.
   [[nodiscard]] std::string cut_when_loose(const Part& part, const LooseCheck& held, const StrokeIndex& index,
                                            LooseCheck::Moment loose) const;
+  [[nodiscard]] std::string passed_when_loose(const Part& part, std::size_t cut) const;
+  [[nodiscard]] bool all_within(const Stroke& edge, double near) const;
   [[nodiscard]] double reach() const;
   [[nodiscard]] double distance_of(const Part& part, Place p) const;
   [[nodiscard]] Place nearest_of(const Part& part, Place p) const;
 
   const std::vector<const CutChain*>& cuts_;
+  const std::vector<ShallowCut>& shallow_;
   const std::vector<CommonContour>& contours_;
   const ProfileWords& words_;
   double half_;

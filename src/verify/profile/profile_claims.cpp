@@ -237,8 +237,12 @@ class ProfileCheck {
   /// Cuts that parts share follow no contour all round.
   void check_common_lines(const std::vector<CutChain>& chains) {
     std::vector<const CutChain*> through;
+    std::vector<ShallowCut> shallow;
     for (const CutChain& chain : chains)
-      if (is_through(chain)) through.push_back(&chain);
+      if (is_through(chain))
+        through.push_back(&chain);
+      else
+        shallow.push_back({&chain, through.size()});
     if (through.empty()) {
       report_.findings.push_back("nothing is cut");
       return;
@@ -246,7 +250,7 @@ class ProfileCheck {
     std::vector<CommonContour> contours;
     for (const Wanted& wanted : wanted_)
       contours.push_back({wanted.part, wanted.hole != 0, wanted.name(), &wanted.ring});
-    CommonLineCheck(through, contours, words_).judge(report_);
+    CommonLineCheck(through, shallow, contours, words_).judge(report_);
   }
 
   /// The disc of a pierce lies clear of every part, and it and the lead are clear of the kerfs before.
