@@ -103,6 +103,24 @@ TEST(VerifyLooseCheck, CutsMeetAnywhereAlongThem) {
   }
 }
 
+TEST(VerifyLooseCheck, ItSaysWhenKerfsCloseRoundAPlaceOrBetweenTwo) {
+  // Three sides, and a fourth that meets the end of the first as it begins, and that of the third a kerf
+  // before its own end.
+  LooseCheck check =
+      of_cuts({way({{0, 10}, {0, 0}, {10, 0}, {10, 10}}), way({{0, 10}, {10, 10}}), way({{5, 10}, {5, 0}})});
+  const auto closed = check.parted_at({2, 5});
+  ASSERT_TRUE(closed);
+  EXPECT_EQ(check.cut_of(closed->piece), 1U);
+  EXPECT_NEAR(closed->share, 0.9, 1e-6);
+  EXPECT_FALSE(check.parted_at({2, 15}));
+  EXPECT_FALSE(check.parted_at({2, 5}, Place{3, 6}));
+  EXPECT_TRUE(check.parted_at({2, 5}, Place{15, 5}));
+  const auto halved = check.parted_at({2, 5}, Place{8, 5});
+  ASSERT_TRUE(halved);
+  EXPECT_EQ(check.cut_of(halved->piece), 2U);
+  EXPECT_NEAR(halved->share, 0.9, 1e-6);
+}
+
 TEST(VerifyLooseCheck, OneCutThatComesBackToItselfSurrounds) {
   EXPECT_TRUE(surround({way({{0, 0}, {30, 0}, {30, 30}, {0, 30}, {0, 0.5}})}, {10, 10}));
   EXPECT_FALSE(surround({way({{0, 0}, {30, 0}, {30, 30}, {0, 30}, {0, 1.5}})}, {10, 10}));
