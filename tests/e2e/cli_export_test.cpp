@@ -335,8 +335,8 @@ TEST(CliExport, EdgesInCommonAreCutOnceAndVerifySaysSo) {
   const Ran shared = run(folder.path(), cut + common + pierce);
   ASSERT_EQ(shared.status, 0) << shared.err;
   EXPECT_NE(
-      shared.err.find("160 mm of edges that two parts have in common are cut once, in 3 lines, and both "
-                      "parts come out at size within 0.00001 mm"),
+      shared.err.find("160 mm of edges that two parts have in common are cut once, in 3 lines beside both at "
+                      "half a kerf, within 0.00001 mm"),
       std::string::npos)
       << shared.err;
   const std::string program = read_bytes(folder / "cut.nc");
@@ -371,7 +371,7 @@ TEST(CliExport, EdgesInCommonAreCutOnceAndVerifySaysSo) {
   EXPECT_EQ(routed.status, 0) << routed.err;
 }
 
-TEST(CliExport, CommonLinesGoWithNeitherJointsNorHeat) {
+TEST(CliExport, CommonLinesGoWithNeitherJointsNorHeatNorArcs) {
   const TemporaryFolder folder;
   write_bytes(folder / "plates.json", plates_at_one_kerf().dump());
   const auto said = [&](const Words& words) {
@@ -386,6 +386,9 @@ TEST(CliExport, CommonLinesGoWithNeitherJointsNorHeat) {
             std::string::npos);
   EXPECT_NE(said(cut + Words{"--heat-spread", "20"})
                 .find("--common-line and --heat-spread do not go together: leave one of them out"),
+            std::string::npos);
+  EXPECT_NE(said(cut + Words{"--lead-in", "2", "--lead", "arc"})
+                .find("--common-line and --lead arc do not go together: take lines for leads"),
             std::string::npos);
   EXPECT_NE(said({"--format", "dxf", "--common-line"}).find("--common-line has no meaning for the form dxf"),
             std::string::npos);

@@ -409,11 +409,14 @@ TEST(NcCommonLine, WhatIsHeldByNeighboursAloneIsCutBeforeTheyAre) {
   EXPECT_LT(pocket, outline);
 }
 
-TEST(NcCommonLine, JointsAndHeatAreRefused) {
+TEST(NcCommonLine, JointsHeatAndArcsForLeadsAreRefused) {
   ProfileOptions options = sharing();
   options.joints.rule = JointRule::count, options.joints.count = 1, options.joints.width_mm = 0.5;
   EXPECT_NE(cuts_of({square(1, 10, 10)}, options).find("common lines and joints do not go together"),
             std::string::npos);
+  options = sharing();
+  options.lead = LeadShape::arc;
+  EXPECT_NE(cuts_of({square(1, 10, 10)}, options).find("take lines for leads"), std::string::npos);
   options = sharing();
   options.heat_spread_mm = 10;
   EXPECT_NE(

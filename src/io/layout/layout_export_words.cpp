@@ -73,6 +73,9 @@ std::vector<std::string> ExportWordTaker::complete() {
     if (p.common_line && was_given(name))
       complaints.push_back(fmt::format("{} and {} do not go together: leave one of them out",
                                        shown_("common-line"), shown_(name)));
+  if (p.common_line && p.lead == nc::LeadShape::arc)
+    complaints.push_back(fmt::format("{} and {} arc do not go together: take lines for leads",
+                                     shown_("common-line"), shown_("lead")));
   if (!was_given("tolerance")) p.tolerance_mm = std::min(p.tolerance_mm, 0.25 * p.kerf_mm);
   if (!(p.tolerance_mm <= 0.25 * p.kerf_mm))
     complaints.push_back(fmt::format("{} {:g}: has to be at most a quarter of the kerf of {:g} mm",

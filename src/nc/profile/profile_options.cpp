@@ -68,6 +68,10 @@ Result<void> check_common_line(const ProfileOptions& o) {
     return failure(ErrorCode::usage,
                    "common lines and joints do not go together: a line between two parts cannot hold either "
                    "in the sheet; leave one of them out");
+  if (o.lead == LeadShape::arc && o.lead_in_mm > 0)
+    return failure(ErrorCode::usage,
+                   "common lines and leads that are arcs do not go together: a cut that comes back along its "
+                   "lead would free the parts too early; take lines for leads");
   if (o.heat_spread_mm > 0)
     return failure(ErrorCode::usage,
                    "common lines and a spread of heat do not go together: the lines of a cluster are cut one "
