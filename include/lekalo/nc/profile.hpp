@@ -86,8 +86,9 @@ struct ProfileOptions {
 
 /// The lines of a program that cut one contour, its travel and its remark among them.
 struct CutLines {
-  std::uint64_t id = 0;             ///< of the placement
-  std::size_t first = 0, last = 0;  ///< from 1
+  std::uint64_t id = 0;                 ///< of the placement
+  std::size_t first = 0, last = 0;      ///< from 1
+  std::vector<std::uint64_t> others{};  ///< placements that have the cut in common with it, ascending
 };
 
 struct ProfileProgram {
@@ -147,7 +148,7 @@ struct ProfileProgram {
 ///
 /// With common lines parts that share edges are cut as one cluster: the lines between them, the pockets that
 /// they surround, and one outline around all of them. An edge is cut once. Parts on two sides of a line are
-/// named together in remarks, and CutLines name the one with the lowest id.
+/// named together in remarks, and CutLines name the one with the lowest id first.
 ///
 /// Nothing is cut that is loose: besides what lies in a hole or an outline, parts whose neighbours' kerfs
 /// close round them come before the last of these (docs/design/cut-order.md).

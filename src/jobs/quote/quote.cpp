@@ -240,7 +240,8 @@ class Quoter {
     return shares;
   }
 
-  /// Gives each part the motions that cut it. Travel is the sheet's.
+  /// Gives each part the motions that cut it. A cut that placements have in common goes to their parts by
+  /// equal shares of its time and length, and its pierce to the first. Travel is the sheet's.
   Result<void> time_program(const Layout& layout, layout::Sheet on, const std::vector<nc::CutLines>& cuts,
                             double dwell_units, QuoteSheet& sheet, std::vector<QuoteShare>& shares) const {
     LEKALO_TRY(const nc::TimedProgram timed,
@@ -256,26 +257,34 @@ class Quoter {
     for (std::size_t k = 0; auto& [part, share] : share_of) share = k++;
 
     std::size_t cut = 0;
-    const auto owner = [&](std::size_t line) -> QuoteShare* {
+    const auto cut_at = [&](std::size_t line) -> const nc::CutLines* {
       while (cut < cuts.size() && cuts[cut].last < line) ++cut;
-      if (cut == cuts.size() || line < cuts[cut].first) return nullptr;
-      return &shares[share_of.at(part_of.at(cuts[cut].id))];
+      return cut == cuts.size() || line < cuts[cut].first ? nullptr : &cuts[cut];
+    };
+    const auto share_with = [&](std::uint64_t placement) -> QuoteShare& {
+      return shares[share_of.at(part_of.at(placement))];
     };
     double travel_s = 0, travel_mm = 0;
     for (const nc::TimedMotion& motion : timed.motions) {
       ask();
-      QuoteShare* const of = motion.kind == nc::TimedKind::travel ? nullptr : owner(motion.line);
+      const nc::CutLines* const of = motion.kind == nc::TimedKind::travel ? nullptr : cut_at(motion.line);
       if (of == nullptr) {
         travel_s += motion.seconds, travel_mm += motion.length_mm;
-      } else if (motion.kind == nc::TimedKind::cut) {
-        of->cut_s += motion.seconds, of->cut_mm += motion.length_mm;
-      } else {
-        of->pierce_s += motion.seconds;
+        continue;
       }
+      const double each = 1.0 / static_cast<double>(1 + of->others.size());
+      const auto add_to = [&](QuoteShare& share) {
+        if (motion.kind == nc::TimedKind::cut)
+          share.cut_s += each * motion.seconds, share.cut_mm += each * motion.length_mm;
+        else
+          share.pierce_s += each * motion.seconds;
+      };
+      add_to(share_with(of->id));
+      for (const std::uint64_t other : of->others) add_to(share_with(other));
     }
     cut = 0;
     for (const std::size_t line : timed.pierces)
-      if (QuoteShare* const of = owner(line)) ++of->pierces;
+      if (const nc::CutLines* const of = cut_at(line)) ++share_with(of->id).pierces;
     sheet.travel_um = thousandths(travel_mm), sheet.time.travel = thousandths(travel_s);
     sheet.time.setup = quote_.rates.setup_per_sheet_ms;
     for (QuoteShare& share : shares) {

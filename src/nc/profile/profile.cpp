@@ -180,6 +180,19 @@ std::string remark_on(const std::vector<ProfilePart>& parts, const Cut& cut) {
                      joined_text(ids, " "));
 }
 
+/// The lines of a cut, and whose it is.
+CutLines lines_of(const std::vector<ProfilePart>& parts, const Cut& cut, std::size_t first,
+                  std::size_t last) {
+  CutLines lines{parts[cut.part].id, first, last, {}};
+  for (const std::size_t member : cut.members) lines.others.push_back(parts[member].id);
+  std::sort(lines.others.begin(), lines.others.end());
+  if (!lines.others.empty()) {
+    lines.id = lines.others.front();
+    lines.others.erase(lines.others.begin());
+  }
+  return lines;
+}
+
 /// The distance from the kerf of that corner of the contour which is farthest from it.
 double left_over(const geom::Contour& contour, const std::vector<WrittenEdge>& path,
                  const Resolution& resolution, double half_kerf) {
@@ -363,7 +376,7 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& placed, c
       else if (start.lead_mm < on_terms.lead_in_mm)
         ++program.shortened_leads;
     }
-    program.lines_of_cuts.push_back({parts[cut.part].id, first_line, writer.line_count()});
+    program.lines_of_cuts.push_back(lines_of(parts, cut, first_line, writer.line_count()));
     if (writer.size() > kLongestProgram) return too_long();
     ++program.cuts;
     if (on_terms.rule) ++program.cuts_by_hole[*on_terms.rule];
