@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "e2e/cli_run.hpp"
+#include "support/layout_texts.hpp"
 
 namespace lekalo::test::cli_quote_test {
 namespace {
@@ -108,6 +109,33 @@ TEST(CliQuote, FiguresAreThoseOfTheProgramsAndVerifyReckonsThemAgain) {
   const Ran refuted = shop({"verify", "q.json"});
   EXPECT_EQ(refuted.status, 4);
   EXPECT_NE(refuted.err.find("total is not what follows from the lines"), std::string::npos) << refuted.err;
+}
+
+TEST(CliQuote, ACutThatPlacementsHaveInCommonIsSharedOut) {
+  const QuoteShop shop;
+  Json layout = cases::empty_layout();
+  for (const char* part : {"a", "b"})
+    cases::add_part(layout, part, cases::outline_json(cases::rectangle(0, 0, 30, 20)));
+  cases::place(layout, "a", 10, 10);
+  cases::place(layout, "b", 40.2, 10);
+  write_bytes(shop / "pair.json", layout.dump());
+  const auto quoted = [&](const Words& more) {
+    const Ran ran = shop(Words{"quote", "pair.json", "--rates", "rates.json", "--material", "steel",
+                               "--thickness", "2", "--json"} +
+                         kCut + more);
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    return ran;
+  };
+  const Ran shared = quoted({"--common-line"});
+  write_bytes(shop / "q.json", shared.out);
+  const Json apart = quoted({}).json(), json = shared.json();
+  const auto cut = [](const Json& quote, int part) {
+    return std::stod(quote["parts"][part]["cut_mm"].get<std::string>());
+  };
+  EXPECT_NEAR(cut(json, 0), cut(json, 1), 1e-3);
+  EXPECT_NEAR(cut(json, 0) + cut(json, 1), cut(apart, 0) + cut(apart, 1) - 20, 2);
+  EXPECT_EQ(json["sheets"][0]["pierces"], 2);
+  EXPECT_EQ(shop({"verify", "q.json"}).status, 1) << "seconds are those of a model";
 }
 
 TEST(CliQuote, AnOrderIsQuotedWithAllItsLayoutsEachByTheProcessOfItsMaterial) {
