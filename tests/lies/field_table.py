@@ -76,7 +76,7 @@ def main(lekalo, source):
 
 
 # Fields that only options make which no result here has, or that stand within another.
-OPTIONAL = {"unsaid", "largest_certificate", "rest_of_mm", "supposed_program", "after", "program", "pocket", "nested", "tool_mm",
+OPTIONAL = {"unsaid", "largest_certificate", "rest_of_mm", "common_line", "supposed_program", "after", "program", "pocket", "nested", "tool_mm",
             "certificate_file", "disagreements", "x", "y", "width_mm", "distance_mm", "area_mm2"}
 
 if __name__ == "__main__":

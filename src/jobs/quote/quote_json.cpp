@@ -122,6 +122,9 @@ std::string quote_json(const Quote& quote, const std::vector<Layout>& layouts, c
   for (std::size_t i = 0; i < programs.size(); ++i)
     write_file(json, "program", {programs[i], quote.sheets[i].program});
   json.end();
+  if (std::find(options.words.begin(), options.words.end(), io::ExportWord{"common-line", "yes"}) !=
+      options.words.end())
+    json.field("common_line", true);
   QuoteWriter(json, quote).write();
   json.key("run").object({});
   return end_document(json);

@@ -107,6 +107,7 @@ class QuoteReport {
     if (const std::string currency = fields_.text("currency"); currency != rates_.currency)
       finding(fmt::format("currency is {} and is to be {}", excerpt(currency), rates_.currency));
     compare(fields_, "decimals", static_cast<double>(rates_.decimals), claims_);
+    read_common_line();
     list_wanted();
     compare_items(fields_, "sheets", sheets_.size(), claims_,
                   [&](ReportFields& item, std::size_t i) { read_sheet(item, i); });
@@ -233,6 +234,13 @@ class QuoteReport {
                           excerpt(found)));
   }
 
+  /// With common lines one pierce may be for the outlines of several parts.
+  void read_common_line() {
+    if (!fields_.has("common_line")) return;
+    if (fields_.get("common_line").text != "true") finding("common_line is there and is not true");
+    has_common_lines_ = true;
+  }
+
   void read_sheet(ReportFields& item, std::size_t i) {
     QuotedSheet& sheet = sheets_[i];
     const WrittenStock& stock = layouts_[sheet.layout].stocks[sheet.stock];
@@ -355,15 +363,16 @@ class QuoteReport {
     if (sgn(quantity) <= 0) return finding(fmt::format("{} is not above 0", item.name("quantity")));
     if (amount != rounded(Fraction(quantity * rate / static_cast<long>(wanted_per)), rates_.decimals))
       finding(fmt::format("{} is not quantity times rate, rounded half up", item.name("amount")));
-    if (kind == pierces && quantity < sheet.pieces[part.part] * contours(part))
+    if (kind == pierces && quantity < sheet.pieces[part.part] * least_pierces(part))
       finding(fmt::format("{}: fewer pierces than contours", item.name("quantity")));
     sheet.sums[kind] += quantity, part.sums[kind] += quantity;
     sheet.lines += amount, part.lines += amount;
     if (kind == material) shares_[s].emplace_back(p, quantity);
   }
 
-  [[nodiscard]] std::int64_t contours(const QuotedPart& part) const {
-    return contours_of(layouts_[part.layout].parts[part.part].outline);
+  /// A piece has one for each contour, or for each hole where its outline may be cut with those of others.
+  [[nodiscard]] std::int64_t least_pierces(const QuotedPart& part) const {
+    return contours_of(layouts_[part.layout].parts[part.part].outline) - (has_common_lines_ ? 1 : 0);
   }
 
   [[nodiscard]] Fraction rate_of(What what, const QuotedSheet& sheet) const {
@@ -410,7 +419,7 @@ class QuoteReport {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       sums(fmt::format("parts[{}]", i), parts_[i]);
       of_parts += parts_[i].time, length_of_parts += parts_[i].length, pierces_of_parts += parts_[i].pierces;
-      if (parts_[i].pierces < parts_[i].pieces * contours(parts_[i]))
+      if (parts_[i].pierces < parts_[i].pieces * least_pierces(parts_[i]))
         finding(fmt::format("parts[{}].pierces: fewer than contours", i));
     }
     if (!(on_sheets == of_parts)) finding("the seconds of sheets and of parts have not the same sums");
@@ -536,6 +545,7 @@ class QuoteReport {
   WrittenRates rates_;
   std::vector<WrittenLayout> layouts_;
   std::vector<Document> programs_;
+  bool has_common_lines_ = false;
   std::vector<QuotedSheet> sheets_;
   std::vector<SheetFigures> figures_;  ///< by sheet
   std::vector<QuotedPart> parts_;
