@@ -187,8 +187,9 @@ struct ProfileWords {
 /// are clear of parts, and they and their leads of kerfs that are there before. With joints a contour may be
 /// cut in stretches, between whose ends exactly a joint stays that no other kerf or pierce enters. With
 /// common lines no cut needs to be closed: a cut runs at half the kerf, within the tolerance, beside every
-/// place of every contour that it can reach, no cut goes along another for more than 2 kerfs, and nothing is
-/// cut of a part round which the kerfs before have closed; a cut may begin in such a kerf. That a contour is
+/// place of every contour that it can reach, no cut goes along another for more than 2 kerfs, all parts are
+/// free in the end, and of a part that hangs on by less than a quarter of a kerf nothing is cut but what the
+/// kerfs that freed it have all but cut; a cut may begin in a kerf. That a contour is
 /// followed without a break is looked at every millimetre. Depth, feeds and power are not claims. Modes that
 /// the program does not say are unchecked: the control decides them.
 ///
