@@ -36,8 +36,8 @@ struct CommonLine {
   void reverse();
 };
 
-/// A stretch shorter than so many kerfs holds nothing: the kerfs at its two ends nearly meet, or the lead of a
-/// line takes what is between them.
+/// A stretch shorter than so many kerfs holds nothing: the kerfs at its two ends nearly meet, or the lead of
+/// a line takes what is between them.
 inline constexpr double kHoldingKerfs = 2.5;
 
 struct CommonDrawing {
