@@ -412,7 +412,7 @@ NINE = {"s.svg": SMALL.replace("14", "10")}
 NINE_NEST = [["new", "--part", "s.svg=9", "--sheet", "36x36=1", "--gap", "1", "-o", "job.json"],
              ["nest", "job.json", "--work", "1000", "-o", "nested.json"]]
 
-ROWS_NEST = [["nest", "--part", "s.svg=4", "--sheet", "50x40", "--kerf", "0.8", "--gap", "3", "--border", "4", "--rotations",
+ROWS_NEST = [["nest", "--part", "s.svg=4", "--sheet", "60x24", "--kerf", "0.8", "--gap", "3", "--border", "4", "--rotations",
               "0,90", "--common-line", "--work", "20000", "-o", "nested.json"]]
 
 
@@ -446,7 +446,7 @@ def of_cuts():
     shared = ["export", "nested.json", "--format", "gcode", "--kerf", "0.8", "--feed", "2000", "--common-line", "-o", "cut.nc"]
     yield Kind("program, profile with common lines", [], ROWS_NEST + [shared + ["--process", "laser", "--lead-in", "2"]],
                "cut.nc", ["verify", "cut.nc", "--kerf", "0.8", "--layout", "nested.json", "--common-line"],
-               common.program("50x40", 0.8), form="program", decimals=1, written={"s.svg": SMALL})
+               common.program("60x24", 0.8), form="program", decimals=1, written={"s.svg": SMALL})
 
 
 def of_drawn():
