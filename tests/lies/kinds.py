@@ -444,7 +444,7 @@ def of_cuts():
                ["verify", "cut.nc", "--kerf", "0.8", "--layout", "nested.json"],
                cuts.program("36x36", 0.8, heaps=True), form="program", decimals=1, written=NINE)
     shared = ["export", "nested.json", "--format", "gcode", "--kerf", "0.8", "--feed", "2000", "--common-line", "-o", "cut.nc"]
-    yield Kind("program, profile with common lines", [], ROWS_NEST + [shared + ["--process", "laser", "--lead-in", "2"]],
+    yield Kind("program, profile with common lines", [], ROWS_NEST + [shared + ["--process", "laser"]],
                "cut.nc", ["verify", "cut.nc", "--kerf", "0.8", "--layout", "nested.json", "--common-line"],
                common.program("60x24", 0.8), form="program", decimals=1, written={"s.svg": SMALL})
 
