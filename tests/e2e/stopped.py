@@ -90,11 +90,7 @@ def prepare(folder, source):
     examples = os.path.join(source, "examples")
     for name in ["regions", "orders", "pockets", "layouts", "localisation", "solid"]:
         for file in os.listdir(os.path.join(examples, name)):
-            path = os.path.join(examples, name, file)
-            if file.endswith(".stl"):
-                shutil.copy(path, folder)
-            else:
-                write(folder, file, open(path).read())
+            shutil.copy(os.path.join(examples, name, file), folder)
     write(folder, "above.xyz", above_box(250, 200, 100))
     write(folder, "big.json", big_layout(60, 50))
     write(folder, "order.json", big_order(2000))

@@ -118,6 +118,13 @@ TEST(VerifyProfileMoves, WhatIsNotWrittenThereIsRefusedWithItsLine) {
   refused("G0 Z5\nM4", "M4 where M3 is meant");
   refused("%", "p.nc:2: % neither begins the program nor ends it");
   EXPECT_EQ(cuts("G0 X0 Y0\nM3\nG2 X2.004 Y0 I1 J0"), "4: A 1,0 1.002 - 0,0 2.004,0\n");
+  refused("G0 X0 Y0\nM3\nG2 X2.006 Y0 I1 J0", "an arc whose ends do not lie on one circle");
+  // Four decimals of an inch round more: 0.0003 of them are 0.0076 mm.
+  const auto inches = [](const std::string& x) {
+    return told("G20 G17 G40 G49 G54 G90 G94\nG0 X0 Y0\nM3\nG2 X" + x + " Y0 I1 J0\nM5\nM2\n");
+  };
+  EXPECT_EQ(inches("2.00029"), "4: A 25.4,0 25.4 - 0,0 50.81,0\n");
+  EXPECT_NE(inches("2.0003").find("an arc whose ends do not lie on one circle"), std::string::npos);
   EXPECT_EQ(cuts("G0 X.01 Y0\nM3\nG2 X-.005 Y0 I-.01 J0"), "4: A 0,0 0.0075 - 0.01,0 -0.005,0\n");
   // A hole that is burnt or drilled is no cut that anything follows.
   refused("G0 X1 Y1\nM3\nG1 Z-1\nG0 Z2", "the beam or tool goes into the material where nothing is cut");

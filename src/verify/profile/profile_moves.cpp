@@ -20,8 +20,9 @@ constexpr std::array kModesPassedOver{170, 400, 490, 540, 610, 800, 900, 911, 94
 
 constexpr const char* kNothingCut = "before it the beam or tool goes into the material where nothing is cut";
 
-/// The ends of an arc lie on one circle but for the rounding of its words.
-constexpr double kArcRounding = 5e-3;
+/// The ends of an arc lie on one circle but for the rounding of its words, which have three decimals of a
+/// millimetre or four of an inch: each of four places is off by half a step along both axes at most.
+constexpr double kArcRounding = 5e-3, kArcRoundingOfInches = 7.5e-3;  // mm
 
 struct Block {
   std::map<char, double> words;
@@ -188,8 +189,8 @@ class ProfileReader {
     pierced_.reset();
     if (!was_known) return complain("a cut from a place that is not known");
     const Place centre = from + Place{word('I', 0), word('J', 0)};
-    if (arc &&
-        !(std::abs(length(from - centre) - length(to - centre)) <= kArcRounding && length(from - centre) > 0))
+    const double unequal = std::abs(length(from - centre) - length(to - centre));
+    if (arc && !(unequal <= (scale_ > 1 ? kArcRoundingOfInches : kArcRounding) && length(from - centre) > 0))
       return complain("an arc whose ends do not lie on one circle");
     if (arc && from.x == to.x && from.y == to.y) return complain("an arc of a whole turn");
     if (!going_on_) chains_.push_back({{}, line_, false, z_ ? -*z_ : 0});
