@@ -58,20 +58,6 @@ TEST(SolidBox, ATreeFindsWhatLookingAtAllFinds) {
         if (meets(mine[k])) all.insert(k);
       EXPECT_EQ(found, all);
     }
-    std::multiset<std::pair<std::uint32_t, std::uint32_t>> meeting, all_meeting;
-    tree.visit_meeting([&](std::uint32_t a, std::uint32_t b) {
-      meeting.emplace(std::min(a, b), std::max(a, b));
-      return true;
-    });
-    for (std::uint32_t a = 0; a < count; ++a)
-      for (std::uint32_t b = a + 1; b < count; ++b)
-        if (!(gap(mine[a], mine[b]) > 0)) all_meeting.emplace(a, b);
-    EXPECT_EQ(meeting, all_meeting) << count;
-    for (std::size_t most = 1; most < std::min<std::size_t>(all_meeting.size(), 9); ++most) {
-      std::size_t seen = 0;
-      tree.visit_meeting([&](std::uint32_t, std::uint32_t) { return ++seen < most; });
-      EXPECT_EQ(seen, most);
-    }
     for (const double limit : {0.0, gap(mine[0], its[0]), 3.0, 100.0}) {
       std::multiset<std::pair<std::uint32_t, std::uint32_t>> found, all;
       tree.visit_pairs(other, limit, [&](std::uint32_t a, std::uint32_t b) { found.emplace(a, b); });

@@ -49,12 +49,6 @@ class BoxTree {
     descend(0, concerns, visit);
   }
 
-  /// Calls visit(number, number) once for each two of its boxes that meet, until it returns false.
-  template <class Visit>
-  void visit_meeting(const Visit& visit) const {
-    static_cast<void>(meet_within(0, visit));
-  }
-
   /// Calls visit(number, other's number) for the pairs of two trees whose boxes come within `limit` of each
   /// other, the nearer ones first. The limit may shrink on the way.
   template <class Visit>
@@ -83,36 +77,6 @@ class BoxTree {
     }
     for (std::uint32_t k = node.begin; k < node.end; ++k)
       if (concerns(boxes_[order_[k]])) visit(order_[k]);
-  }
-
-  template <class Visit>
-  [[nodiscard]] bool meet_within(std::uint32_t at, const Visit& visit) const {
-    ask();
-    const Node& node = nodes_[at];
-    if (node.second != 0)
-      return meet_within(at + 1, visit) && meet_within(node.second, visit) &&
-             meet_across(at + 1, node.second, visit);
-    for (std::uint32_t k = node.begin; k < node.end; ++k)
-      for (std::uint32_t l = k + 1; l < node.end; ++l)
-        if (meet(boxes_[order_[k]], boxes_[order_[l]]) && !visit(order_[k], order_[l])) return false;
-    return true;
-  }
-
-  template <class Visit>
-  [[nodiscard]] bool meet_across(std::uint32_t at, std::uint32_t there, const Visit& visit) const {
-    ask();
-    const Node &mine = nodes_[at], &its = nodes_[there];
-    if (!meet(mine.box, its.box)) return true;
-    if (mine.second == 0 && its.second == 0) {
-      for (std::uint32_t k = mine.begin; k < mine.end; ++k)
-        for (std::uint32_t l = its.begin; l < its.end; ++l)
-          if (meet(boxes_[order_[k]], boxes_[order_[l]]) && !visit(order_[k], order_[l])) return false;
-      return true;
-    }
-    // The node of more boxes is opened; it is no leaf, because one of the two is none.
-    if (mine.end - mine.begin >= its.end - its.begin)
-      return meet_across(at + 1, there, visit) && meet_across(mine.second, there, visit);
-    return meet_across(at, there + 1, visit) && meet_across(at, its.second, visit);
   }
 
   template <class Visit>

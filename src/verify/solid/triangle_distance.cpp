@@ -243,6 +243,16 @@ ExactDistance exact_distance(const ExactTriangle& a, const ExactTriangle& b) {
   return found;
 }
 
+bool pierces(const Exact3& from, const Exact3& to, const ExactTriangle& t) {
+  ask(5);
+  const std::array<Exact3, 2> ends{from, to};
+  Integer unit = 1;
+  refine(unit, ends);
+  refine(unit, t);
+  const auto [p, q] = whole(ends, unit);
+  return pierces(p, q, whole(t, unit));
+}
+
 Fraction exact_squared_distance(const Exact3& p, const ExactTriangle& t) {
   ask(10);
   const std::array<Exact3, 1> point{p};

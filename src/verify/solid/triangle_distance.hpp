@@ -18,6 +18,8 @@ struct ExactDistance {
   bool pierces = false;
 };
 [[nodiscard]] ExactDistance exact_distance(const ExactTriangle& a, const ExactTriangle& b);
+/// Says whether an edge runs through the inside of a triangle from one side to the other.
+[[nodiscard]] bool pierces(const Exact3& from, const Exact3& to, const ExactTriangle& t);
 /// Returns the squared distance of a point from a triangle.
 [[nodiscard]] Fraction exact_squared_distance(const Exact3& p, const ExactTriangle& t);
 
