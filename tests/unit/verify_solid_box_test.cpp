@@ -53,6 +53,7 @@ TEST(SolidBox, ATreeFindsWhatLookingAtAllFinds) {
     for (const Box3& box : its) {
       std::multiset<std::uint32_t> found, all;
       const auto meets = [&](const Box3& b) { return !(gap(b, box) > 0); };
+      for (const Box3& b : mine) EXPECT_EQ(meet(b, box), meets(b));
       tree.visit(meets, [&](std::uint32_t k) { found.insert(k); });
       for (std::uint32_t k = 0; k < count; ++k)
         if (meets(mine[k])) all.insert(k);
