@@ -321,7 +321,7 @@ class ProfileCheck {
       ++through;
     }
     if (!loose.kerfs_meet()) return;
-    for (std::size_t c = 0; c < chains.size(); ++c) {
+    for (std::size_t c = 0; c < followed_.size(); ++c) {
       const Followed& cut = followed_[c];
       if (cut.of == kFollowsNothing) continue;
       if (loose.steps() > kMostLooseSteps) {

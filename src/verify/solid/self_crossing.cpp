@@ -94,10 +94,12 @@ class Sheets {
 
 class CrossingSearch {
  public:
-  explicit CrossingSearch(const PlacedSolid& body) : body_(body), sheets_(body.mesh()) {
+  explicit CrossingSearch(const PlacedSolid& body)
+      : body_(body),
+        sheets_(body.mesh()),
+        pairs_left_(limits::most_meeting_pieces(body.mesh().triangles.size())) {
     const Box3& whole = body.tree().whole();
     found_.depth = std::min(kThick, kThickPart * near_length(whole.high - whole.low));
-    pairs_left_ = limits::most_meeting_pieces(body.mesh().triangles.size());
   }
 
   SelfCrossings run() {
@@ -221,7 +223,8 @@ class CrossingSearch {
     std::vector<std::vector<std::uint32_t>> of_side(2 * count);
     for (std::uint32_t t = 0; t < count; t += static_cast<std::uint32_t>(step)) {
       const int inside = inside_at(t, middle_of(t));
-      if (inside != 0) of_side[sheets_.of(2 * t + (inside > 0 ? 0 : 1))].push_back(t);
+      const std::uint32_t face = 2 * t + static_cast<std::uint32_t>(1 - inside) / 2;
+      if (inside != 0) of_side[sheets_.of(face)].push_back(t);
     }
     for (std::uint32_t t = 0; t < count; ++t) {
       const auto &before = of_side[sheets_.of(2 * t)], &behind = of_side[sheets_.of(2 * t + 1)];
@@ -242,7 +245,7 @@ class CrossingSearch {
   const PlacedSolid& body_;
   Sheets sheets_;
   SelfCrossings found_;
-  std::size_t pairs_left_ = 0;
+  std::size_t pairs_left_;
   std::vector<Look> to_look_at_;
 };
 
