@@ -374,6 +374,18 @@ TEST(SelfCrossings, OfBoxesInsideChangesSidesWhereItDoes) {
   EXPECT_GT(seen[2] + seen[3], 30);
 }
 
+/// No edge runs through a triangle, and two triangles of either box are odd.
+TEST(SelfCrossings, EndInEndHoweverTrianglesAreTurned) {
+  Random random(5);
+  for (int n = 0; n < 100; ++n) {
+    const SelfCrossings found = crossings_of(
+        scaled(shuffled(random, both(block({0, 0, 0}, {9, 2, 2}), block({7, 0, 0}, {17, 2, 2}))), 1));
+    EXPECT_FALSE(found.first);
+    ASSERT_TRUE(found.changing) << n;
+    EXPECT_TRUE(found.changing->place[0] == 7 || found.changing->place[0] == 9) << n;
+  }
+}
+
 TEST(SelfCrossings, APartOrABlankThatGoesThroughItselfIsNotChecked) {
   const Mesh blank = block({-6, -6, -6}, {6, 6, 6});
   for (const bool of_part : {false, true}) {
