@@ -195,7 +195,7 @@ class CrossingSearch {
   bool changes_at(std::uint32_t triangle, std::uint32_t through, const Near3& place) {
     const Near3 n = normal(near_middle(body_.triangle(triangle)));
     const Near3 across = cross(n, cross(n, normal(near_middle(body_.triangle(through)))));
-    // Of triangles on planes so near to each other that this has no length no place is on the triangle.
+    // Planes so near to each other that this has no length give no place on the triangle.
     const Near3 step = across * (found_.depth / near_length(across));
     if (inside_along(triangle, place, step) * inside_along(triangle, place, step * -1.0) >= 0) return false;
     found_.changing = SelfCrossing{place, triangle};
