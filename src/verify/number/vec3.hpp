@@ -15,6 +15,8 @@ using Vec3 = Of3<Span>;
 using Exact3 = Of3<Fraction>;
 using Whole3 = Of3<Integer>;
 
+[[nodiscard]] inline Vec3 just(const Near3& p) { return {just(p[0]), just(p[1]), just(p[2])}; }
+
 template <class Number>
 [[nodiscard]] Of3<Number> operator-(const Of3<Number>& a, const Of3<Number>& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};

@@ -28,13 +28,12 @@ Box3 box_of(const Triangle3& t) {
   box.hold(verify::box_of(t[2]));
   return box;
 }
-Vec3 just_at(const Near3& p) { return {just(p[0]), just(p[1]), just(p[2])}; }
 Near3 between(const Near3& a, const Near3& b, double share) {
   return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])};
 }
 double apart(const Near3& a, const Near3& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 double far(const Near3& p, const Triangle3& from) {
-  const Vec3 at = just_at(p);
+  const Vec3 at = just(p);
   return distance({at, at, at}, from).high;
 }
 
@@ -69,7 +68,7 @@ class Rims::Cut {
   void take_off(const Piece& piece, int cuts = 0) {
     ask();
     if (piece[0] == piece[1] || piece[1] == piece[2] || piece[2] == piece[0]) return;
-    const Triangle3 at{just_at(piece[0]), just_at(piece[1]), just_at(piece[2])};
+    const Triangle3 at{just(piece[0]), just(piece[1]), just(piece[2])};
     const BoxTree one({box_of(at)});
     const double width = rim_.width;
     double limit = width;

@@ -31,7 +31,6 @@ std::array<Near3, 3> near_middle(const Triangle3& t) {
   return {near_middle(t[0]), near_middle(t[1]), near_middle(t[2])};
 }
 double near_length(const Near3& v) { return std::sqrt(dot(v, v)); }
-Vec3 spans_of(const Near3& p) { return {just(p[0]), just(p[1]), just(p[2])}; }
 
 /// Returns about where the way from p to q meets the plane of a triangle that parts them.
 Near3 meeting_of(const Vec3& p, const Vec3& q, const Triangle3& t) {
@@ -175,13 +174,13 @@ class CrossingSearch {
     const Near3 middle = place + n * (depth / length);
     if (!has_room(middle)) return 0;
     const Exact3 exactly{Fraction(middle[0]), Fraction(middle[1]), Fraction(middle[2])};
-    return body_.holds(spans_of(middle), exactly) ? 1 : -1;
+    return body_.holds(just(middle), exactly) ? 1 : -1;
   }
 
   [[nodiscard]] bool has_room(const Near3& middle) const {
     const Near3 reach{found_.depth, found_.depth, found_.depth};
     const Box3 around{middle - reach, middle + reach};
-    const Vec3 at = spans_of(middle);
+    const Vec3 at = just(middle);
     double nearest = found_.depth;
     body_.tree().visit([&](const Box3& box) { return meet(box, around); },
                        [&](std::uint32_t number) {
@@ -206,7 +205,7 @@ class CrossingSearch {
   [[nodiscard]] int inside_along(std::uint32_t triangle, const Near3& from, Near3 step) const {
     int inside = 0;
     while (inside == 0) {
-      const Vec3 at = spans_of(from + step);
+      const Vec3 at = just(from + step);
       if (!(distance({at, at, at}, body_.triangle(triangle)).high <= kTouch * found_.depth)) break;
       inside = inside_at(triangle, from + step);
       step = step * 2.0;
