@@ -7,7 +7,7 @@ The sheet is a picture of squares, each of which knows the moment at which it is
 import math
 
 import cuts
-from profile import Near, Refused
+from profile import Near
 
 CELL = 0.15  # mm
 LEFT = 1.5  # kerfs, of its edges, that a part may have left when it is loose
@@ -108,21 +108,4 @@ class Judge(cuts.Judge):
 
 
 def program(stock, kerf):
-    """Of a program that was changed, by the layout that was not."""
-    def oracle(context):
-        judge = Judge(context.json("nested.json"), stock, kerf)
-        before = cuts.Reader(context.text).cuts
-        if not judge.holds(before):
-            raise RuntimeError(context.kind.name + ": the program is not right by common.py")
-        known = [(cut.key(), cut.depth) for cut in before]
-
-        def answer(change):
-            try:
-                after = cuts.Reader(change.text()).cuts
-            except (Refused, ValueError):
-                return None
-            if [(cut.key(), cut.depth) for cut in after] == known:
-                return "information"
-            return bool(after) and judge.holds(after) or None
-        return answer
-    return oracle
+    return cuts.judged_by(lambda layout, before: Judge(layout, stock, kerf), "common.py")

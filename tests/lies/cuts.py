@@ -469,14 +469,13 @@ class Judge:
         return False
 
 
-def program(stock, kerf, **stated):
-    """Of a program that was changed, by the layout that was not."""
+def judged_by(judge_of, whose):
+    """Of a program that was changed, by a judge of the layout that was not, made of its file and the cuts before."""
     def oracle(context):
-        judge = Judge(context.json("nested.json"), stock, kerf, **stated)
         before = Reader(context.text).cuts
-        judge.learn_strokes(before)
+        judge = judge_of(context.json("nested.json"), before)
         if not judge.holds(before):
-            raise RuntimeError(context.kind.name + ": the program is not right by cuts.py")
+            raise RuntimeError(f"{context.kind.name}: the program is not right by {whose}")
         known = [(cut.key(), cut.depth) for cut in before]
 
         def answer(change):
@@ -489,3 +488,11 @@ def program(stock, kerf, **stated):
             return bool(after) and judge.holds(after) or None
         return answer
     return oracle
+
+
+def program(stock, kerf, **stated):
+    def judge_of(layout, before):
+        judge = Judge(layout, stock, kerf, **stated)
+        judge.learn_strokes(before)
+        return judge
+    return judged_by(judge_of, "cuts.py")

@@ -57,16 +57,9 @@ std::vector<Chain> chains_of(const std::string& program) {
   return chains;
 }
 
-Real distance_to(rs274::Point p, const rs274::Step& step) {
-  const auto point = [](rs274::Point q) { return geom::Point{double(q.x), double(q.y)}; };
-  const geom::EdgeKind kind = !step.arc        ? geom::EdgeKind::line
-                              : step.sweep > 0 ? geom::EdgeKind::arc_ccw
-                                               : geom::EdgeKind::arc_cw;
-  return cases::distance_to_edge(p, {kind, point(step.from), point(step.to), point(step.centre)});
-}
 Real distance_to(rs274::Point p, const Chain& chain) {
   Real least = 1e9L;
-  for (const rs274::Step& step : chain.steps) least = std::min(least, distance_to(p, step));
+  for (const rs274::Step& step : chain.steps) least = std::min(least, cases::distance_to_step(p, step));
   return least;
 }
 
@@ -112,7 +105,7 @@ void expect_no_edge_twice(const std::vector<Chain>& chains) {
       std::size_t there = 0;
       for (const Chain& other : chains)
         for (const rs274::Step& against : other.steps)
-          there += distance_to(step.at(0.5L), against) < 1e-6L ? 1 : 0;
+          there += cases::distance_to_step(step.at(0.5L), against) < 1e-6L ? 1 : 0;
       ASSERT_EQ(there, 1U) << chain.contour;
     }
 }

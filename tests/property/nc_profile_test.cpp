@@ -54,14 +54,6 @@ std::vector<ReadCut> read_cuts(const std::string& program) {
   return cuts;
 }
 
-Real distance_to_step(rs274::Point p, const rs274::Step& step) {
-  const auto point = [](rs274::Point q) { return geom::Point{double(q.x), double(q.y)}; };
-  const geom::EdgeKind kind = !step.arc        ? geom::EdgeKind::line
-                              : step.sweep > 0 ? geom::EdgeKind::arc_ccw
-                                               : geom::EdgeKind::arc_cw;
-  return cases::distance_to_edge(p, {kind, point(step.from), point(step.to), point(step.centre)});
-}
-
 ProfileOptions random_options(Random& random) {
   ProfileOptions o;
   o.post = posts()[random.below(3)];
@@ -171,7 +163,8 @@ TEST(NcProfile, WhatIsCutGoesRoundItsPartAtHalfTheKerf) {
           Real least = 1e9L;
           for (const ReadCut& cut : cuts) {
             if (cut.placement != part.id) continue;
-            for (const rs274::Step& step : cut.steps) least = std::min(least, distance_to_step(corner, step));
+            for (const rs274::Step& step : cut.steps)
+              least = std::min(least, cases::distance_to_step(corner, step));
           }
           EXPECT_LE(least, 0.2L + Real(made->left_over_mm) + 1e-9L)
               << "a corner of " << part.id << " is not cut";

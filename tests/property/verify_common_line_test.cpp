@@ -48,14 +48,6 @@ std::vector<CutPath> cut_paths(const std::string& program) {
   return paths;
 }
 
-Real distance_to_step(rs274::Point p, const rs274::Step& step) {
-  const auto point = [](rs274::Point q) { return geom::Point{double(q.x), double(q.y)}; };
-  const geom::EdgeKind kind = !step.arc        ? geom::EdgeKind::line
-                              : step.sweep > 0 ? geom::EdgeKind::arc_ccw
-                                               : geom::EdgeKind::arc_cw;
-  return cases::distance_to_edge(p, {kind, point(step.from), point(step.to), point(step.centre)});
-}
-
 rs274::Point way_at(const rs274::Step& step, Real part) {
   const rs274::Point a = step.at(std::max<Real>(0, part - 1e-4L)),
                      b = step.at(std::min<Real>(1, part + 1e-4L));
@@ -94,7 +86,8 @@ void expect_at_size(const std::vector<CutPath>& paths, const std::vector<Profile
                               edge.from.y + share * (edge.to.y - edge.from.y)};
         Real least = 1e9L;
         for (const CutPath& path : paths)
-          for (const rs274::Step& step : path.steps) least = std::min(least, distance_to_step(at, step));
+          for (const rs274::Step& step : path.steps)
+            least = std::min(least, cases::distance_to_step(at, step));
         ASSERT_NEAR(double(least), double(half), double(stated_off + 1.5L * rounding))
             << "placement " << part.id << " near " << double(at.x) << ", " << double(at.y);
       }
@@ -113,7 +106,7 @@ void expect_cut_once(const std::vector<CutPath>& paths, Real kerf) {
         bool is_there = false;
         for (const CutPath& other : paths)
           for (const rs274::Step& against : other.steps) {
-            if (&against == &step || is_there || distance_to_step(at, against) > kerf / 5) continue;
+            if (&against == &step || is_there || cases::distance_to_step(at, against) > kerf / 5) continue;
             Real nearest = 1e9L, there = 0;
             for (int m = 0; m <= 200; ++m)
               if (const Real apart = rs274::distance(against.at(m / 200.0L), at); apart < nearest)
@@ -279,7 +272,7 @@ void expect_pierces_in_scrap(const std::vector<CutPath>& paths, const std::vecto
     Real before = 1e9L;
     for (std::size_t b = 0; b < c; ++b)
       for (const rs274::Step& step : paths[b].steps)
-        before = std::min(before, distance_to_step(pierce, step));
+        before = std::min(before, cases::distance_to_step(pierce, step));
     if (before <= options.tolerance_mm + 1e-3L) {
       ++in_kerfs;
       continue;

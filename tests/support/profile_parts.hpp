@@ -123,6 +123,14 @@ void each_contour(const geom::Region& region, Visit&& visit) {
   for (const geom::Contour& hole : region.holes) visit(hole);
 }
 
+inline Real distance_to_step(rs274::Point p, const rs274::Step& step) {
+  const auto point = [](rs274::Point q) { return geom::Point{double(q.x), double(q.y)}; };
+  const geom::EdgeKind kind = !step.arc        ? geom::EdgeKind::line
+                              : step.sweep > 0 ? geom::EdgeKind::arc_ccw
+                                               : geom::EdgeKind::arc_cw;
+  return distance_to_edge(p, {kind, point(step.from), point(step.to), point(step.centre)});
+}
+
 inline Real distance_to_boundary(rs274::Point p, const geom::Region& region) {
   Real least = std::numeric_limits<Real>::infinity();
   each_contour(region, [&](const geom::Contour& contour) {

@@ -9,21 +9,18 @@
 
 #include "lekalo/base/random.hpp"
 #include "lekalo/solid/triangle_tree.hpp"
+#include "support/crossing_solids.hpp"
 #include "support/solids.hpp"
 
 namespace lekalo::solid_crossing_test {
 namespace {
 
 using cases::block;
+using cases::both;
 using solid::closed_mesh;
 using solid::Crossings;
 using solid::Mesh;
 using solid::Vector;
-
-Mesh both(Mesh mesh, const Mesh& other) {
-  cases::append(mesh, other);
-  return mesh;
-}
 
 Crossings crossings_of(Mesh mesh) {
   const auto closed = closed_mesh(std::move(mesh));
@@ -31,34 +28,8 @@ Crossings crossings_of(Mesh mesh) {
   return closed ? solid::crossings(closed->mesh) : Crossings{};
 }
 
-/// An outline that crosses itself in the middle, pulled up.
-Mesh bow_tie() {
-  const std::vector<Vector> outline{{0, 0, 0}, {10, 10, 0}, {10, 0, 0}, {0, 10, 0}};
-  Mesh mesh;
-  for (const double z : {0.0, 10.0})
-    for (const Vector p : outline) mesh.vertices.push_back({p.x, p.y, z});
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    const std::uint32_t next = (k + 1) % 4;
-    mesh.triangles.insert(mesh.triangles.end(), {{k, next, k + 4}, {next, next + 4, k + 4}});
-  }
-  mesh.triangles.insert(mesh.triangles.end(), {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}});
-  return mesh;
-}
-
 TEST(Crossings, WhatChangesInsideAndOutsideIsFoundHoweverItLies) {
-  struct Case {
-    const char* what;
-    Mesh mesh;
-  };
-  for (const auto& [what, mesh] :
-       {Case{"askew", both(block({0, 0, 0}, {20, 20, 20}), block({5, 6, 7}, {30, 31, 32}))},
-        Case{"no corner within the other",
-             both(block({-50, -5, -5}, {50, 5, 5}), block({-3, -50, -7}, {4, 50, 6}))},
-        Case{"on the same planes", both(block({-50, -5, -5}, {50, 5, 5}), block({-5, -50, -5}, {5, 50, 5}))},
-        Case{"end in end", both(block({0, 0, 0}, {20, 2, 2}), block({19, 0, 0}, {39, 2, 2}))},
-        Case{"a little", both(block({0, 0, 0}, {20, 20, 20}), block({19.95, 3, 4}, {39, 30, 30}))},
-        Case{"a void that sticks out", both(block({0, 0, 0}, {20, 20, 20}), block({5, 5, 5}, {9, 9, 25}))},
-        Case{"one sheet", bow_tie()}}) {
+  for (const auto& [what, mesh] : cases::changing_meshes()) {
     const Crossings found = crossings_of(mesh);
     EXPECT_TRUE(found.changing) << what;
     EXPECT_TRUE(found.complete) << what;

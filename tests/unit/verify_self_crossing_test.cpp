@@ -15,6 +15,7 @@
 
 #include "lekalo/base/random.hpp"
 #include "lekalo/solid/crossing.hpp"
+#include "support/crossing_solids.hpp"
 #include "support/solid_results.hpp"
 #include "support/solids.hpp"
 #include "support/verify_solids.hpp"
@@ -23,47 +24,17 @@ namespace lekalo::verify::verify_self_crossing_test {
 namespace {
 
 using cases::block;
+using cases::both;
 using solid::Mesh;
 using solid::Vector;
-
-Mesh both(Mesh mesh, const Mesh& other) {
-  cases::append(mesh, other);
-  return mesh;
-}
 
 SelfCrossings crossings_of(const Mesh& mesh) {
   const SolidMesh read = cases::checked(mesh);
   return self_crossings(PlacedSolid(read));
 }
 
-/// An outline that crosses itself in the middle, pulled up.
-Mesh bow_tie() {
-  Mesh mesh;
-  for (const double z : {0.0, 10.0})
-    for (const Vector p : {Vector{0, 0, z}, {10, 10, z}, {10, 0, z}, {0, 10, z}}) mesh.vertices.push_back(p);
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    const std::uint32_t next = (k + 1) % 4;
-    mesh.triangles.insert(mesh.triangles.end(), {{k, next, k + 4}, {next, next + 4, k + 4}});
-  }
-  mesh.triangles.insert(mesh.triangles.end(), {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}});
-  return mesh;
-}
-
-struct Case {
-  const char* what;
-  Mesh mesh;
-};
-
 TEST(SelfCrossings, InsideChangesSidesHoweverASurfaceGoesThroughItself) {
-  for (const auto& [what, mesh] :
-       {Case{"askew", both(block({0, 0, 0}, {20, 20, 20}), block({5, 6, 7}, {30, 31, 32}))},
-        Case{"no corner within the other",
-             both(block({-50, -5, -5}, {50, 5, 5}), block({-3, -50, -7}, {4, 50, 6}))},
-        Case{"on the same planes", both(block({-50, -5, -5}, {50, 5, 5}), block({-5, -50, -5}, {5, 50, 5}))},
-        Case{"end in end", both(block({0, 0, 0}, {20, 2, 2}), block({19, 0, 0}, {39, 2, 2}))},
-        Case{"a little", both(block({0, 0, 0}, {20, 20, 20}), block({19.95, 3, 4}, {39, 30, 30}))},
-        Case{"a void that sticks out", both(block({0, 0, 0}, {20, 20, 20}), block({5, 5, 5}, {9, 9, 25}))},
-        Case{"one sheet", bow_tie()}}) {
+  for (const auto& [what, mesh] : cases::changing_meshes()) {
     const SelfCrossings found = crossings_of(mesh);
     EXPECT_TRUE(found.changing) << what;
     EXPECT_TRUE(found.complete) << what;
@@ -72,11 +43,12 @@ TEST(SelfCrossings, InsideChangesSidesHoweverASurfaceGoesThroughItself) {
 
 TEST(SelfCrossings, WhatTouchesNestsOrIsThinKeepsItsInside) {
   for (const auto& [what, mesh] :
-       {Case{"a block", block({0, 0, 0}, {20, 20, 20})},
-        Case{"a void", both(block({0, 0, 0}, {20, 20, 20}), block({5, 5, 5}, {9, 9, 9}))},
-        Case{"one face", both(block({0, 0, 0}, {20, 20, 20}), block({20, 0, 0}, {40, 20, 20}))},
-        Case{"one edge", both(block({0, 0, 0}, {20, 20, 20}), block({20, 20, 0}, {40, 40, 20}))},
-        Case{"parts of faces", both(block({0, 0, 0}, {20, 20, 20}), block({20, 3, 4}, {40, 30, 30}))}}) {
+       {cases::NamedMesh{"a block", block({0, 0, 0}, {20, 20, 20})},
+        cases::NamedMesh{"a void", both(block({0, 0, 0}, {20, 20, 20}), block({5, 5, 5}, {9, 9, 9}))},
+        cases::NamedMesh{"one face", both(block({0, 0, 0}, {20, 20, 20}), block({20, 0, 0}, {40, 20, 20}))},
+        cases::NamedMesh{"one edge", both(block({0, 0, 0}, {20, 20, 20}), block({20, 20, 0}, {40, 40, 20}))},
+        cases::NamedMesh{"parts of faces",
+                         both(block({0, 0, 0}, {20, 20, 20}), block({20, 3, 4}, {40, 30, 30}))}}) {
     const SelfCrossings found = crossings_of(mesh);
     EXPECT_FALSE(found.changing) << what;
     EXPECT_FALSE(found.first) << what;

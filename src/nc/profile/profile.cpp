@@ -10,7 +10,6 @@
 
 #include "common_cuts.hpp"
 #include "common_stretch.hpp"
-#include "lekalo/base/joined_text.hpp"
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/edge_distance.hpp"
 #include "profile_engraving.hpp"
@@ -171,13 +170,11 @@ Result<double> proved_depth(const std::vector<ProfilePart>& parts, const Cut& cu
 std::string remark_on(const std::vector<ProfilePart>& parts, const Cut& cut) {
   if (cut.is_hole()) return fmt::format("placement {} hole {}", parts[cut.part].id, cut.hole + 1);
   if (cut.members.empty()) return fmt::format("placement {} outline", parts[cut.part].id);
-  std::vector<std::uint64_t> ids;
-  for (const std::size_t member : cut.members) ids.push_back(parts[member].id);
   return fmt::format("common {} of placements {}",
                      cut.is_line   ? "line"
                      : cut.outline ? "outline"
                                    : "pocket",
-                     joined_text(ids, " "));
+                     placements_of(parts, cut, " "));
 }
 
 /// The lines of a cut, and whose it is.

@@ -79,15 +79,19 @@ Result<void> check_common_line(const ProfileOptions& o) {
   return {};
 }
 
+std::string placements_of(const std::vector<ProfilePart>& parts, const Cut& cut, const char* between) {
+  std::vector<std::uint64_t> ids;
+  for (const std::size_t member : cut.members) ids.push_back(parts[member].id);
+  return joined_text(ids, between);
+}
+
 std::string name_of_cut(const std::vector<ProfilePart>& parts, const Cut& cut) {
   if (!cut.members.empty()) {
-    std::vector<std::uint64_t> ids;
-    for (const std::size_t member : cut.members) ids.push_back(parts[member].id);
     return fmt::format("{} of placements {}",
                        cut.is_line   ? "a common line"
                        : cut.outline ? "the common outline"
                                      : "a pocket",
-                       joined_text(ids, ", "));
+                       placements_of(parts, cut, ", "));
   }
   const std::uint64_t id = parts[cut.part].id;
   return cut.outline ? fmt::format("the outline of placement {}", id)

@@ -35,6 +35,9 @@ namespace lekalo::nc {
 void tell_heat(const std::vector<Starts>& starts, const std::vector<OrderedCut>& order,
                const KerfsAround& kerfs, const ProfileOptions& options, ProfileProgram& program);
 
+/// The numbers of the placements that have a cut in common.
+[[nodiscard]] std::string placements_of(const std::vector<ProfilePart>& parts, const Cut& cut,
+                                        const char* between);
 /// "the outline of placement 3", "hole 2 of placement 3".
 [[nodiscard]] std::string name_of_cut(const std::vector<ProfilePart>& parts, const Cut& cut);
 
