@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -10,14 +11,15 @@ namespace {
 using geom::Point;
 
 /// A lead may end so many kerfs before the line, where beside its end a part is in the way.
-constexpr double kStubs[] = {0, 0.25, 0.75};
+constexpr std::array kKerfsBefore{0.0, 0.25, 0.75};
 
 struct LeadTurn {
   double cosine, sine;
 };
 /// Straight on, then aslant by 45 degrees to either side, then across.
 constexpr double kHalfRoot = 0.70710678118654752;
-constexpr LeadTurn kLeadTurns[] = {{1, 0}, {kHalfRoot, kHalfRoot}, {kHalfRoot, -kHalfRoot}, {0, 1}, {0, -1}};
+constexpr std::array<LeadTurn, 5> kLeadTurns{
+    {{1, 0}, {kHalfRoot, kHalfRoot}, {kHalfRoot, -kHalfRoot}, {0, 1}, {0, -1}}};
 
 class LineStarts {
  public:
@@ -61,9 +63,11 @@ class LineStarts {
     std::vector<Start> found;
     const WrittenPoint at = end(from_end);
     const Point ahead = outwards(from_end), aside = geom::perpendicular(ahead);
-    for (const double& stub : kStubs)
-      for (const LeadTurn& turn : kLeadTurns) {
-        const WrittenPoint before = resolution_.rounded(resolution_.mm(at) + stub * options_.kerf_mm * ahead);
+    for (std::size_t short_of = 0; short_of < kKerfsBefore.size(); ++short_of)
+      for (std::size_t turned = 0; turned < kLeadTurns.size(); ++turned) {
+        const LeadTurn turn = kLeadTurns[turned];
+        const WrittenPoint before =
+            resolution_.rounded(resolution_.mm(at) + kKerfsBefore[short_of] * options_.kerf_mm * ahead);
         const WrittenPoint pierce =
             resolution_.rounded(resolution_.mm(before) + length * (turn.cosine * ahead + turn.sine * aside));
         if (pierce == before) continue;
@@ -75,7 +79,7 @@ class LineStarts {
           continue;
         Start start{all, 0, pierce, at, around_.kerfs.met(own_, {lead}, pierce), length};
         start.from_end = from_end;
-        start.bends = static_cast<std::size_t>(&stub - kStubs) + static_cast<std::size_t>(&turn - kLeadTurns);
+        start.bends = short_of + turned;
         found.push_back(std::move(start));
       }
     return found;
