@@ -247,7 +247,7 @@ struct Boxes {
     const int up = sign(a[u] * b[v] - a[v] * b[u]);
     std::array<bool, 2> odd{};
     for (const auto& [low, high] : corners) {
-      const auto within = [&](std::size_t axis, long long by) {
+      const auto within = [&, &low = low, &high = high](std::size_t axis, long long by) {
         return 2 * parts * low[axis] <= 2 * place[axis] + by &&
                2 * place[axis] + by <= 2 * parts * high[axis];
       };
@@ -312,10 +312,10 @@ TEST(SelfCrossings, OfBoxesInsideChangesSidesWhereItDoes) {
     // Of each side whether inside is on it somewhere, and at the middle of a triangle.
     std::vector<bool> anywhere(sides.size()), at_middles(sides.size());
     for (std::size_t t = 0; t < mesh.size(); ++t) {
-      const auto& [a, b, c] = mesh[t];
-      const auto note = [&](std::vector<bool>& on, long long i, long long j, long long k) {
+      const auto note = [&, &at = mesh[t]](std::vector<bool>& on, long long i, long long j, long long k) {
         Whole place{};
-        for (std::size_t axis = 0; axis < 3; ++axis) place[axis] = i * a[axis] + j * b[axis] + k * c[axis];
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          place[axis] = i * at[0][axis] + j * at[1][axis] + k * at[2][axis];
         if (const int inside = boxes.inside_at(mesh[t], place, i + j + k); inside != 0)
           on[sides[2 * t + (inside > 0 ? 0 : 1)]] = true;
       };

@@ -36,7 +36,7 @@ std::uint32_t BoxTree::build(std::uint32_t begin, std::uint32_t end) {
   ask((end - begin) / 16 + 1);
   if (end - begin <= kLeaf) return at;
   const auto length = [&](std::size_t axis) { return box.high[axis] - box.low[axis]; };
-  const std::size_t longest = std::ranges::max({0U, 1U, 2U}, {}, length);
+  const std::size_t longest = std::max({0U, 1U, 2U}, [&](auto a, auto b) { return length(a) < length(b); });
   const std::uint32_t half = begin + (end - begin) / 2;
   const auto middle = [&](std::uint32_t number) {
     return std::pair(boxes_[number].low[longest] + boxes_[number].high[longest], number);

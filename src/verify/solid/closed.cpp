@@ -85,7 +85,7 @@ void drop_repeats(Kept& all) {
   };
   /// Turned alike are those whose corners follow each other in the same order from the least one on.
   const auto from_least = [](Corners t) {
-    std::ranges::rotate(t, std::ranges::min_element(t));
+    std::rotate(t.begin(), std::ranges::min_element(t), t.end());
     return t;
   };
   std::vector<std::pair<Corners, std::size_t>> order;
