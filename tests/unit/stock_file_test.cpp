@@ -1,6 +1,8 @@
 // The stock file of apps/server/stock: states, damage, several processes, and processes that are killed.
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 #include <signal.h>
 #include <sqlite3.h>
 #include <sys/wait.h>
@@ -73,9 +75,9 @@ class Stock : public testing::Test {
   void add(const std::vector<layout::Stock>& pieces) const { ASSERT_TRUE(open().add(pieces, {})); }
   [[nodiscard]] StockBook book() const { return open().book().value(); }
   [[nodiscard]] std::size_t count(StockState state) const {
-    std::size_t found = 0;
-    for (const StockItem& item : open().items().value()) found += item.state == state ? 1 : 0;
-    return found;
+    const std::vector<StockItem> items = open().items().value();
+    return static_cast<std::size_t>(std::count_if(
+        items.begin(), items.end(), [&](const StockItem& item) { return item.state == state; }));
   }
   /// Everything that the independent checker finds.
   [[nodiscard]] std::vector<std::string> findings() const {
