@@ -11,6 +11,7 @@ Dialect post_grbl() {
           .pocket = {.modes = "{unit} G17 G90 G40 G49 G80 G94\nG91.1\n{offset}", .end = "M30"},
           .profile = {.modes = "{unit} G17 G90\nG40 G49 G54 G94 G91.1", .end = "M2"},
           .tool_change = "(TOOL {tool})",
+          .changes_tools = false,
           .laser_on = "M4",
           .laser_needs_power = true};
 }

@@ -32,8 +32,8 @@ std::vector<Vector> surface_points(const Mesh& mesh) {
   return points;
 }
 
-MeshClearance::Blank::Blank(const Mesh& blank, const std::vector<double>& widths)
-    : tree(blank, 1), boxes(tree), points(surface_points(blank)) {
+MeshClearance::Blank::Blank(const Mesh& blank, const std::vector<double>& widths, unsigned threads)
+    : tree(blank, 1, threads), boxes(tree), points(surface_points(blank)) {
   if (widths.empty()) return;
   for (std::uint32_t k = 0; k < widths.size(); ++k) width.push_back(widths[tree.triangle(k)]);
   const auto& nodes = tree.nodes();
@@ -52,17 +52,8 @@ MeshClearance::MeshClearance(const Mesh& part, TriangleTree tree, std::shared_pt
 
 MeshClearance::MeshClearance(const Mesh& part, const Mesh& blank, const std::vector<double>& widths,
                              unsigned threads)
-    : MeshClearance([&] {
-        std::optional<TriangleTree> of_part;
-        std::shared_ptr<const Blank> of_blank;
-        share_out(2, threads, [&](std::size_t k) {
-          if (k == 0)
-            of_part.emplace(part, 1);
-          else
-            of_blank = std::make_shared<const Blank>(blank, widths);
-        });
-        return MeshClearance(part, *std::move(of_part), std::move(of_blank));
-      }()) {}
+    : MeshClearance(part, TriangleTree(part, 1, threads),
+                    std::make_shared<const Blank>(blank, widths, threads)) {}
 
 MeshClearance::MeshClearance(const Mesh& part, const MeshClearance& other)
     : MeshClearance(part, TriangleTree(part, 1), other.blank_) {}

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "lekalo/base/parallel.hpp"
 #include "lekalo/base/stop.hpp"
 #include "lekalo/geom/predicates.hpp"
 #include "lekalo/solid/predicates.hpp"
@@ -77,69 +79,119 @@ double distance(const Corners& t, Vector p) noexcept {
   return std::sqrt(std::min(dot(to_inside, to_inside), dot(to_edges, to_edges)));
 }
 
-TriangleTree::TriangleTree(const Mesh& mesh, std::uint32_t leaf) {
-  const auto corners_of = [&](std::uint32_t triangle) {
-    const Triangle& t = mesh.triangles[triangle];
-    return Corners{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-  };
-  std::vector<Middle> middles(mesh.triangles.size());
-  for (std::uint32_t k = 0; k < middles.size(); ++k) {
-    const Corners t = corners_of(k);
-    middles[k] = {t[0] + t[1] + t[2], k};
-  }
-  if (middles.empty()) return;
-  nodes_.reserve(2 * middles.size() / std::max(1U, leaf) + 1);
-  sort(0, static_cast<std::uint32_t>(middles.size()), leaf, middles);
-  order_.resize(middles.size());
-  place_in_order_.resize(middles.size());
-  corners_.reserve(middles.size());
-  for (std::uint32_t k = 0; k < order_.size(); ++k) {
-    order_[k] = middles[k].triangle;
-    place_in_order_[order_[k]] = k;
-    corners_.push_back(corners_of(order_[k]));
-  }
-  // Children come behind their parents.
-  for (std::size_t at = nodes_.size(); at-- > 0;) {
-    Node& node = nodes_[at];
-    if (node.right != 0) {
-      node.box = nodes_[at + 1].box;
-      node.box.hold(nodes_[node.right].box.low);
-      node.box.hold(nodes_[node.right].box.high);
-      continue;
+/// Halves triangles along the axis along which their middles are spread most. How many nodes there are below
+/// each follows from how many triangles it has, so threads write theirs side by side.
+class TriangleTree::Builder {
+ public:
+  Builder(TriangleTree& tree, const Mesh& mesh, std::uint32_t leaf)
+      : tree_(tree), mesh_(mesh), leaf_(leaf), middles_(mesh.triangles.size()) {
+    for (std::uint32_t k = 0; k < middles_.size(); ++k) {
+      const Corners t = corners(k);
+      middles_[k] = {t[0] + t[1] + t[2], k};
     }
-    for (std::uint32_t k = node.begin; k < node.end; ++k)
-      for (const Vector p : corners_[k]) node.box.hold(p);
   }
+
+  void build(unsigned threads) {
+    const auto count = static_cast<std::uint32_t>(middles_.size());
+    tree_.nodes_.resize(nodes_of(count).first);
+    tree_.order_.resize(count), tree_.place_in_order_.resize(count), tree_.corners_.resize(count);
+    // Level by level, as long as there are fewer nodes than threads want; then each thread takes whole nodes.
+    std::vector<Below> level{{0, 0, count}}, above;
+    while (threads > 1 && level.size() < kNodesOfThread * threads && count / level.size() > kWorthSharing) {
+      std::vector<std::array<Below, 2>> halves(level.size());
+      share_out(level.size(), threads, [&](std::size_t k) { halves[k] = halved(level[k]); });
+      above.insert(above.end(), level.begin(), level.end());
+      level.clear();
+      for (const auto& [left, right] : halves) level.insert(level.end(), {left, right});
+    }
+    share_out(level.size(), threads, [&](std::size_t k) { sort(level[k]); });
+    for (std::size_t k = above.size(); k-- > 0;) hold_children(above[k].node);
+  }
+
+ private:
+  /// Three times the middle of a triangle.
+  struct Middle {
+    Vector sum;
+    std::uint32_t triangle = 0;
+  };
+  /// A node, and its triangles in leaf order.
+  struct Below {
+    std::uint32_t node = 0, begin = 0, end = 0;
+  };
+  /// Threads have so many nodes each, if these have more triangles than that.
+  static constexpr std::size_t kNodesOfThread = 4, kWorthSharing = 1'000;
+
+  [[nodiscard]] Corners corners(std::uint32_t triangle) const {
+    const Triangle& t = mesh_.triangles[triangle];
+    return {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
+  }
+
+  /// The nodes over so many triangles, and over one more.
+  [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> nodes_of(std::uint32_t count) const {
+    if (count <= leaf_) return {1, count < leaf_ ? 1 : 3};
+    const auto [half, more] = nodes_of(count / 2);
+    return count % 2 == 0 ? std::pair{1 + 2 * half, 1 + half + more}
+                          : std::pair{1 + half + more, 1 + 2 * more};
+  }
+
+  std::array<Below, 2> halved(const Below& of) {
+    const auto [node, begin, end] = of;
+    Box box;
+    for (std::uint32_t k = begin; k < end; ++k) box.hold(middles_[k].sum);
+    const Vector spread = box.high - box.low;
+    const std::uint32_t half = begin + (end - begin) / 2;
+    const auto split = [&](double Vector::*const axis) {
+      std::nth_element(middles_.begin() + begin, middles_.begin() + half, middles_.begin() + end,
+                       [axis](const Middle& a, const Middle& b) {
+                         return a.sum.*axis < b.sum.*axis ||
+                                (a.sum.*axis == b.sum.*axis && a.triangle < b.triangle);
+                       });
+    };
+    if (spread.x >= spread.y && spread.x >= spread.z)
+      split(&Vector::x);
+    else
+      split(spread.y >= spread.z ? &Vector::y : &Vector::z);
+    const std::uint32_t left = node + 1, right = left + nodes_of(half - begin).first;
+    tree_.nodes_[node] = {{}, begin, end, right};
+    return {Below{left, begin, half}, Below{right, half, end}};
+  }
+
+  void hold_children(std::uint32_t at) {
+    Node& node = tree_.nodes_[at];
+    node.box = tree_.nodes_[at + 1].box;
+    node.box.hold(tree_.nodes_[node.right].box.low);
+    node.box.hold(tree_.nodes_[node.right].box.high);
+  }
+
+  void sort(const Below& of) {
+    const auto [node, begin, end] = of;
+    ask(end - begin);
+    if (end - begin > leaf_) {
+      const auto [left, right] = halved(of);
+      sort(left), sort(right);
+      return hold_children(node);
+    }
+    Box box;
+    for (std::uint32_t k = begin; k < end; ++k) {
+      const std::uint32_t triangle = middles_[k].triangle;
+      tree_.order_[k] = triangle;
+      tree_.place_in_order_[triangle] = k;
+      for (const Vector p : tree_.corners_[k] = corners(triangle)) box.hold(p);
+    }
+    tree_.nodes_[node] = {box, begin, end, 0};
+  }
+
+  TriangleTree& tree_;
+  const Mesh& mesh_;
+  std::uint32_t leaf_;
+  std::vector<Middle> middles_;
+};
+
+TriangleTree::TriangleTree(const Mesh& mesh, std::uint32_t leaf, unsigned threads) {
+  if (mesh.triangles.empty()) return;
+  Builder(*this, mesh, leaf).build(threads);
   box_ = nodes_[0].box;
   largest_ = std::max(largest_coordinate(box_.low), largest_coordinate(box_.high));
-}
-
-/// Halves triangles along the axis along which their middles are spread most.
-std::uint32_t TriangleTree::sort(std::uint32_t begin, std::uint32_t end, std::uint32_t leaf,
-                                 std::vector<Middle>& middles) {
-  ask(end - begin);
-  const auto at = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({{}, begin, end, 0});
-  if (end - begin <= leaf) return at;
-  Box box;
-  for (std::uint32_t k = begin; k < end; ++k) box.hold(middles[k].sum);
-  const Vector spread = box.high - box.low;
-  const std::uint32_t half = begin + (end - begin) / 2;
-  const auto split = [&](double Vector::*const axis) {
-    std::nth_element(middles.begin() + begin, middles.begin() + half, middles.begin() + end,
-                     [axis](const Middle& a, const Middle& b) {
-                       return a.sum.*axis < b.sum.*axis ||
-                              (a.sum.*axis == b.sum.*axis && a.triangle < b.triangle);
-                     });
-  };
-  if (spread.x >= spread.y && spread.x >= spread.z)
-    split(&Vector::x);
-  else
-    split(spread.y >= spread.z ? &Vector::y : &Vector::z);
-  sort(begin, half, leaf, middles);
-  const std::uint32_t right = sort(half, end, leaf, middles);
-  nodes_[at].right = right;
-  return at;
 }
 
 std::vector<std::uint32_t> TriangleTree::patches(std::size_t count) const {

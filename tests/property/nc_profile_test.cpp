@@ -65,6 +65,7 @@ ProfileOptions random_options(Random& random) {
   o.lead_in_mm = random.below(4) == 0 ? 0 : random.uniform(0.3, 12);
   o.feed_mm_per_min = 1000;
   o.speed = 500;
+  if (random.below(2) == 0) o.corners = {random.uniform(0.1, 0.9), random.uniform(0.2, 8)};
   // Leads of the holes' own, which may be too long for them as well.
   for (double up_to = random.uniform(2, 6); up_to < 40; up_to *= random.uniform(1.5, 4)) {
     const bool has_lead = random.below(4) != 0;
@@ -111,6 +112,77 @@ TEST(NcProfile, TheKerfOfThePrintedProgramStaysOutOfEveryPart) {
   EXPECT_GT(leads, count);
   EXPECT_GT(by_rule, count);
   EXPECT_GT(bare, 0U);  // leads of 12 mm in holes of 2 mm
+}
+
+/// The feeds in force at the lines of a program.
+std::map<std::size_t, double> feeds(const std::string& program) {
+  std::map<std::size_t, double> at_line;
+  std::istringstream lines(program);
+  std::string line;
+  double feed = 0;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    if (const std::size_t f = line.find(" F"); line[0] == 'G' && f != std::string::npos)
+      feed = std::stod(line.substr(f + 2));
+    at_line[number] = feed;
+  }
+  return at_line;
+}
+
+/// The direction of a step at its beginning (0) or its end (1).
+rs274::Point way_of(const rs274::Step& step, Real part) {
+  const Real part_before = part > 0.5L ? part - 1e-3L : part;
+  const rs274::Point a = step.at(part_before), b = step.at(part_before + 1e-3L);
+  const Real size = rs274::distance(a, b);
+  return {(b.x - a.x) / size, (b.y - a.y) / size};
+}
+
+TEST(NcProfile, CutsAreSlowNearTheirCornersAndNowhereElse) {
+  std::size_t slow = 0, quick = 0;
+  for (std::size_t index = 0; index < cases::case_count(25); ++index) {
+    SCOPED_TRACE(fmt::format("seed {} case {}", cases::seed(), index));
+    const std::vector<ProfilePart> parts = cases::random_parts(cases::seed(), index);
+    Random random(cases::seed(), 91000 + index);
+    ProfileOptions options;
+    options.kerf_mm = random.uniform(0.1, 1.5), options.tolerance_mm = std::min(0.02, 0.2 * options.kerf_mm);
+    options.feed_mm_per_min = 1000, options.corners = {0.25, random.uniform(0.2, 8)};
+    const auto made = profile_program(parts, "random", options);
+    ASSERT_TRUE(made) << made.error().message;
+    const std::map<std::size_t, double> feed_at = feeds(made->text);
+    for (const ReadCut& cut : read_cuts(made->text)) {
+      // Bare starts, so that a cut is its closed path. Corners are places along it.
+      std::vector<Real> corners, begins{0};
+      for (std::size_t k = 0; k < cut.steps.size(); ++k) {
+        const rs274::Step &step = cut.steps[k],
+                          &before = cut.steps[(k + cut.steps.size() - 1) % cut.steps.size()];
+        const Real length =
+            step.arc ? std::abs(step.sweep) * step.start_radius : rs274::distance(step.from, step.to);
+        const rs274::Point in = way_of(before, 1), out = way_of(step, 0);
+        if (in.x * out.x + in.y * out.y < 0.86L) corners.push_back(begins.back());
+        begins.push_back(begins.back() + length);
+        if (step.arc && step.start_radius < 0.75L * options.kerf_mm && std::abs(step.sweep) > 0.53L)
+          corners.push_back(begins[k]), corners.push_back(begins[k + 1]);
+      }
+      const Real whole = begins.back(), near = options.corners.distance_mm;
+      for (std::size_t k = 0; k < cut.steps.size(); ++k)
+        for (int i = 1; i < 8; ++i) {
+          const Real along = begins[k] + (begins[k + 1] - begins[k]) * i / 8;
+          Real least = 1e9L;
+          for (const Real corner : corners)
+            for (const Real turn : {-whole, Real(0), whole})
+              least = std::min(least, std::abs(along - corner - turn));
+          // Motions of a feed are no shorter than ten steps; an arc at a corner is shorter than its halves.
+          if (std::abs(least - near) < 0.02L) continue;
+          const bool in_corner = cut.steps[k].arc && cut.steps[k].start_radius < 0.75L * options.kerf_mm;
+          const bool is_slow = feed_at.at(cut.steps[k].line) == 250;
+          if (!in_corner) {
+            ASSERT_EQ(is_slow, least < near) << "line " << cut.steps[k].line << " " << double(least);
+          }
+          (is_slow ? slow : quick) += 1;
+        }
+    }
+  }
+  EXPECT_GT(slow, 1000U);
+  EXPECT_GT(quick, 1000U);
 }
 
 TEST(NcProfile, WhatIsCutGoesRoundItsPartAtHalfTheKerf) {

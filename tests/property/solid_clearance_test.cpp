@@ -140,6 +140,57 @@ TEST(TriangleTree, SidesHoldWhereTheWayMeetsCornersAndEdges) {
   }
 }
 
+/// Nodes are in preorder, halve their triangles and hold them, and leaves have no more than they may.
+void expect_tree(const solid::TriangleTree& tree, std::uint32_t leaf, std::uint32_t triangles) {
+  const auto& nodes = tree.nodes();
+  std::uint32_t next = 0, in_order = 0;
+  const auto look = [&](const auto& self, std::uint32_t begin, std::uint32_t end) -> void {
+    ASSERT_LT(next, nodes.size());
+    const solid::TriangleTree::Node& node = nodes[next++];
+    ASSERT_EQ(node.begin, begin);
+    ASSERT_EQ(node.end, end);
+    solid::Box box;
+    for (std::uint32_t k = begin; k < end; ++k)
+      for (const Vector p : tree.corners(k)) box.hold(p);
+    EXPECT_EQ(node.box.low, box.low);
+    EXPECT_EQ(node.box.high, box.high);
+    if (end - begin <= leaf) {
+      EXPECT_EQ(node.right, 0U);
+      in_order = end;
+      return;
+    }
+    const std::uint32_t half = begin + (end - begin) / 2;
+    self(self, begin, half);
+    ASSERT_EQ(node.right, next);
+    self(self, half, end);
+  };
+  look(look, 0, triangles);
+  EXPECT_EQ(next, nodes.size());
+  EXPECT_EQ(in_order, triangles);
+}
+
+TEST(TriangleTree, ItIsTheSameForAnyThreadsAndHalvesItsTriangles) {
+  Random random(cases::seed(), 47);
+  for (const std::uint32_t around : {3U, 17U, 230U}) {
+    const solid::Mesh mesh = cases::ring(random, around, 40, 30, 8);
+    const auto triangles = static_cast<std::uint32_t>(mesh.triangles.size());
+    for (const std::uint32_t leaf : {1U, 2U, 4U, 7U}) {
+      const solid::TriangleTree one(mesh, leaf);
+      expect_tree(one, leaf, triangles);
+      for (const unsigned threads : {2U, 3U, 8U}) {
+        const solid::TriangleTree other(mesh, leaf, threads);
+        expect_tree(other, leaf, triangles);
+        ASSERT_EQ(other.nodes().size(), one.nodes().size());
+        for (std::uint32_t k = 0; k < triangles; ++k) {
+          ASSERT_EQ(other.triangle(k), one.triangle(k));
+          ASSERT_EQ(other.place_in_order(other.triangle(k)), k);
+          ASSERT_EQ(other.corners(k), one.corners(k));
+        }
+      }
+    }
+  }
+}
+
 TEST(TriangleTree, TheForemostCornerIsOne) {
   Random random(cases::seed(), 46);
   for (std::size_t i = 0; i < cases::case_count(10); ++i) {

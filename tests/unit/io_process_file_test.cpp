@@ -99,6 +99,12 @@ TEST(ProcessFile, AnEntryIsTheWordsOfTheLine) {
   const auto beam = process_request(file_of({with(laser(), "pierce_s", 0.7)}).processes.front(), {}, "--");
   ASSERT_TRUE(beam) << beam.error().message;
   EXPECT_EQ(beam->profile.pierce_s, 0.7);
+  for (const bool wanted : {true, false}) {
+    const auto common =
+        process_request(file_of({with(laser(), "common_line", wanted)}).processes.front(), {}, "--");
+    ASSERT_TRUE(common) << common.error().message;
+    EXPECT_EQ(common->profile.common_line, wanted);
+  }
   // A jet of water is switched as a plasma is.
   const auto jet = process_request(file_of({with(laser(), "process", "waterjet")}).processes.front(), {}, "");
   ASSERT_TRUE(jet) << jet.error().message;
@@ -285,11 +291,13 @@ TEST(ProcessFile, WhatIsWrongIsToldWithItsEntry) {
       {with(laser(), "kerf", 0.2),
        "there is no key 'kerf'; known are material, thickness_mm, process, post, kerf_mm, feed_mm_per_min, "
        "speed, "
-       "pierce_s, lead, lead_in_mm, depth_mm, pass_mm, plunge_mm_per_min, safe_height_mm, "
+       "pierce_s, lead, lead_in_mm, depth_mm, pass_mm, plunge_mm_per_min, safe_height_mm, tool, "
+       "engrave_tool, "
        "engrave_feed_mm_per_min, "
        "engrave_speed, engrave_depth_mm, "
        "pierce_diameter_mm, "
-       "heat_spread_mm, joints, joints_up_to_mm, joint_width_mm, slat_pitch_mm, slats, tab_height_mm, "
+       "heat_spread_mm, corner_feed_share, corner_distance_mm, common_line, joints, joints_up_to_mm, "
+       "joint_width_mm, slat_pitch_mm, slats, tab_height_mm, "
        "blade_offset_mm, turn_above_deg, overcut_mm, knife_tolerance_mm and holes"},
       {with(laser(), "depth_mm", 3), "depth_mm has a meaning for routers alone: process router"},
       {with(laser(), "safe_height_mm", 3), "safe_height_mm has a meaning for routers alone: process router"},
@@ -324,6 +332,28 @@ TEST(ProcessFile, WhatIsWrongIsToldWithItsEntry) {
        "tab_height_mm is missing: how high the tabs of a router are, in mm"},
       {with(with(with(router(), "joints", 2), "joint_width_mm", 3), "tab_height_mm", 100),
        "tab_height_mm 100: has to be below the depth of 12.5 mm"},
+      {with(laser(), "tool", 3), "tool has a meaning for routers alone: process router"},
+      {with(router(), "tool", 2.5), "tool 2.5: has to be a whole number"},
+      {with(router(), "tool", 0), "tool 0: has to be a number from 1 to 9999"},
+      {with(with(with(router(), "engrave_feed_mm_per_min", 300), "engrave_depth_mm", 1), "engrave_tool", 3),
+       "tool is missing: the number of the tool that cuts"},
+      {with(with(with(with(with(router(), "post", "grbl"), "engrave_feed_mm_per_min", 300),
+                      "engrave_depth_mm", 1),
+                 "engrave_tool", 3),
+            "tool", 2),
+       "engrave_tool 3: GRBL changes no tool on the way; engrave with tool 2, or leave both out"},
+      {with(laser(), "corner_feed_share", 0.5),
+       "corner_distance_mm is missing: how near a corner the cut is slow, in mm"},
+      {with(laser(), "corner_distance_mm", 2),
+       "corner_feed_share is missing: the share of the feed near corners"},
+      {with(with(laser(), "corner_distance_mm", 2), "corner_feed_share", 1.5),
+       "corner_feed_share 1.5: has to be a number from 0.01 to 1"},
+      {with(laser(), "common_line", "yes"), "common_line has to be true or false, not a text"},
+      {with(with(laser(), "common_line", true), "heat_spread_mm", 5),
+       "common_line and heat_spread_mm do not go together: leave one of them out"},
+      {with(with(laser(), "common_line", true), "lead", "arc"),
+       "common_line and lead arc do not go together: take lines for leads"},
+      {with(drag_knife(), "common_line", true), "common_line has no meaning for the form hpgl"},
       {hole(3), "holes has to be a list of at most 100 rows"},
       {without(drag_knife(), "blade_offset_mm"),
        "blade_offset_mm is missing: how far a drag knife's tip is behind its axis, in mm"},

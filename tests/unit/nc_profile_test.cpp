@@ -253,8 +253,8 @@ TEST(NcProfile, HolesUpToADiameterHaveLeadsAndFeedsOfTheirOwn) {
   EXPECT_EQ(feed_of_hole(made->text, 2), "F390.0");
   EXPECT_EQ(feed_of_hole(made->text, 3), "F390.0");
   EXPECT_EQ(feed_of_hole(made->text, 4), "F600.0");
-  // The path of the first hole begins 1 mm left of its middle, and the lead half a millimetre before that.
-  EXPECT_NE(made->text.find("(PLACEMENT 1 HOLE 1)\nG0 X9.5000 Y10.0000\n"), std::string::npos) << made->text;
+  // The path of the first hole begins 1 mm right of its middle, and the lead half a millimetre before that.
+  EXPECT_NE(made->text.find("(PLACEMENT 1 HOLE 1)\nG0 X10.5000 Y10.0000\n"), std::string::npos) << made->text;
   // Larger holes are cut as without the rules.
   options.holes = {{2.9, 0.5, 0.4}};
   const auto larger = profile_program(parts, "x", options);
@@ -263,6 +263,67 @@ TEST(NcProfile, HolesUpToADiameterHaveLeadsAndFeedsOfTheirOwn) {
   const std::size_t begin = text.find("(HOLES");
   text.erase(begin, text.find('\n', begin) + 1 - begin);
   EXPECT_EQ(text, without->text);
+}
+
+TEST(NcProfile, CornersAreCutAtAFeedOfTheirOwn) {
+  ProfileOptions options = plain();
+  options.corners = {0.5, 2};
+  // An outline has its corners in arcs of half the kerf, a hole has them sharp; a round hole has none.
+  const std::vector<ProfilePart> parts{
+      {1, region_of_contours(box_contour(10, 10, 30, 20),
+                             {box_contour(15, 15, 8, 8), circle_contour({32, 20}, 4, true)})}};
+  const auto made = profile_program(parts, "x", options);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_NE(made->text.find("NO G41 G42)\n(CORNERS F300.0 UP TO 2.0000 FROM EACH)\n"), std::string::npos);
+  EXPECT_NE(made->text.find("G2 X9.5000 Y10.0000 I0.0000 J0.5000 F300.0\n"
+                            "G1 X9.5000 Y12.0000\n"
+                            "G1 X9.5000 Y28.0000 F600.0\n"
+                            "G1 X9.5000 Y30.0000 F300.0\n"
+                            "G2 X10.0000 Y30.5000 I0.5000 J0.0000\n"
+                            "G1 X12.0000 Y30.5000\n"
+                            "G1 X38.0000 Y30.5000 F600.0\n"),
+            std::string::npos)
+      << made->text;
+  EXPECT_NE(made->text.find("G1 X15.5000 Y15.5000 F300.0\n"
+                            "G1 X17.5000 Y15.5000\n"
+                            "G1 X20.5000 Y15.5000 F600.0\n"
+                            "G1 X22.5000 Y15.5000 F300.0\n"),
+            std::string::npos)
+      << made->text;
+  EXPECT_EQ(feed_of_hole(made->text, 2), "F600.0");
+  // Where corners are nearer to each other than that, all between them is slow.
+  options.corners = {0.5, 4};
+  const auto all_slow = profile_program(parts, "x", options);
+  ASSERT_TRUE(all_slow) << all_slow.error().message;
+  EXPECT_NE(all_slow->text.find("G1 X22.5000 Y22.5000 F300.0\nG1 X15.5000 Y22.5000\n"), std::string::npos)
+      << all_slow->text;
+  const auto refused = [&](double share, double distance) {
+    options.corners = {share, distance};
+    const auto wrong = profile_program(parts, "x", options);
+    return wrong ? std::string() : wrong.error().message;
+  };
+  EXPECT_NE(refused(1.5, 2).find("share of the feed at corners is 1.5"), std::string::npos);
+  EXPECT_NE(refused(0.001, 2).find("share of the feed at corners is 0.001"), std::string::npos);
+  EXPECT_NE(refused(0.5, 0).find("distance from corners in mm is 0"), std::string::npos);
+  EXPECT_NE(refused(0.5, 1001).find("distance from corners in mm is 1001"), std::string::npos);
+  options.feed_mm_per_min = 0.15;
+  EXPECT_NE(refused(0.5, 2).find("feed in mm/min at corners is 0.075"), std::string::npos);
+  EXPECT_EQ(refused(1, 0), "");
+}
+
+TEST(NcProfile, LeadsToCornersThatPointInwardsDoNotCutAnEdgeTwice) {
+  ProfileOptions options = plain();
+  options.lead_in_mm = 1;
+  // The path of the hole is 3 by 3 mm: too short to be halved, so that cuts may begin at its corners alone.
+  const auto made = profile_program(
+      {{1, region_of_contours(box_contour(0, 0, 20, 20), {box_contour(8, 8, 4, 4)})}}, "x", options);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->bare_starts, 1U);
+  options.kerf_mm = 0.5;
+  const auto wider = profile_program(
+      {{1, region_of_contours(box_contour(0, 0, 20, 20), {box_contour(8, 8, 4, 4)})}}, "x", options);
+  ASSERT_TRUE(wider) << wider.error().message;
+  EXPECT_EQ(wider->bare_starts, 0U) << "from the middle of an edge";
 }
 
 TEST(NcProfile, ATurnedHoleIsCutByTheSameRule) {

@@ -112,6 +112,33 @@ TEST(VerifyMarks, AProgramEngravesBeforeItCuts) {
   }
 }
 
+TEST(VerifyMarks, MarksMayHaveAToolOfTheirOwn) {
+  std::vector<io::ExportWord> words = kRouter;
+  words.insert(words.end(), {{"tool", "2"}, {"engrave-tool", "7"}, {"engrave-speed", "9000"}});
+  const std::string two = exported(sample(), "gcode", words).files[0].bytes;
+  EXPECT_EQ(told(program_report(two, sample(), 3)), "") << two;
+  EXPECT_NE(two.find("\nT7 M6\nG43 H7\nG0 Z5.0000\nM3 S9000\n(MARKS"), std::string::npos) << two;
+  EXPECT_NE(two.find("\nM5\nT2 M6\nG43 H2\nG0 Z5.0000\nM3 S18000\n(PLACEMENT"), std::string::npos) << two;
+  // Another tool in the middle of the cuts has another width.
+  const std::size_t last = two.rfind("(PLACEMENT");
+  std::string changed = two;
+  changed.insert(last, "M5\nT7 M6\nG43 H7\nG0 Z5\nM3 S18000\n");
+  EXPECT_NE(told(program_report(changed, sample(), 3)).find(": tool 7 cuts, and line "), std::string::npos)
+      << told(program_report(changed, sample(), 3));
+  // One tool is changed to once; without marks there is none of theirs.
+  words.back().second = "18000", words[words.size() - 2].second = "2";
+  const std::string one = exported(sample(), "gcode", words).files[0].bytes;
+  EXPECT_EQ(told(program_report(one, sample(), 3)), "");
+  EXPECT_EQ(one.find("M6"), one.rfind("M6"));
+  Json bare = sample();
+  bare["parts"][0].erase("marks"), bare["parts"][0].erase("texts");
+  words[words.size() - 2].second = "7";
+  const std::string unmarked = exported(bare, "gcode", words).files[0].bytes;
+  EXPECT_EQ(told(program_report(unmarked, bare, 3)), "");
+  EXPECT_EQ(unmarked.find("T7"), std::string::npos);
+  EXPECT_NE(unmarked.find("T2 M6"), std::string::npos);
+}
+
 TEST(VerifyMarks, WithoutWordsNothingIsEngraved) {
   const io::Exported made = exported(sample(), "gcode", {{"kerf", "0.2"}, {"feed", "1000"}});
   EXPECT_EQ(told(program_report(made.files[0].bytes, sample(), 0.2)), "");

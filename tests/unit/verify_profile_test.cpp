@@ -86,7 +86,7 @@ TEST(VerifyProfileMoves, WhatIsNotWrittenThereIsRefusedWithItsLine) {
   refused("G0.5 X1 Y1", "lekalo writes no G0.5 into a profile program");
   refused("G5 X1 Y1", "lekalo writes no G5 into a profile program");
   refused("G91", "lekalo writes no G91 into a profile program");
-  refused("M6", "lekalo writes no M6 into a profile program");
+  refused("M7", "lekalo writes no M7 into a profile program");
   refused("M3.1", "lekalo writes no M3.1 into a profile program");
   refused("G0 X1\nG20", "the unit changes on the way");
   refused("G0 Y1\nG21", "the unit changes on the way");
@@ -136,6 +136,42 @@ TEST(VerifyProfileMoves, WhatIsNotWrittenThereIsRefusedWithItsLine) {
           "the beam or tool goes into the material where nothing is cut");
   EXPECT_EQ(cuts("G0 X1 Y1\nM3\nM5\nG0 X1 Y1\nM3\nG1 X5"), "7: L 1,1 5,1\n");
   EXPECT_EQ(cuts("G0 X0 Y0\nM3\nG2 X0 Y2 I0 J1"), "4: A 0,1 1 - 0,0 0,2\n");
+}
+
+TEST(VerifyProfileMoves, ToolsAreChangedAtRestAndLiftedBeforeTheyMove) {
+  EXPECT_EQ(cuts("T3 M6\nG43 H3\nG0 Z5\nG0 X1 Y2\nM3\nG1 Z-1\nX5\nG0 Z5"), "8: L 1,2 5,2\n");
+  // Nothing is known of places after a change.
+  const auto refused = [](const std::string& words, const std::string& said) {
+    EXPECT_NE(cuts(words).find(said), std::string::npos) << words << "\n" << cuts(words);
+  };
+  const std::string cut = "G0 Z5\nG0 X1 Y2\nM3\nG1 Z-1\nX5\nG0 Z5\nM5\n";
+  EXPECT_EQ(cuts(cut + "T9999 M6\nG43 H9999\n" + cut), "6: L 1,2 5,2\n15: L 1,2 5,2\n");
+  refused(cut + "T3 M6\nG43 H3\nG0 Z5\nM3\nG1 Z-1\nX5", "a cut from a place that is not known");
+  refused(cut + "T3 M6\nG43 H3\nG0 Z5\nG0 X1\nM3\nG1 Z-1\nX5", "a cut from a place that is not known");
+  refused(cut + "T3 M6\nG43 H3\nG0 Z5\nG0 Y1\nM3\nG1 Z-1\nX5", "a cut from a place that is not known");
+  refused("G0 Z5\nM3\nT3 M6", "p.nc:4: a tool is changed while the spindle turns");
+  const std::string early = "a changed tool moves before its length is taken and it is lifted";
+  refused("T3 M6\nG0 Z5", "p.nc:3: " + early);
+  refused("T3 M6\nG43 H3\nG0 X5", "p.nc:4: " + early);
+  refused("T3 M6\nG43 H3\nG0 Y5", "p.nc:4: " + early);
+  refused("T3 M6\nG0 Z5 G43 H3\nG0 Z5\nT3 M6\nG0 X1", early);
+  EXPECT_EQ(cuts("T3 M6\nG0 G43 H3 Z5\nG0 X1 Y2\nM3\nG1 Z-1\nX5\nG0 Z5"), "7: L 1,2 5,2\n");
+  const std::string other = "the length is not that of a tool that was changed to right before";
+  refused("T3 M6\nG43 H4", "p.nc:3: " + other);
+  refused("G43 H3", "p.nc:2: " + other);
+  refused("T3 M6\nG43 H3\nG0 Z5\nG43 H3", "p.nc:5: " + other);
+  const std::string number = "a tool or its length without M6 or G43, or these without a number";
+  refused("T3", "p.nc:2: " + number);
+  refused("M6", "p.nc:2: " + number);
+  refused("T3 M6\nH3", "p.nc:3: " + number);
+  refused("T3 M6\nG43", "p.nc:3: " + number);
+  for (const char* word : {"T0", "T-1", "T1.5", "T10000", "T", "H0 G43"})
+    refused(std::string(word) + " M6", "lekalo writes no such word into a profile program");
+  // A length that is taken is said as one that is none.
+  const Result<ProfileProgram> read =
+      read_profile({"p.nc", "G21 G17 G40 G54 G90 G94\nT3 M6\nG43 H3\nG0 Z5\nM2\n"}, words::Control::fanuc);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_TRUE(read->unsaid.sentences().empty());
 }
 
 TEST(VerifyProfileMoves, AProgramSaysItsModesAndEnds) {

@@ -60,6 +60,8 @@ struct Dialect {
 
   /// `{tool}` stands for the tool's number.
   std::string_view tool_change = "T{tool} M6\nG43 H{tool}";
+  /// False where a program cannot change the tool on the way.
+  bool changes_tools = true;
   std::string_view laser_on = "M3";
   /// True when the beam stays dark without an S word.
   bool laser_needs_power = false;

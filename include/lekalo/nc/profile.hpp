@@ -46,6 +46,13 @@ struct HoleCut {
   double feed_share = 1;  ///< of the feed of all cuts, 0.01 to 1
 };
 
+/// Cuts are slow near corners, where a machine stops and its beam or jet trails behind.
+struct CornerSpeed {
+  double feed_share = 1;   ///< of the feed of the cut, 0.01 to 1
+  double distance_mm = 0;  ///< along the cut before and behind each corner, 0.01 to 1000
+  [[nodiscard]] bool wanted() const noexcept { return feed_share < 1; }
+};
+
 struct ProfileOptions {
   Dialect post = posts().front();
   Process process = Process::laser;
@@ -67,8 +74,13 @@ struct ProfileOptions {
   double safe_height_mm = 5;
   /// The feed downwards, above 0 to 1e6; routers only.
   double plunge_mm_per_min = 0;
+  /// The number of the tool that cuts, 1 to 9999, and whose length the control takes; 0: it is in the spindle
+  /// already; routers only.
+  int tool = 0;
   /// In ascending order of their diameters; the first that a hole fits is how it is cut.
   std::vector<HoleCut> holes;
+  /// A corner is where a cut turns by more than 30 degrees, at once or in the arc round a corner of a part.
+  CornerSpeed corners{};
   /// Nothing: no mark is engraved.
   std::optional<Engraving> engraving{};
   /// The diameter of the disc that a pierce burns, from the kerf to 100; not for routers. Every disc then

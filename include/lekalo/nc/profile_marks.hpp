@@ -21,6 +21,7 @@ struct Engraving {
   /// The S word, 1 to 1e6; 0 for none, which leaves a router's spindle as it turns.
   double speed = 0;
   double depth_mm = 0;  ///< below Z 0, 0.01 to 1000; routers only
+  int tool = 0;         ///< the number of its own tool, 1 to 9999; 0: that of the cuts; routers only
 };
 
 /// A mark that is not engraved, because it leaves its part or enters another one.

@@ -72,7 +72,7 @@ class MeshClearance {
  private:
   struct Walk;
   struct Blank {
-    Blank(const Mesh& blank, const std::vector<double>& widths);
+    Blank(const Mesh& blank, const std::vector<double>& widths, unsigned threads);
 
     TriangleTree tree;
     OrientedBoxes boxes;  ///< of the tree's nodes

@@ -26,8 +26,9 @@ using Corners = std::array<Vector, 3>;
 /// answers does not depend on anything but its arguments. Building: O(n log n); 150 bytes a triangle.
 class TriangleTree {
  public:
-  /// \param leaf  the most triangles that a leaf has
-  explicit TriangleTree(const Mesh& mesh, std::uint32_t leaf = 4);
+  /// \param leaf  the most triangles that a leaf has, at least 1
+  /// \param threads  that build it
+  explicit TriangleTree(const Mesh& mesh, std::uint32_t leaf = 4, unsigned threads = 1);
 
   /// The distance from p to the nearest triangle, or none if all are farther away than `most`, mm. A triangle
   /// that is near p, as that of a neighbouring point, makes it quicker. The bounds are within 2^-47 of the
@@ -75,13 +76,7 @@ class TriangleTree {
   [[nodiscard]] double largest() const noexcept { return largest_; }
 
  private:
-  /// Three times the middle of a triangle.
-  struct Middle {
-    Vector sum;
-    std::uint32_t triangle = 0;
-  };
-  std::uint32_t sort(std::uint32_t begin, std::uint32_t end, std::uint32_t leaf,
-                     std::vector<Middle>& middles);
+  class Builder;
   template <class Visit>
   void descend(std::uint32_t at, const Visit& visit, Vector p) const;
 

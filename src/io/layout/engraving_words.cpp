@@ -8,7 +8,7 @@ void ExportWordTaker::complete_engraving(std::vector<std::string>& complaints) {
   nc::ProfileOptions& p = request_.profile;
   const bool router = p.process == nc::Process::router;
   bool is_any = false;
-  for (const char* word : {"engrave-feed", "engrave-speed", "engrave-depth"}) {
+  for (const char* word : {"engrave-feed", "engrave-speed", "engrave-depth", "engrave-tool"}) {
     if (!was_given(word)) continue;
     is_any = true;
     if (p.process == nc::Process::plasma)
@@ -28,9 +28,18 @@ void ExportWordTaker::complete_engraving(std::vector<std::string>& complaints) {
     complaints.push_back(fmt::format("{} {:g}: has to be less than the {} of {:g} mm, which cuts through",
                                      shown_("engrave-depth"), engraving_.depth_mm, shown_("depth"),
                                      p.depth_mm));
-  if (!router && was_given("engrave-depth"))
-    complaints.push_back(fmt::format("{} has a meaning for routers alone: {} router", shown_("engrave-depth"),
-                                     shown_("process")));
+  for (const char* word : {"engrave-depth", "engrave-tool"})
+    if (!router && was_given(word))
+      complaints.push_back(
+          fmt::format("{} has a meaning for routers alone: {} router", shown_(word), shown_("process")));
+  if (router && was_given("engrave-tool")) {
+    if (!was_given("tool"))
+      complaints.push_back(fmt::format("{} is missing: the number of the tool that cuts", shown_("tool")));
+    else if (engraving_.tool != p.tool && !p.post.changes_tools)
+      complaints.push_back(
+          fmt::format("{} {}: {} changes no tool on the way; engrave with tool {}, or leave both out",
+                      shown_("engrave-tool"), engraving_.tool, p.post.control, p.tool));
+  }
   // With the power of the cut marks would be cut through.
   if (!router && p.speed > 0 && !was_given("engrave-speed"))
     complaints.push_back(fmt::format(

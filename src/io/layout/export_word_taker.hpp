@@ -37,6 +37,7 @@ class ExportWordTaker {
   [[nodiscard]] Result<void> post(const ExportWord& word);
   [[nodiscard]] tl::unexpected<Error> none_of(const ExportWord& word, const std::string& list) const;
   [[nodiscard]] Result<void> number(const ExportWord& word, double low, double high, double& to) const;
+  [[nodiscard]] Result<void> tool_number(const ExportWord& word, int& to) const;
   [[nodiscard]] Result<void> profile_number(const ExportWord& word);
   /// Words of pierces and joints: export_joint_words.cpp.
   [[nodiscard]] Result<void> joint_rule(const ExportWord& word);

@@ -39,6 +39,8 @@ Result<void> ExportWordTaker::take(const ExportWord& word) {
   if (is_knife_word(name)) return knife_number(word);
   if (name == "slats") return choice(word, {{"x", true}, {"y", false}}, p.joints.slats.along_x);
   if (name == "common-line") return choice(word, {{"yes", true}, {"no", false}}, p.common_line);
+  if (name == "tool") return tool_number(word, p.tool);
+  if (name == "engrave-tool") return tool_number(word, engraving_.tool);
   if (name == "joints") return joint_rule(word);
   if (name == "joints-of") return joints_of(word);
   return profile_number(word);
@@ -62,13 +64,15 @@ std::vector<std::string> ExportWordTaker::complete() {
     needs("depth", "how deep a router cuts, in mm");
     needs("plunge", "how fast a router goes down, in mm/min");
   }
-  for (const char* name : {"depth", "pass", "safe-height", "plunge", "tab-height"})
+  for (const char* name : {"depth", "pass", "safe-height", "plunge", "tab-height", "tool"})
     if (!router && was_given(name))
       complaints.push_back(
           fmt::format("{} has a meaning for routers alone: {} router", shown_(name), shown_("process")));
   if (router && p.pierce_s > 0)
     complaints.push_back(fmt::format("{} has no meaning for routers: leave it out", shown_("pierce")));
   complain_of_joints(complaints);
+  if (was_given("corner-feed")) needs("corner-distance", "how near a corner the cut is slow, in mm");
+  if (was_given("corner-distance")) needs("corner-feed", "the share of the feed near corners");
   for (const char* name : {"joints", "joints-of", "heat-spread"})
     if (p.common_line && was_given(name))
       complaints.push_back(fmt::format("{} and {} do not go together: leave one of them out",
@@ -155,6 +159,16 @@ Result<void> ExportWordTaker::number(const ExportWord& word, double low, double 
   return {};
 }
 
+Result<void> ExportWordTaker::tool_number(const ExportWord& word, int& to) const {
+  double value = 0;
+  LEKALO_CHECK(number(word, 1, 9999, value));
+  if (value != std::floor(value))
+    return failure(ErrorCode::usage,
+                   fmt::format("{} {}: has to be a whole number", shown_(word.first), word.second));
+  to = static_cast<int>(value);
+  return {};
+}
+
 Result<void> ExportWordTaker::profile_number(const ExportWord& word) {
   struct Number {
     const char* name;
@@ -177,6 +191,8 @@ Result<void> ExportWordTaker::profile_number(const ExportWord& word) {
                             {"engrave-depth", 0.01, 1000, &engraving_.depth_mm},
                             {"pierce-diameter", 0.01, 100, &p.pierce_diameter_mm},
                             {"heat-spread", 0, 1e4, &p.heat_spread_mm},
+                            {"corner-feed", 0.01, 1, &p.corners.feed_share},
+                            {"corner-distance", 0.01, 1000, &p.corners.distance_mm},
                             {"joints-up-to", 0.1, 1e4, &p.joints.up_to_mm},
                             {"joint-width", 0.05, 50, &p.joints.width_mm},
                             {"slat-pitch", 1, 1000, &p.joints.slats.pitch_mm},
@@ -208,11 +224,15 @@ const std::vector<ExportWordHelp>& export_words() {
       {"pass", "MM", "gcode, router: depth of one pass [all at once]"},
       {"safe-height", "MM", "gcode, router: Z of travels [5]"},
       {"plunge", "MM/MIN", "gcode, router: speed downwards"},
+      {"tool", "N", "gcode, router: change to this tool to cut, with its length [it is in the spindle]"},
+      {"engrave-tool", "N", "gcode, router: change to this tool to engrave [that of the cuts]"},
       {"engrave-feed", "MM/MIN", "gcode: speed along lines and texts on parts [they are not engraved]"},
       {"engrave-speed", "S", "gcode: the S word of engraving"},
       {"engrave-depth", "MM", "gcode, router: depth of engraving below Z 0"},
       {"pierce-diameter", "MM", "gcode: what a pierce burns; kept clear of parts and of earlier cuts"},
       {"heat-spread", "MM", "gcode: begin so far from the cut before, where there is a choice [0]"},
+      {"corner-feed", "SHARE", "gcode: of the feed, near corners [1]"},
+      {"corner-distance", "MM", "gcode, with corner-feed: how near a corner, along the cut"},
       {"common-line", "", "gcode: cut edges once that two parts have in common, at one kerf"},
       {"joints", "N|tipping", "gcode: joints on each part, or as many as keep it from tipping [none]"},
       {"joints-of", "ID=N,...", "gcode: these placements have so many joints instead"},

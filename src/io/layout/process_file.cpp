@@ -27,40 +27,44 @@ using detail::JsonValue;
 constexpr std::string_view kProcessFormat = "lekalo-process/1";
 constexpr std::size_t kMostProcesses = 10'000, kMostHoleRows = 100;
 
+enum class KeyKind { text, number, text_or_number, truth };
 /// A key of an entry and the word of an export that it stands for.
 struct ProcessKey {
   const char *key, *word;
-  bool is_number;
-  /// A number is as good as a text.
-  bool may_be_number = false;
+  KeyKind kind;
 };
-constexpr std::array kProcessKeys{ProcessKey{"process", "process", false},
-                                  ProcessKey{"post", "post", false},
-                                  ProcessKey{"kerf_mm", "kerf", true},
-                                  ProcessKey{"feed_mm_per_min", "feed", true},
-                                  ProcessKey{"speed", "speed", true},
-                                  ProcessKey{"pierce_s", "pierce", true},
-                                  ProcessKey{"lead", "lead", false},
-                                  ProcessKey{"lead_in_mm", "lead-in", true},
-                                  ProcessKey{"depth_mm", "depth", true},
-                                  ProcessKey{"pass_mm", "pass", true},
-                                  ProcessKey{"plunge_mm_per_min", "plunge", true},
-                                  ProcessKey{"safe_height_mm", "safe-height", true},
-                                  ProcessKey{"engrave_feed_mm_per_min", "engrave-feed", true},
-                                  ProcessKey{"engrave_speed", "engrave-speed", true},
-                                  ProcessKey{"engrave_depth_mm", "engrave-depth", true},
-                                  ProcessKey{"pierce_diameter_mm", "pierce-diameter", true},
-                                  ProcessKey{"heat_spread_mm", "heat-spread", true},
-                                  ProcessKey{"joints", "joints", false, true},
-                                  ProcessKey{"joints_up_to_mm", "joints-up-to", true},
-                                  ProcessKey{"joint_width_mm", "joint-width", true},
-                                  ProcessKey{"slat_pitch_mm", "slat-pitch", true},
-                                  ProcessKey{"slats", "slats", false},
-                                  ProcessKey{"tab_height_mm", "tab-height", true},
-                                  ProcessKey{"blade_offset_mm", "blade-offset", true},
-                                  ProcessKey{"turn_above_deg", "turn-above", true},
-                                  ProcessKey{"overcut_mm", "overcut", true},
-                                  ProcessKey{"knife_tolerance_mm", "knife-tolerance", true}};
+constexpr std::array kProcessKeys{ProcessKey{"process", "process", KeyKind::text},
+                                  ProcessKey{"post", "post", KeyKind::text},
+                                  ProcessKey{"kerf_mm", "kerf", KeyKind::number},
+                                  ProcessKey{"feed_mm_per_min", "feed", KeyKind::number},
+                                  ProcessKey{"speed", "speed", KeyKind::number},
+                                  ProcessKey{"pierce_s", "pierce", KeyKind::number},
+                                  ProcessKey{"lead", "lead", KeyKind::text},
+                                  ProcessKey{"lead_in_mm", "lead-in", KeyKind::number},
+                                  ProcessKey{"depth_mm", "depth", KeyKind::number},
+                                  ProcessKey{"pass_mm", "pass", KeyKind::number},
+                                  ProcessKey{"plunge_mm_per_min", "plunge", KeyKind::number},
+                                  ProcessKey{"safe_height_mm", "safe-height", KeyKind::number},
+                                  ProcessKey{"tool", "tool", KeyKind::number},
+                                  ProcessKey{"engrave_tool", "engrave-tool", KeyKind::number},
+                                  ProcessKey{"engrave_feed_mm_per_min", "engrave-feed", KeyKind::number},
+                                  ProcessKey{"engrave_speed", "engrave-speed", KeyKind::number},
+                                  ProcessKey{"engrave_depth_mm", "engrave-depth", KeyKind::number},
+                                  ProcessKey{"pierce_diameter_mm", "pierce-diameter", KeyKind::number},
+                                  ProcessKey{"heat_spread_mm", "heat-spread", KeyKind::number},
+                                  ProcessKey{"corner_feed_share", "corner-feed", KeyKind::number},
+                                  ProcessKey{"corner_distance_mm", "corner-distance", KeyKind::number},
+                                  ProcessKey{"common_line", "common-line", KeyKind::truth},
+                                  ProcessKey{"joints", "joints", KeyKind::text_or_number},
+                                  ProcessKey{"joints_up_to_mm", "joints-up-to", KeyKind::number},
+                                  ProcessKey{"joint_width_mm", "joint-width", KeyKind::number},
+                                  ProcessKey{"slat_pitch_mm", "slat-pitch", KeyKind::number},
+                                  ProcessKey{"slats", "slats", KeyKind::text},
+                                  ProcessKey{"tab_height_mm", "tab-height", KeyKind::number},
+                                  ProcessKey{"blade_offset_mm", "blade-offset", KeyKind::number},
+                                  ProcessKey{"turn_above_deg", "turn-above", KeyKind::number},
+                                  ProcessKey{"overcut_mm", "overcut", KeyKind::number},
+                                  ProcessKey{"knife_tolerance_mm", "knife-tolerance", KeyKind::number}};
 
 std::string process_key_of(const std::string& word) {
   const auto found = std::find_if(kProcessKeys.begin(), kProcessKeys.end(),
@@ -160,13 +164,20 @@ class ProcessReader {
     }
     // A value that is no number is refused like those out of range.
     std::string value;
-    if (known->is_number || (known->may_be_number && item.is_number())) {
+    const bool may_be_number = known->kind == KeyKind::text_or_number;
+    if (known->kind == KeyKind::number || (may_be_number && item.is_number())) {
       value = item.is_number() ? fmt::format("{}", item.number()) : name_of(item.kind());
+    } else if (known->kind == KeyKind::truth) {
+      if (item.kind() != JsonKind::boolean) {
+        complain(fmt::format("{} has to be true or false, not {}", known->key, name_of(item.kind())));
+        return false;
+      }
+      value = item.truth() ? "yes" : "no";
     } else {
       const auto said = text(item);
       if (!said) return false;
       value = *said;
-      if (known->may_be_number && value.find_first_not_of("0123456789") == std::string::npos) {
+      if (may_be_number && value.find_first_not_of("0123456789") == std::string::npos) {
         complain(fmt::format("{} \"{}\": a number stands without quotation marks", known->key, value));
         return false;
       }

@@ -230,7 +230,7 @@ Result<SolidPlacement> find_start(const SolidProblem& problem, const SolidOption
   const solid::Box blank = box_of(problem.blank.vertices);
   const Vector reach{frame.reach, frame.reach, frame.reach};
   frame.window.low.at = blank.low - reach, frame.window.high.at = blank.high + reach;
-  const SolidMeter meter(problem, frame);
+  const SolidMeter meter(problem, frame, options.threads);
   std::uint64_t work = 0;
   const MeasuredSolid best = first_climb(meter, frame.reach, options.gap, options.run, work);
   const RunControl nobody;
@@ -257,7 +257,7 @@ Result<std::optional<SolidPlacement>> solid_at(const SolidProblem& problem, cons
 Result<SolidResult> locate_solid(const SolidProblem& problem, const SolidOptions& options) {
   LEKALO_CHECK(check(problem, options));
   if (options.run.progress) options.run.progress({});
-  const SolidMeter meter(problem, frame_of(problem));
+  const SolidMeter meter(problem, frame_of(problem), options.threads);
   SolidSearch search(meter, options);
   const RunControl nobody;
   const Listening to_the_end(nobody);

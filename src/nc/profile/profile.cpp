@@ -12,6 +12,7 @@
 #include "common_stretch.hpp"
 #include "lekalo/geom/box_tree.hpp"
 #include "lekalo/geom/edge_distance.hpp"
+#include "profile_corners.hpp"
 #include "profile_engraving.hpp"
 #include "profile_joints.hpp"
 #include "profile_leads.hpp"
@@ -29,12 +30,7 @@ using geom::Point;
 
 constexpr std::size_t kLongestProgram = 500'000'000;  // bytes
 
-double length_of(const geom::Edge& edge) {
-  return edge.kind == geom::EdgeKind::line ? geom::norm(edge.to - edge.from)
-                                           : geom::arc_radius(edge) * geom::arc_sweep(edge);
-}
-
-double length_of(const std::vector<WrittenEdge>& edges, const Resolution& resolution) {
+double path_length(const std::vector<WrittenEdge>& edges, const Resolution& resolution) {
   double sum = 0;
   for (const WrittenEdge& edge : edges) sum += length_of(edge_mm(edge, resolution));
   return sum;
@@ -53,6 +49,29 @@ Result<void> check_holes(const ProfileOptions& o) {
       return failure(ErrorCode::usage, "diameters of holes have to stand in ascending order");
     before = hole.up_to_diameter_mm;
   }
+  return {};
+}
+
+Result<void> check_corners(const ProfileOptions& o) {
+  LEKALO_CHECK(check_range("share of the feed at corners", o.corners.feed_share, 0.01, 1));
+  if (!o.corners.wanted()) return {};
+  LEKALO_CHECK(check_range("distance from corners in mm", o.corners.distance_mm, 0.01, 1000));
+  double least = o.corners.feed_share * o.feed_mm_per_min;
+  for (const HoleCut& hole : o.holes)
+    least = std::min(least, hole.feed_share * o.corners.feed_share * o.feed_mm_per_min);
+  return check_range("feed in mm/min at corners", least, 0.1, 1e6);
+}
+
+Result<void> check_tools(const ProfileOptions& o) {
+  const int of_marks = o.engraving ? o.engraving->tool : 0;
+  if (o.tool == 0 && of_marks == 0) return {};
+  if (o.process != Process::router) return failure(ErrorCode::usage, "routers alone have tools with numbers");
+  LEKALO_CHECK(check_range("number of the tool", o.tool, 1, 9999));
+  LEKALO_CHECK(check_range("number of the tool of engraving", of_marks, 0, 9999));
+  if (of_marks > 0 && of_marks != o.tool && !o.post.changes_tools)
+    return failure(ErrorCode::usage,
+                   fmt::format("{} changes no tool on the way, so that marks and cuts need the same one",
+                               o.post.control));
   return {};
 }
 
@@ -87,6 +106,7 @@ Result<void> check_options(const ProfileOptions& o) {
     LEKALO_CHECK(check_range("speed of engraving (S word)", o.engraving->speed, 0, 1e6));
     if (router) LEKALO_CHECK(check_range("depth of engraving in mm", o.engraving->depth_mm, 0.01, 1000));
   }
+  LEKALO_CHECK(check_tools(o));
   if (router && !(o.speed >= 1))
     return failure(ErrorCode::usage, "a router needs the speed of its spindle, the S word");
   if (o.post.laser_needs_power && o.process == Process::laser && !(o.speed >= 1))
@@ -97,6 +117,7 @@ Result<void> check_options(const ProfileOptions& o) {
   if (router && o.pierce_s > 0)
     return failure(ErrorCode::usage, "a router does not pierce: leave the pierce time out");
   LEKALO_CHECK(check_holes(o));
+  LEKALO_CHECK(check_corners(o));
   LEKALO_CHECK(check_pierce_and_order(o));
   LEKALO_CHECK(check_common_line(o));
   return check_joints(o);
@@ -228,10 +249,8 @@ tl::unexpected<Error> too_long() {
 }
 
 /// Writes the marks of all parts, and moves `here` to where the last ends.
-Result<void> engrave(const std::vector<ProfilePart>& parts, const ProfileOptions& options,
-                     const Resolution& resolution, ProfileWriter& writer, ProfileProgram& program,
-                     Point& here) {
-  EngravedPaths engraved = engraved_paths(parts, options);
+Result<void> engrave(EngravedPaths engraved, const Resolution& resolution, ProfileWriter& writer,
+                     ProfileProgram& program, Point& here) {
   program.marks = engraved.marks;
   program.marks_left_out = std::move(engraved.left_out);
   if (engraved.paths.empty()) return {};
@@ -240,7 +259,7 @@ Result<void> engrave(const std::vector<ProfilePart>& parts, const ProfileOptions
     writer.engrave(path);
     if (writer.size() > kLongestProgram) return too_long();
     program.travel_mm += geom::norm(resolution.mm(path.front().from) - here);
-    program.engraved_mm += length_of(path, resolution);
+    program.engraved_mm += path_length(path, resolution);
     here = resolution.mm(path.back().to);
   }
   writer.end_engraving();
@@ -349,9 +368,10 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& placed, c
   tell_heat(starts, order, kerfs, options, program);
 
   // Steps 7 and 8.
-  ProfileWriter writer(name, options);
+  EngravedPaths engraved = engraved_paths(placed, options);
+  ProfileWriter writer(name, options, !engraved.paths.empty());
   Point here;
-  LEKALO_CHECK(engrave(placed, options, resolution, writer, program, here));
+  LEKALO_CHECK(engrave(std::move(engraved), resolution, writer, program, here));
   for (const OrderedCut& ordered : order) {
     const Cut& cut = cuts[ordered.cut];
     const Starts& its = starts[ordered.cut];
@@ -360,14 +380,15 @@ Result<ProfileProgram> profile_program(const std::vector<ProfilePart>& placed, c
     writer.comment(remark_on(parts, cut));
     for (const Stretch& stretch : stretches_of(cut, its, ordered.start, options)) {
       const Start& start = *stretch.start;
+      const std::vector<WrittenEdge> path = with_slow_corners(stretch.path, options);
       std::vector<WrittenEdge> all = start.lead;
-      all.insert(all.end(), stretch.path.begin(), stretch.path.end());
+      all.insert(all.end(), path.begin(), path.end());
       LEKALO_TRY(const double deepest_mm, proved_depth(parts, cut, all, proof, options));
       program.deepest_mm = std::max(program.deepest_mm, deepest_mm);
-      writer.cut(start.lead, stretch.path, on_terms.feed_mm_per_min);
+      writer.cut(start.lead, path, on_terms.feed_mm_per_min);
       program.travel_mm += geom::norm(resolution.mm(start.pierce) - here);
       here = resolution.mm(stretch.path.back().to);
-      program.cut_mm += length_of(all, resolution);
+      program.cut_mm += path_length(all, resolution);
       if (on_terms.lead_in_mm > 0 && start.lead.empty())
         ++(start.in_kerf_of.empty() ? program.bare_starts : program.starts_in_kerfs);
       else if (start.lead_mm < on_terms.lead_in_mm)

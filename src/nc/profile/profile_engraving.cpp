@@ -175,7 +175,7 @@ EngravedPaths engraved_paths(const std::vector<ProfilePart>& parts, const Profil
 void ProfileWriter::begin_engraving() {
   const double speed = options_.engraving->speed;
   comment(fmt::format("marks{}", out_.feed(options_.engraving->feed_mm_per_min, 2)));
-  if (options_.process == Process::router && speed > 0 && speed != options_.speed)
+  if (options_.process == Process::router && !has_tool_of_marks() && speed > 0 && speed != options_.speed)
     out_.line(fmt::format("M3 S{:.0f}", speed));
 }
 
@@ -184,20 +184,25 @@ void ProfileWriter::engrave(const std::vector<WrittenEdge>& path) {
   rapid_to(path.front().from);
   if (options_.process == Process::router) {
     out_.line("G1 Z" + length(-how.depth_mm) + out_.feed(options_.plunge_mm_per_min, 2));
-    follow(path, how.feed_mm_per_min);
+    follow(path, how.feed_mm_per_min, true);
     out_.line("G0 Z" + length(options_.safe_height_mm));
     return;
   }
   out_.line(
       fmt::format("{}{}", options_.post.laser_on, how.speed > 0 ? fmt::format(" S{:.0f}", how.speed) : ""));
-  follow(path, how.feed_mm_per_min);
+  follow(path, how.feed_mm_per_min, true);
   out_.line("M5");
 }
 
 void ProfileWriter::end_engraving() {
+  if (options_.process != Process::router) return;
   const double speed = options_.engraving->speed;
-  if (options_.process == Process::router && speed > 0 && speed != options_.speed)
+  if (has_tool_of_marks()) {
+    out_.line("M5");
+    start_router(options_.tool, options_.speed);
+  } else if (speed > 0 && speed != options_.speed) {
     out_.line(fmt::format("M3 S{:.0f}", options_.speed));
+  }
 }
 
 }  // namespace lekalo::nc

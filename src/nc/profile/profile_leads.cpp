@@ -98,13 +98,13 @@ class StartFinder {
       const std::size_t edge = edge_at(k, most);
       const WrittenPoint at = path_[edge].from;
       // Both edges at a start go one way, because the path is smooth, in the middle of a stretch and at the
-      // end of a corner's arc alike. At corners that point inwards the proof decides; a lead along the
-      // edge before cuts that edge twice, which is refused with common lines.
+      // end of a corner's arc alike. At corners that point inwards the proof decides; but a lead along the
+      // edge before would cut that edge twice.
       auto lead = lead_to(at, direction_at_start(edge_mm(path_[edge], resolution_)), length, options_.lead,
                           resolution_);
       if (lead.size() != 1 || lead.back().to != at || !around_.proof.stays_out(lead)) continue;
       const WrittenEdge& before = path_[(edge + path_.size() - 1) % path_.size()];
-      if (options_.common_line && come_one_way(lead.back(), before, resolution_)) continue;
+      if (come_one_way(lead.back(), before, resolution_)) continue;
       const WrittenPoint pierce = lead.front().from;
       if (options_.pierce_diameter_mm > 0 &&
           !around_.proof.disc_stays_out(pierce, 0.5 * options_.pierce_diameter_mm))

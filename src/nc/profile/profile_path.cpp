@@ -118,6 +118,11 @@ Edge edge_mm(const WrittenEdge& edge, const Resolution& resolution) noexcept {
           edge.kind == EdgeKind::line ? Point{} : resolution.mm(edge.centre)};
 }
 
+double length_of(const Edge& edge) noexcept {
+  return edge.kind == EdgeKind::line ? geom::norm(edge.to - edge.from)
+                                     : geom::arc_radius(edge) * geom::arc_sweep(edge);
+}
+
 std::vector<WrittenEdge> written_edges(const std::vector<Edge>& edges, const Resolution& resolution) {
   std::vector<WrittenEdge> written;
   if (edges.empty()) return written;

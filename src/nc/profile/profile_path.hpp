@@ -26,9 +26,13 @@ struct WrittenEdge {
   geom::EdgeKind kind = geom::EdgeKind::line;
   WrittenPoint from, to, centre;
   bool joint = false;  ///< a joint stays here: the edge is not cut, or not down to the bottom
+  bool slow = false;   ///< near a corner (profile_corners.hpp)
 };
 /// The edge in mm, within rounding of a double.
 [[nodiscard]] geom::Edge edge_mm(const WrittenEdge& edge, const Resolution& resolution) noexcept;
+
+/// The length of a line or an arc, mm.
+[[nodiscard]] double length_of(const geom::Edge& edge) noexcept;
 
 /// Edges as they are written (step 4 of docs/design/export.md): arcs of at most half a turn, arcs that are
 /// lines to the resolution as lines, and no edge of no length.

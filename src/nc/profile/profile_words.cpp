@@ -11,7 +11,7 @@ constexpr int kInchFeedDecimals = 2;
 
 }  // namespace
 
-ProfileWriter::ProfileWriter(const std::string& name, const ProfileOptions& options)
+ProfileWriter::ProfileWriter(const std::string& name, const ProfileOptions& options, bool engraves)
     : options_(options),
       resolution_(resolution_of(options)),
       out_(options.post, options.unit, resolution_.decimals) {
@@ -21,13 +21,28 @@ ProfileWriter::ProfileWriter(const std::string& name, const ProfileOptions& opti
     comment(fmt::format("holes up to {} lead {}{}", length(hole.up_to_diameter_mm),
                         length(hole.lead_in_mm.value_or(options.lead_in_mm)),
                         out_.feed(hole.feed_share * options.feed_mm_per_min, kInchFeedDecimals)));
+  if (options.corners.wanted())
+    comment(fmt::format("corners{} up to {} from each",
+                        out_.feed(options.corners.feed_share * options.feed_mm_per_min, kInchFeedDecimals),
+                        length(options.corners.distance_mm)));
   if (options.pierce_diameter_mm > 0)
     comment(fmt::format("pierces {} clear of parts and of earlier cuts", length(options.pierce_diameter_mm)));
   if (options.joints.wanted()) comment(fmt::format("joints {}", length(options.joints.width_mm)));
   out_.lines(options.post.profile.modes);
   if (options.process != Process::router) return;
-  out_.line("G0 Z" + length(options.safe_height_mm));
-  out_.line(fmt::format("M3 S{:.0f}", options.speed));
+  const bool begins_with_marks = engraves && has_tool_of_marks();
+  start_router(begins_with_marks ? options.engraving->tool : options.tool,
+               begins_with_marks && options.engraving->speed > 0 ? options.engraving->speed : options.speed);
+}
+
+bool ProfileWriter::has_tool_of_marks() const {
+  return options_.engraving && options_.engraving->tool > 0 && options_.engraving->tool != options_.tool;
+}
+
+void ProfileWriter::start_router(int tool, double speed) {
+  if (tool > 0) out_.lines(options_.post.tool_change, {{"{tool}", std::to_string(tool)}});
+  out_.line("G0 Z" + length(options_.safe_height_mm));
+  out_.line(fmt::format("M3 S{:.0f}", speed));
 }
 
 void ProfileWriter::cut(const std::vector<WrittenEdge>& lead, const std::vector<WrittenEdge>& path,
@@ -46,8 +61,8 @@ void ProfileWriter::cut_by_beam(const std::vector<WrittenEdge>& lead, const std:
   const auto& [units_per_second, decimals] = options_.post.dwell;
   if (options_.pierce_s > 0)
     out_.line(fmt::format("G4 P{:.{}f}", units_per_second * options_.pierce_s, decimals));
-  follow(lead, feed);
-  follow(path, lead.empty() ? std::optional(feed) : std::nullopt);
+  follow(lead, feed, true);
+  follow(path, feed, lead.empty());
   out_.line("M5");
 }
 
@@ -65,12 +80,12 @@ void ProfileWriter::cut_by_router(const std::vector<WrittenEdge>& lead, const st
     }
     out_.line("G1 Z" + length(-z) + out_.feed(options_.plunge_mm_per_min, kInchFeedDecimals));
     // Later passes go down where the contour closes, in the kerf that is already there.
-    if (k == 1) follow(lead, feed);
-    const std::optional<double> unsaid = k > 1 || lead.empty() ? std::optional(feed) : std::nullopt;
+    if (k == 1) follow(lead, feed, true);
+    const bool says_feed = k > 1 || lead.empty();
     if (z > tabs)
-      follow_with_tabs(path, z, feed, unsaid.has_value());
+      follow_with_tabs(path, z, feed, says_feed);
     else
-      follow(path, unsaid);
+      follow(path, feed, says_feed);
   }
   out_.line("G0 Z" + length(options_.safe_height_mm));
 }
@@ -85,7 +100,7 @@ void ProfileWriter::follow_with_tabs(const std::vector<WrittenEdge>& path, doubl
       out_.line("G1 Z" + length(path[k].joint ? -tabs : -depth) +
                 out_.feed(options_.plunge_mm_per_min, kInchFeedDecimals));
     follow({path.begin() + static_cast<std::ptrdiff_t>(k), path.begin() + static_cast<std::ptrdiff_t>(end)},
-           k > 0 || says_feed ? std::optional(cut_feed) : std::nullopt);
+           cut_feed, k > 0 || says_feed);
     k = end;
   }
 }
@@ -96,7 +111,8 @@ std::string ProfileWriter::finish() {
   return out_.finish(options_.post.profile.end);
 }
 
-void ProfileWriter::follow(const std::vector<WrittenEdge>& edges, std::optional<double> feed) {
+void ProfileWriter::follow(const std::vector<WrittenEdge>& edges, double feed, bool says_feed) {
+  bool slow = false;
   for (const WrittenEdge& edge : edges) {
     std::string words = edge.kind == geom::EdgeKind::line      ? "G1"
                         : edge.kind == geom::EdgeKind::arc_ccw ? "G3"
@@ -104,8 +120,9 @@ void ProfileWriter::follow(const std::vector<WrittenEdge>& edges, std::optional<
     words += out_.pair('X', 'Y', edge.to);
     if (edge.kind != geom::EdgeKind::line)
       words += out_.pair('I', 'J', {edge.centre.x - edge.from.x, edge.centre.y - edge.from.y});
-    if (feed) words += out_.feed(*feed, kInchFeedDecimals);
-    feed.reset();
+    if (says_feed || edge.slow != slow)
+      words += out_.feed(edge.slow ? options_.corners.feed_share * feed : feed, kInchFeedDecimals);
+    says_feed = false, slow = edge.slow;
     out_.line(words);
   }
 }

@@ -76,6 +76,9 @@ class ProfileCheck {
       }
       cuts.push_back(chain);
       is_any_cut_ = is_any_cut_ || is_through(chain);
+      if (chain.tool != cuts[0].tool)
+        report_.findings.push_back(fmt::format("line {}: tool {} cuts, and line {} cuts with tool {}",
+                                               chain.line, chain.tool, cuts[0].line, cuts[0].tool));
       if (chain.rapid) report_.findings.push_back(fmt::format("line {}: a rapid motion cuts", chain.line));
       keep_out(chain);
       if (!words_.common_line) followed_.push_back(follow(chain));

@@ -18,6 +18,8 @@ namespace {
 /// program keeps from its first line to its last are only read over.
 constexpr std::array kModesPassedOver{170, 400, 490, 540, 610, 800, 900, 911, 940};
 
+constexpr double kMostTools = 9999;
+
 constexpr const char* kNothingCut = "before it the beam or tool goes into the material where nothing is cut";
 
 /// The ends of an arc lie on one circle but for the rounding of its words, which have three decimals of a
@@ -106,6 +108,9 @@ class ProfileReader {
       (letter == 'G' ? block.g : block.m).push_back(static_cast<int>(tenths));
       return true;
     }
+    if (letter == 'T' || letter == 'H')
+      return value == std::nearbyint(value) && value >= 1 && value <= kMostTools &&
+             block.words.emplace(letter, value).second;
     return std::string_view("XYZIJFSPO").find(letter) != std::string_view::npos &&
            block.words.emplace(letter, value).second;
   }
@@ -122,6 +127,8 @@ class ProfileReader {
         said_.take(*words::word_at('G', code, words::Control::linuxcnc));
       } else if (code == 40) {
         dwell = true;
+      } else if (code == 430) {
+        take_length(block);
       } else if (std::find(kModesPassedOver.begin(), kModesPassedOver.end(), code) !=
                  kModesPassedOver.end()) {
         said_.take(*words::word_at('G', code, words::Control::linuxcnc));
@@ -129,7 +136,14 @@ class ProfileReader {
         complain(fmt::format("lekalo writes no G{:g} into a profile program", 0.1 * code));
       }
     }
-    for (const int code : block.m) switch_by(code);
+    for (const int code : block.m) {
+      if (code == 60)
+        change_tool(block);
+      else
+        switch_by(code);
+    }
+    if (block.has('T') != is_among(60, block.m) || block.has('H') != is_among(430, block.g))
+      complain("a tool or its length without M6 or G43, or these without a number");
     if (block.has('P') != dwell) complain("a wait without its time, or a time without a wait");
     if (block.has('O') && (block.words.size() > 1 || !block.g.empty() || line_ > 2))
       complain("a number of a program where none is");
@@ -138,6 +152,26 @@ class ProfileReader {
       unsaid_ = UnsaidModes(words::Control::fanuc, "program");
     if (dwell && motion) complain("a wait beside a motion");
     if (motion) move(block);
+  }
+
+  static bool is_among(int code, const std::vector<int>& codes) {
+    return std::find(codes.begin(), codes.end(), code) != codes.end();
+  }
+
+  /// A change of tools leaves the axes where the machine wants them.
+  void change_tool(const Block& block) {
+    if (on_) complain("a tool is changed while the spindle turns");
+    if (block.has('T')) tool_ = static_cast<int>(block.words.at('T'));
+    known_x_ = known_y_ = going_on_ = false;
+    z_.reset();
+    due_ = Due::length;
+  }
+
+  void take_length(const Block& block) {
+    if (due_ != Due::length || (block.has('H') && block.words.at('H') != tool_))
+      complain("the length is not that of a tool that was changed to right before");
+    said_.take(*words::word_at('G', 430, words::Control::linuxcnc));
+    due_ = Due::lift;
   }
 
   void switch_by(int code) {
@@ -170,6 +204,9 @@ class ProfileReader {
     const Place from = at_, to{word('X', at_.x), word('Y', at_.y)};
     const bool flat = block.has('X') || block.has('Y'), was_known = known_x_ && known_y_;
     if (flat && block.has('Z')) return complain("a motion in X or Y and Z at once");
+    if (due_ == Due::length || (due_ == Due::lift && flat))
+      return complain("a changed tool moves before its length is taken and it is lifted");
+    due_ = Due::nothing;
     known_x_ = known_x_ || block.has('X'), known_y_ = known_y_ || block.has('Y');
     if (block.has('Z')) z_ = scale_ * block.words.at('Z');
     const bool cuts = on_ && (!z_ || *z_ < 0);
@@ -193,7 +230,7 @@ class ProfileReader {
     if (arc && !(unequal <= (scale_ > 1 ? kArcRoundingOfInches : kArcRounding) && length(from - centre) > 0))
       return complain("an arc whose ends do not lie on one circle");
     if (arc && from.x == to.x && from.y == to.y) return complain("an arc of a whole turn");
-    if (!going_on_) chains_.push_back({{}, line_, false, z_ ? -*z_ : 0});
+    if (!going_on_) chains_.push_back({{}, line_, false, z_ ? -*z_ : 0, tool_});
     going_on_ = true;
     CutChain& chain = chains_.back();
     chain.rapid = chain.rapid || motion_ == 0;
@@ -213,6 +250,9 @@ class ProfileReader {
   std::optional<double> z_;  ///< once an axis Z has been named
   /// The place where the beam came on, or the tool went down, and has cut nothing yet.
   std::optional<Place> pierced_;
+  enum class Due { nothing, length, lift };
+  Due due_ = Due::nothing;  ///< what has to come next, after a tool was changed
+  int tool_ = 0;
   int motion_ = -1, on_by_ = 0;
   bool marked_ = false, on_ = false, ended_ = false, known_x_ = false, known_y_ = false, going_on_ = false;
   Place at_;

@@ -16,6 +16,7 @@ struct CutChain {
   std::size_t line = 0;       ///< of the program, where the cut begins
   bool rapid = false;         ///< true where G0 cuts
   double depth = 0;           ///< below Z 0, mm; 0 in programs without Z
+  int tool = 0;               ///< the number of the tool; 0 before the first change
 };
 
 struct ProfileProgram {
@@ -25,7 +26,8 @@ struct ProfileProgram {
 };
 
 /// Reads the cuts of a profile program as lekalo writes it: the beam or spindle is on, and the tool is below
-/// Z 0 where the program has a Z. A block that only moves in Z begins another chain.
+/// Z 0 where the program has a Z. A block that only moves in Z begins another chain. Where a tool is changed
+/// the spindle stands still, the length of the tool is taken next, and then it is lifted.
 ///
 /// bad_input with the line for every word that lekalo does not write into such a program, and for cuts that
 /// begin at a place that is not known. Cost: O(bytes).
