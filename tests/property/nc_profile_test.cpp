@@ -150,28 +150,33 @@ TEST(NcProfile, CutsAreSlowNearTheirCornersAndNowhereElse) {
     const std::map<std::size_t, double> feed_at = feeds(made->text);
     for (const ReadCut& cut : read_cuts(made->text)) {
       // Bare starts, so that a cut is its closed path. Corners are places along it.
-      std::vector<Real> corners, begins{0};
+      std::vector<Real> corners, perhaps, begins{0};
       for (std::size_t k = 0; k < cut.steps.size(); ++k) {
         const rs274::Step &step = cut.steps[k],
                           &before = cut.steps[(k + cut.steps.size() - 1) % cut.steps.size()];
         const Real length =
             step.arc ? std::abs(step.sweep) * step.start_radius : rs274::distance(step.from, step.to);
         const rs274::Point in = way_of(before, 1), out = way_of(step, 0);
-        if (in.x * out.x + in.y * out.y < 0.86L) corners.push_back(begins.back());
+        const Real cosine = in.x * out.x + in.y * out.y;
+        if (cosine < 0.84L) (cosine < 0.837L ? corners : perhaps).push_back(begins.back());
         begins.push_back(begins.back() + length);
-        if (step.arc && step.start_radius < 0.75L * options.kerf_mm && std::abs(step.sweep) > 0.53L)
+        if (step.arc && step.start_radius < 0.75L * options.kerf_mm && std::abs(step.sweep) > 0.576L)
           corners.push_back(begins[k]), corners.push_back(begins[k + 1]);
       }
       const Real whole = begins.back(), near = options.corners.distance_mm;
       for (std::size_t k = 0; k < cut.steps.size(); ++k)
         for (int i = 1; i < 8; ++i) {
           const Real along = begins[k] + (begins[k + 1] - begins[k]) * i / 8;
-          Real least = 1e9L;
-          for (const Real corner : corners)
-            for (const Real turn : {-whole, Real(0), whole})
-              least = std::min(least, std::abs(along - corner - turn));
-          // Motions of a feed are no shorter than ten steps; an arc at a corner is shorter than its halves.
-          if (std::abs(least - near) < 0.02L) continue;
+          const auto nearest = [&](const std::vector<Real>& places) {
+            Real least = 1e9L;
+            for (const Real place : places)
+              for (const Real turn : {-whole, Real(0), whole})
+                least = std::min(least, std::abs(along - place - turn));
+            return least;
+          };
+          const Real least = nearest(corners);
+          // Motions of a feed are no shorter than ten steps.
+          if (std::abs(least - near) < 0.02L || nearest(perhaps) < near + 0.02L) continue;
           const bool in_corner = cut.steps[k].arc && cut.steps[k].start_radius < 0.75L * options.kerf_mm;
           const bool is_slow = feed_at.at(cut.steps[k].line) == 250;
           if (!in_corner) {

@@ -79,7 +79,7 @@ struct ProfileOptions {
   int tool = 0;
   /// In ascending order of their diameters; the first that a hole fits is how it is cut.
   std::vector<HoleCut> holes;
-  /// A corner is where a cut turns by more than 30 degrees, at once or in the arc round a corner of a part.
+  /// A corner is where a cut turns by more than 33 degrees, at once or in the arc round a corner of a part.
   CornerSpeed corners{};
   /// Nothing: no mark is engraved.
   std::optional<Engraving> engraving{};

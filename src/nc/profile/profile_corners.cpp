@@ -14,8 +14,9 @@ using geom::Edge;
 using geom::EdgeKind;
 using geom::Point;
 
-/// A path has a corner where it turns by more than 30 degrees.
-constexpr double kCosineOfCorner = 0.86602540378443865, kSweepOfCorner = 0.52359877559829887;
+/// A path has a corner where it turns by more than 33 degrees. Corners of regular polygons with ten sides
+/// turn by 36, and of those with twelve by 30, so that rounding decides of neither.
+constexpr double kCosineOfCorner = 0.83867056794542405, kSweepOfCorner = 0.57595865315812877;
 /// The kerf goes round a corner of a part in an arc of half a kerf; rounding leaves it below this many kerfs.
 constexpr double kTightKerfs = 0.75;
 /// Motions shorter than so many steps of the last decimal are not made for a feed.
