@@ -233,6 +233,13 @@ void MeshClearance::nearest_by_piece(const Motion& blank_from_part, double most,
   std::sort_heap(found.begin(), found.end(), nearer);
 }
 
+void MeshClearance::near_by_piece(const Motion& blank_from_part, double most, std::size_t steps,
+                                  std::vector<NearPair>& found) const {
+  found.clear();
+  for (const std::uint32_t piece : pieces_)
+    if (const auto pair = near_below(blank_from_part, piece, 0, most, steps)) found.push_back(*pair);
+}
+
 bool MeshClearance::part_in_blank(const Motion& blank_from_part) const {
   return std::all_of(of_part_.begin(), of_part_.end(),
                      [&](Vector p) { return blank_->tree.holds(blank_from_part(p)); });

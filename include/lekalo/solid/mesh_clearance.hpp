@@ -61,6 +61,9 @@ class MeshClearance {
   void nearest_by_piece(const Motion& blank_from_part, double most, std::size_t count,
                         std::vector<NearPair>& found, unsigned threads = 1) const;
   static constexpr std::size_t kPieces = 64;
+  /// The same, of each piece what so many steps meet.
+  void near_by_piece(const Motion& blank_from_part, double most, std::size_t steps,
+                     std::vector<NearPair>& found) const;
 
   /// Says if the part lies inside the blank where their surfaces are apart: a point of each surface of the
   /// part is in the blank, and a point of each of the blank is not in the part. Where they cross it may say

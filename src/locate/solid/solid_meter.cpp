@@ -23,6 +23,8 @@ constexpr std::size_t kFewSamples = 32;
 /// A glance looks at a vertex of so many patches of each mesh, and of so many neighbours goes on with the one
 /// that comes nearest: with so many pairs of nodes.
 constexpr std::size_t kPatches = 128, kNeighbours = 2, kSteps = 300;
+/// A probe takes so many for each piece.
+constexpr std::size_t kProbed = 400;
 /// The deepest crossings of one pose are used, at most this many.
 constexpr std::size_t kMostCrossings = 16;
 /// Points nearer to each other than this part of the coordinates give no direction.
@@ -605,6 +607,31 @@ double SolidMeter::glance(const FramedPose& pose, double most, std::size_t count
   add_crossings(motion, pairs, std::move(crossing), contacts);
   double least = most;
   for (const SolidContact& made : contacts) least = std::min(least, made.margin());
+  return least;
+}
+
+double SolidMeter::probe(const FramedPose& pose, double most, std::vector<SolidContact>& contacts) const {
+  const Motion motion = frame_.motion(pose);
+  contacts.clear();
+  double least = most;
+  std::vector<NearPair> pairs;
+  const auto take = [&](const solid::MeshClearance& clearance, double far,
+                        const std::vector<std::uint32_t>* numbers) {
+    clearance.near_by_piece(motion, far, kProbed, pairs);
+    for (NearPair& pair : pairs) {
+      if (numbers != nullptr) pair.part_triangle = (*numbers)[pair.part_triangle];
+      const SolidContact made = contact(motion, pair);
+      if (!made.directed()) continue;
+      least = std::min(least, made.margin());
+      contacts.push_back(made);
+    }
+  };
+  if (!has_demands()) {
+    take(clearance_, most, nullptr);
+  } else {
+    for (const Demanded& one : demanded_)
+      take(one.clearance, std::max(0.0, one.demand.minimum + one.demand.scale * most), &one.numbers);
+  }
   return least;
 }
 

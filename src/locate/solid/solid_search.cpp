@@ -28,6 +28,8 @@ constexpr std::size_t kLooked = 24, kGlanced = 12, kMostNew = 12;
 constexpr std::size_t kMostKnown = 64;
 /// A contact has to lower a bound by this part of the gap to be worth knowing.
 constexpr double kWorthKnowing = 1.0 / 64;
+/// A pose is looked at for what leaves it no more than the best has, and this part of the gap.
+constexpr double kBetter = 1.0 / 16;
 /// A climb goes on while it gains this part of the gap.
 constexpr double kWorthClimbing = 1e-3;
 /// The width of a side counts so much beside what it does to the terms of a bound.
@@ -223,8 +225,21 @@ void SolidSearch::bound(Node& node, Found& found) const {
       met = *glanced;
       added = learn_contacts();
     }
+    // Beside a noisy surface a measurement takes long, for much is nearly as near as the nearest. What leaves
+    // the pose no more than the best has settles it.
+    const bool is_noisy = !meter_.widths().empty() && best_.inside && meter_.datums().empty();
+    const double first = is_noisy ? std::min(most, best_.value + kBetter * options_.gap) : most;
+    if (added == 0 && met > best_.value && is_noisy) {
+      met = std::min(met, meter_.probe(pose, first, contacts));
+      ++found.work;
+      added = learn_contacts();
+    }
     if (added == 0 && met > best_.value) {
-      const auto here = measured_unless_stopped(meter_, pose, most, kLooked, options_.run, contacts);
+      auto here = measured_unless_stopped(meter_, pose, first, kLooked, options_.run, contacts);
+      if (here && here->inside && here->value >= first && first < most) {
+        ++found.work;
+        here = measured_unless_stopped(meter_, pose, most, kLooked, options_.run, contacts);
+      }
       if (!here) break;
       ++found.work;
       if (here->better_than(found.best)) found.best = *here;
