@@ -833,8 +833,8 @@ const std::vector<QuoteCase>& quote_cases() {
        "sheets[4].cut_mm is 40.62799999999999 and its program cuts 31.000\n"
        "sheets[4].pierces is 1 and its program begins 3 cuts\n"},
       {"a program of words of others",
-       {{"program/4", "G43\n"}},
-       "error: cut-4.nc:1: lekalo writes no G43 into a profile program\n"},
+       {{"program/4", "G41\n"}},
+       "error: cut-4.nc:1: lekalo writes no G41 into a profile program\n"},
       {"a whole quote of one sheet less",
        {{"quote/sheets/4", ""}},
        "sheets has 4 items and is to have 5\n"
