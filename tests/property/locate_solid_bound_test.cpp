@@ -160,6 +160,50 @@ TEST(SolidMeter, AGlanceMeetsNothingNearerThanAMeasurement) {
   EXPECT_GT(crossing, 3u);
 }
 
+TEST(SolidMeter, AProbeMeetsContactsBelowABoundAndNothingNearerThanAMeasurement) {
+  Random random(cases::seed(), 83);
+  std::size_t met = 0, nearest = 0, of_demands = 0;
+  for (std::uint64_t i = 0; i < cases::case_count(9); ++i) {
+    const cases::SolidCase pair = one_of_three(i, random);
+    SCOPED_TRACE(pair.kind);
+    SolidProblem problem = lying_there(pair);
+    problem.shift = 0.3, problem.turn = 0.005;
+    for (std::size_t t = 0; t < problem.blank.triangles.size(); ++t)
+      problem.blank_widths.push_back(random.uniform(0.01, 0.05));
+    const bool demands = i % 3 == 1;
+    if (demands)
+      for (std::size_t t = 0; t < problem.part.triangles.size(); ++t)
+        problem.demands.push_back(SolidDemand{t % 2 == 0 ? 0.1 : 0.2, 1});
+    const SolidMeter meter(problem, frame_of(problem));
+    for (int k = 0; k < 4; ++k) {
+      const FramedPose pose = within(meter.frame().window, random);
+      std::vector<SolidContact> contacts;
+      const MeasuredSolid measured = meter.measure(pose, kInfinity, 64, contacts);
+      if (!measured.inside) continue;
+      const double most = measured.value + random.uniform(0.01, 0.5);
+      const double least = meter.probe(pose, most, contacts);
+      double lowest = most;
+      for (const SolidContact& contact : contacts) {
+        lowest = std::min(lowest, contact.margin());
+        EXPECT_LT(contact.margin(), most + 1e-9);
+        EXPECT_NEAR(norm(meter.frame().motion(pose)(contact.part) - contact.blank) -
+                        meter.width(contact.blank_triangle),
+                    contact.distance, 1e-9);
+      }
+      EXPECT_EQ(least, lowest);
+      EXPECT_GE(least, measured.value - 1e-9);
+      met += contacts.empty() ? 0 : 1;
+      nearest += least < measured.value + 1e-6 ? 1 : 0;
+      of_demands += demands && !contacts.empty() ? 1 : 0;
+      EXPECT_EQ(meter.probe(pose, measured.value - 1e-6, contacts), measured.value - 1e-6);
+      EXPECT_TRUE(contacts.empty());
+    }
+  }
+  EXPECT_GT(met, 9u);
+  EXPECT_GT(nearest, met / 2);
+  EXPECT_GT(of_demands, 0u);
+}
+
 TEST(SolidBounds, NoContactAllowsLessThanAPoseOfTheBoxHas) {
   Random random(cases::seed(), 81);
   std::size_t inside = 0, tight = 0;
