@@ -135,7 +135,7 @@ class TriangleTree::Builder {
   }
 
   std::array<Below, 2> halved(const Below& of) {
-    const auto [node, begin, end] = of;
+    const std::uint32_t begin = of.begin, end = of.end;
     Box box;
     for (std::uint32_t k = begin; k < end; ++k) box.hold(middles_[k].sum);
     const Vector spread = box.high - box.low;
@@ -152,7 +152,7 @@ class TriangleTree::Builder {
     else
       split(spread.y >= spread.z ? &Vector::y : &Vector::z);
     const std::uint32_t left = node + 1, right = left + nodes_of(half - begin).first;
-    tree_.nodes_[node] = {{}, begin, end, right};
+    tree_.nodes_[of.node] = {{}, begin, end, right};
     return {Below{left, begin, half}, Below{right, half, end}};
   }
 
