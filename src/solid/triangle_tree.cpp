@@ -151,7 +151,7 @@ class TriangleTree::Builder {
       split(&Vector::x);
     else
       split(spread.y >= spread.z ? &Vector::y : &Vector::z);
-    const std::uint32_t left = node + 1, right = left + nodes_of(half - begin).first;
+    const std::uint32_t left = of.node + 1, right = left + nodes_of(half - begin).first;
     tree_.nodes_[of.node] = {{}, begin, end, right};
     return {Below{left, begin, half}, Below{right, half, end}};
   }
