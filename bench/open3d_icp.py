@@ -6,8 +6,9 @@
 
 Both count from what they read, with vertices at one place already made one: lekalo its trees, the climb, the true
 clearance and the contacts; Open3D the normals of what is matched with, its tree and the iteration, with all vertices
-of both. Open3D is asked both ways round, as it comes, which ends after 30 steps, and until it settles by its own measure. The runs
-alternate, and the least time of each counts. The clearance at its poses is what lekalo measures there.
+of both. Open3D is asked both ways round, as it comes, which ends after 30 steps, and until it settles by its own
+measure. The runs alternate, and the least time of each counts. The clearance at its poses is what lekalo measures
+there. A scan of a million points takes Open3D minutes the second way.
 """
 import json
 import subprocess

@@ -97,7 +97,8 @@ class TriangleTree::Builder {
     tree_.order_.resize(count), tree_.place_in_order_.resize(count), tree_.corners_.resize(count);
     // Level by level, as long as there are fewer nodes than threads want; then each thread takes whole nodes.
     std::vector<Below> level{{0, 0, count}}, above;
-    while (threads > 1 && level.size() < kNodesOfThread * threads && count / level.size() > kWorthSharing) {
+    const std::size_t least = std::max<std::size_t>(kWorthSharing, leaf_);
+    while (threads > 1 && level.size() < kNodesOfThread * threads && count / level.size() > least) {
       std::vector<std::array<Below, 2>> halves(level.size());
       share_out(level.size(), threads, [&](std::size_t k) { halves[k] = halved(level[k]); });
       above.insert(above.end(), level.begin(), level.end());
@@ -136,6 +137,7 @@ class TriangleTree::Builder {
 
   std::array<Below, 2> halved(const Below& of) {
     const std::uint32_t begin = of.begin, end = of.end;
+    ask(end - begin);
     Box box;
     for (std::uint32_t k = begin; k < end; ++k) box.hold(middles_[k].sum);
     const Vector spread = box.high - box.low;
@@ -165,12 +167,12 @@ class TriangleTree::Builder {
 
   void sort(const Below& of) {
     const auto [node, begin, end] = of;
-    ask(end - begin);
     if (end - begin > leaf_) {
       const auto [left, right] = halved(of);
       sort(left), sort(right);
       return hold_children(node);
     }
+    ask(end - begin);
     Box box;
     for (std::uint32_t k = begin; k < end; ++k) {
       const std::uint32_t triangle = middles_[k].triangle;

@@ -13,14 +13,14 @@ from profile import NEEDED, Near, Refused, inside, off_segment, words_of
 OFF = 1e-4  # mm, chords from their arcs
 ROUNDED = 5e-3  # mm, what the decimals of a program may change of a joint and of an arc's radius
 MARKED = 4e-3  # mm, an engraving from its mark
-LETTERS = set("XYZIJFSPO")
+LETTERS = set("XYZIJFSPOTH")
 
 
 class Cut:
     """A chain of moves without a lift, or the beam off."""
 
-    def __init__(self, depth):
-        self.depth, self.moves, self.rapid = depth, [], False
+    def __init__(self, depth, tool):
+        self.depth, self.tool, self.moves, self.rapid = depth, tool, [], False
 
     def key(self):
         return tuple(self.moves), self.rapid
@@ -34,6 +34,7 @@ class Reader:
         self.at, self.known, self.z = (0.0, 0.0), set(), None
         self.on = self.ended = self.going_on = False
         self.motion = self.switch = self.pierced = None
+        self.tool, self.due = 0, []  # what has to come after a change of tools, and in which order
         for number, line in enumerate(text.splitlines()):
             if line.strip() == "%":
                 self.require(number == 0 or self.ended)
@@ -42,6 +43,8 @@ class Reader:
             self.require(not words or not self.ended)
             self.block(words)
         self.require(self.ended, not self.on, self.pierced is None)
+        deepest = max((cut.depth for cut in self.cuts), default=0)
+        self.require(len({cut.tool for cut in self.cuts if cut.depth == deepest}) <= 1)
 
     @staticmethod
     def require(*conditions):
@@ -49,14 +52,17 @@ class Reader:
             raise Refused
 
     def block(self, words):
-        given, dwell, moves = {}, False, False
+        given, dwell, moves, codes = {}, False, False, set()
         for word in words:
             letter, value = word[0], float(word[1:])
             code = f"{letter}{value:g}"
+            codes.add(code)
             if code in ("G0", "G1", "G2", "G3"):
                 self.motion, moves = code, True
             elif code == "G4":
                 dwell = True
+            elif code in ("G43", "M6"):
+                pass
             elif letter == "G":
                 self.require(code in NEEDED | {"G20", "G21", "G80"})
                 if code in ("G20", "G21"):
@@ -68,6 +74,15 @@ class Reader:
             else:
                 self.require(letter in LETTERS, letter not in given)
                 given[letter] = value
+        self.require(("M6" in codes) == ("T" in given), ("G43" in codes) == ("H" in given))
+        if "M6" in codes:
+            self.require(not self.on, 1 <= given["T"] <= 9999, given["T"] % 1 == 0)
+            self.tool, self.due = given["T"], ["length", "lift"]
+            self.known, self.z, self.going_on = set(), None, False
+        if "G43" in codes:
+            self.require(self.due[:1] == ["length"], given["H"] == self.tool)
+            self.due.pop(0)
+        self.require(not ("G49" in codes and self.tool))
         moves = moves or bool({"X", "Y", "Z"} & set(given))
         self.require(("P" in given) == dwell, not (dwell and moves))
         if moves:
@@ -90,6 +105,8 @@ class Reader:
         self.require(NEEDED <= self.modes, self.scale, self.motion)
         arc, flat = self.motion in ("G2", "G3"), bool({"X", "Y"} & set(given))
         self.require(("I" in given) == ("J" in given) == arc, not (flat and "Z" in given))
+        self.require(not self.due or (self.due == ["lift"] and not flat))
+        self.due = []
         was_known = self.known >= {"X", "Y"}
         self.known |= {"X", "Y"} & set(given)
         start = self.at
@@ -109,7 +126,7 @@ class Reader:
         self.require(was_known)
         self.pierced = None
         if not self.going_on:
-            self.cuts.append(Cut(-self.z if self.z is not None else 0))
+            self.cuts.append(Cut(-self.z if self.z is not None else 0, self.tool))
         self.going_on = True
         centre = tuple(start[i] + self.scale * given[k] for i, k in enumerate("IJ")) if arc else None
         if arc:

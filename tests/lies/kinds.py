@@ -423,7 +423,7 @@ def of_cuts():
     joints = ["--joints", "2", "--joint-width", "0.8"]
     tipping = ["--joints", "tipping", "--joint-width", "0.5", "--slat-pitch", "30"]
     beam = ["--engrave-feed", "4000", "--engrave-speed", "300", "--speed", "900"]
-    tool = ["--engrave-feed", "1000", "--engrave-depth", "0.3"]
+    tool = ["--engrave-feed", "1000", "--engrave-depth", "0.3", "--tool", "2", "--engrave-tool", "7"]
     disc = ["--pierce-diameter", "2"]
     for name, kerf, words, stated in (
             ("pierces", 0.3, laser + disc, {"pierce": 2}),

@@ -53,6 +53,13 @@ TEST(MachineTime, AMotionByItselfIsATrapezoidOrATriangle) {
   EXPECT_NEAR(seconds("G20\nG1 X2 F60\n", by), trapezoid(50.8, 25.4, 1000), 1e-12);
 }
 
+TEST(MachineTime, AMachineStandsStillWhereAToolIsChanged) {
+  const MachineModel by = machine(JunctionRule::exact_path);
+  const double one = seconds("G1 X100 F6000\n", by);
+  EXPECT_LT(seconds("G1 X100 F6000\nX200\n", by), 2 * one - 1e-3);
+  EXPECT_NEAR(seconds("G1 X100 F6000\nT2 M6\nG43 H2\nX200\n", by), 2 * one, 1e-12);
+}
+
 TEST(MachineTime, EachAxisHasLimitsOfItsOwn) {
   MachineModel by = machine(JunctionRule::exact_stop);
   by.rapid_mm_per_min = {12000, 6000, 600};

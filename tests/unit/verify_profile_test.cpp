@@ -160,6 +160,10 @@ TEST(VerifyProfileMoves, ToolsAreChangedAtRestAndLiftedBeforeTheyMove) {
   refused("T3 M6\nG43 H4", "p.nc:3: " + other);
   refused("G43 H3", "p.nc:2: " + other);
   refused("T3 M6\nG43 H3\nG0 Z5\nG43 H3", "p.nc:5: " + other);
+  const std::string dropped = "the length of the tool is dropped";
+  refused("T3 M6\nG43 H3\nG49\nG0 Z5", "p.nc:4: " + dropped);
+  refused("T3 M6\nG49\nG43 H3", "p.nc:3: " + dropped);
+  refused("T3 M6\nG43 H3\nG0 Z5\nG49 X1", "p.nc:5: " + dropped);
   const std::string number = "a tool or its length without M6 or G43, or these without a number";
   refused("T3", "p.nc:2: " + number);
   refused("M6", "p.nc:2: " + number);

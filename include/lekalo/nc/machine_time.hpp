@@ -50,7 +50,8 @@ struct TimedProgram {
   std::vector<std::size_t> pierces;
 };
 
-/// Reads a program as profile_program() writes it, in any dialect, and computes when the machine is where.
+/// Reads a program as profile_program() writes it, in any dialect, and computes when the machine is where. A
+/// change of tools takes no time.
 ///
 /// \param dwell_units_per_second  of `G4 P`, as in Dialect::dwell
 /// Fails with ErrorCode::bad_input and `name:line: reason` for words that a profile program has not. Cost:

@@ -23,7 +23,7 @@ constexpr std::size_t kFewSamples = 32;
 /// A glance looks at a vertex of so many patches of each mesh, and of so many neighbours goes on with the one
 /// that comes nearest: with so many pairs of nodes.
 constexpr std::size_t kPatches = 128, kNeighbours = 2, kSteps = 300;
-/// A probe takes so many for each piece: a few milliseconds, so that nobody stops it.
+/// A probe takes so many for each piece at most, so that nobody has to stop it.
 constexpr std::size_t kProbed = 400;
 /// The deepest crossings of one pose are used, at most this many.
 constexpr std::size_t kMostCrossings = 16;

@@ -147,9 +147,9 @@ class SolidMeter {
   /// measurement. Returns the least margin that was met, or `most`; the pose may have less.
   [[nodiscard]] double glance(const FramedPose& pose, double most, std::size_t count,
                               std::vector<SolidContact>& contacts) const;
-  /// The contacts below `most` that a number of steps meets in each piece of the part: more than a glance, in
-  /// a tenth of a measurement beside a noisy surface. Returns the least margin, or `most`; the pose may have
-  /// less.
+  /// The contacts below `most` that a number of steps meets in each piece of the part: all of a piece is
+  /// looked at, and not some vertices as by a glance, but not to its nearest pair as in a measurement.
+  /// Returns the least margin, or `most`; the pose may have less.
   [[nodiscard]] double probe(const FramedPose& pose, double most, std::vector<SolidContact>& contacts) const;
   /// The contact of the part's foremost point against a normal, and nothing of the blank. With demands it is
   /// the one with the least margin over a half-space there.

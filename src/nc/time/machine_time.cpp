@@ -84,6 +84,8 @@ class ProgramClock {
           break;
         case 'S':
         case 'O':
+        case 'T':
+        case 'H':
           break;
         default:
           return refused(block.line, fmt::format("a profile program has no word {}", word.letter));
@@ -107,7 +109,9 @@ class ProgramClock {
     return {};
   }
 
+  /// A machine stands still where it is switched, and where a tool is changed, which is not timed.
   void switch_by(std::size_t line, double code) {
+    if (code == 6) return stop();
     const bool on = code == 3 || code == 4;
     if (!on && code != 5) return;
     stop();

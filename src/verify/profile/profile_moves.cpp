@@ -131,6 +131,7 @@ class ProfileReader {
         take_length(block);
       } else if (std::find(kModesPassedOver.begin(), kModesPassedOver.end(), code) !=
                  kModesPassedOver.end()) {
+        if (code == 490 && tool_ != 0) complain("the length of the tool is dropped");
         said_.take(*words::word_at('G', code, words::Control::linuxcnc));
       } else {
         complain(fmt::format("lekalo writes no G{:g} into a profile program", 0.1 * code));
